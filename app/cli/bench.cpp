@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include "command.h"
+#include "measure/friction.h"
+#include "measure/grasp.h"
+#include "measure/scale.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct Options {
+    measure::Setup setup;
+    std::string solver;
+    std::string coupling;
+    bool json = false;
+};
+
+void add_common(CLI::App& command, Options& options) {
+    command.add_option("--solver", options.solver, "contact solver: sequential_impulse");
+    command.add_option("--coupling", options.coupling, "coupling of handle and proxy: implicit, dual_spring");
+    command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")->capture_default_str();
+    command.add_flag("--json", options.json, "one JSON object on standard output, nothing else");
+}
+
+template <class E>
+void choose(const std::string& word, const char* option, E& value) {
+    if (word.empty()) return;
+    const auto names = enum_names(value);
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (word == names[i]) {
+            value = static_cast<E>(i);
+            return;
+        }
+    }
+    throw Error({option, 0}, word, "is not known", "See --help.");
+}
+
+void resolve(Options& options) {
+    choose(options.solver, "--solver", options.setup.settings.dynamics.solver);
+    choose(options.coupling, "--coupling", options.setup.settings.coupling.kind);
+}
+
+void add_grasp(CLI::App& bench) {
+    auto* command = bench.add_subcommand("grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
+    auto options = std::make_shared<Options>();
+    add_common(*command, *options);
+    command->add_option("--proxy", "what a finger is in the world: rigid")->check(CLI::IsMember({"rigid"}));
+    command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
+    command->add_option("--friction", options->setup.friction, "coefficient")->capture_default_str();
+    command->footer("\nExample:\n  dihaptic bench grasp --coupling dual_spring");
+    command->callback([options] {
+        resolve(*options);
+        measure::GraspFigures figures;
+        {
+            ProgressLine line("bench grasp");
+            figures = measure::bench_grasp(options->setup, [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        fmt::print("{}", options->json ? to_json(figures, options->setup) : to_table(figures, options->setup));
+    });
+}
+
+void add_friction(CLI::App& bench) {
+    auto* command = bench.add_subcommand("friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
+    auto options = std::make_shared<Options>();
+    command->add_option("--solver", options->solver, "only this contact solver; otherwise all");
+    command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
+    command->footer("\nExample:\n  dihaptic bench friction");
+    command->callback([options] {
+        resolve(*options);
+        std::vector<measure::FrictionFigures> figures;
+        {
+            ProgressLine line("bench friction");
+            figures.push_back(measure::bench_friction(options->setup.settings.dynamics,
+                                                      [&](const std::string& what, double share) { line.show(share, what); }));
+        }
+        fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
+    });
+}
+
+void add_scale(CLI::App& bench) {
+    auto* command = bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
+    auto options = std::make_shared<Options>();
+    auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
+    add_common(*command, *options);
+    command->add_option("--extra", *extras, "numbers of extra blocks")->capture_default_str();
+    command->footer("\nExample:\n  dihaptic bench scale --extra 0 10 50");
+    command->callback([options, extras] {
+        resolve(*options);
+        std::vector<measure::ScaleFigures> figures;
+        {
+            ProgressLine line("bench scale");
+            figures = measure::bench_scale(options->setup, *extras,
+                                           [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
+    });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app) {
+    auto* bench = app.add_subcommand("bench", "Measure the figures that the project claims (docs/measures.md)");
+    bench->require_subcommand(1);
+    bench->footer("\nExample:\n  dihaptic bench grasp --json > grasp.json");
+    add_grasp(*bench);
+    add_friction(*bench);
+    add_scale(*bench);
+}
+
+}  // namespace dihaptic::cli

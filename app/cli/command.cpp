@@ -1,0 +1,54 @@
+#include "command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace dihaptic::cli {
+
+std::atomic<bool> stop_requested{false};
+int exit_code = kOk;
+
+namespace {
+std::string typed;
+}
+
+std::string command_line() { return typed; }
+
+void remember_command_line(int argc, char** argv) {
+    for (int i = 0; i < argc; ++i) typed += (i > 0 ? " " : "") + std::string(i == 0 ? "dihaptic" : argv[i]);
+}
+
+ProgressLine::ProgressLine(std::string label) : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() { clear(); }
+
+void ProgressLine::show(double share, const std::string& what) {
+    const int percent = static_cast<int>(share * 100);
+    if (!terminal_) {
+        if (percent / 10 == shown_ / 10 && shown_ >= 0) return;
+        shown_ = percent;
+        fmt::print(stderr, "{} {:3d} % {}\n", label_, percent, what);
+        return;
+    }
+    constexpr int kBar = 24;
+    const int full = percent * kBar / 100;
+    std::string line = fmt::format("{} [{:<{}}] {:3d} % {}", label_, std::string(static_cast<size_t>(full), '#'), kBar, percent, what);
+    const size_t width = line.size();
+    if (width < width_) line.append(width_ - width, ' ');
+    width_ = width;
+    fmt::print(stderr, "\r{}", line);
+    std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+    if (terminal_ && width_ > 0) fmt::print(stderr, "\r{:{}}\r", "", width_);
+    width_ = 0;
+}
+
+void print(const std::vector<Problem>& problems) {
+    for (const Problem& problem : problems) fmt::print(stderr, "{}\n", problem.text());
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+
+#include "command.h"
+#include "recording/session.h"
+
+namespace {
+
+void on_interrupt(int) { dihaptic::cli::stop_requested.store(true); }
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace dihaptic;
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    cli::remember_command_line(argc, argv);
+
+    CLI::App app("Dihaptic: grasp, lift and turn virtual objects with two force-feedback devices, or with a simulated hand.");
+    app.set_version_flag("--version", recording::program_version());
+    app.require_subcommand(1);
+    app.footer("\nExample:\n  dihaptic run experiments/lift-block.yaml\n\nEach command has --help of its own.");
+    cli::add_run(app);
+    cli::add_replay(app);
+    cli::add_recover(app);
+    cli::add_check(app);
+    cli::add_bench(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? cli::kOk : cli::kBadInput;
+    } catch (const Error& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return cli::kBadInput;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n", e.what());
+        return cli::kFailed;
+    }
+    return cli::exit_code;
+}

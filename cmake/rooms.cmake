@@ -1,0 +1,41 @@
+# A room is a folder of src/: one static library, its headers, and its tests.
+#
+#   dihaptic_room(haptics USES dynamics LINKS Foo::foo)
+#
+# USES names the rooms that it may include, LINKS the outside libraries, which stay private, SOURCES
+# generated files.
+# Each room's headers are reached through an include folder of their own, so that including a room
+# that is not named (or used by one that is named) does not compile: arrows point down only.
+function(dihaptic_room name)
+    cmake_parse_arguments(ROOM "" "" "USES;LINKS;SOURCES;TEST_USES" ${ARGN})
+    set(folder ${CMAKE_CURRENT_SOURCE_DIR})
+
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "/test/")
+    set(room dihaptic_${name})
+    if(sources)
+        add_library(${room} STATIC ${sources} ${ROOM_SOURCES})
+        set(scope PUBLIC)
+    else()
+        add_library(${room} INTERFACE)  # headers only
+        set(scope INTERFACE)
+    endif()
+
+    set(include_root ${PROJECT_BINARY_DIR}/rooms/${name})
+    file(MAKE_DIRECTORY ${include_root})
+    file(CREATE_LINK ${folder} ${include_root}/${name} SYMBOLIC)
+    target_include_directories(${room} ${scope} ${include_root})
+    list(TRANSFORM ROOM_USES PREPEND dihaptic_)
+    target_link_libraries(${room} ${scope} dihaptic_flags ${ROOM_USES})
+    if(ROOM_LINKS)
+        target_link_libraries(${room} PRIVATE ${ROOM_LINKS})
+    endif()
+
+    file(GLOB tests CONFIGURE_DEPENDS ${folder}/test/*_test.cpp ${folder}/*/test/*_test.cpp)
+    if(tests)
+        add_executable(${name}_test ${tests})
+        target_link_libraries(${name}_test PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
+        gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+            PROPERTIES LABELS ${name} TIMEOUT 900)
+    endif()
+endfunction()

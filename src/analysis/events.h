@@ -1,0 +1,41 @@
+// What happened in a session, from its frames: touches and releases, lift-off and replacement of the
+// object, phases, and what the servo could not do as asked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/raw_log.h"
+
+namespace dihaptic::analysis {
+
+struct Event {
+    double time = 0;  ///< [s]
+    int trial = 0;
+    std::string name;    ///< "touch", "release", "lift-off", "replaced", "phase", "limit"
+    std::string detail;  ///< who, whom, or what
+};
+
+class EventFinder {
+  public:
+    /// `object`: index of the body whose lift-off counts, or -1. `phases` names the phases.
+    EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
+
+    void add(const servo::Frame& frame);
+    const std::vector<Event>& events() const { return events_; }
+
+  private:
+    std::string name(int body) const;
+
+    recording::LogHead head_;
+    int object_;
+    std::vector<std::string> phases_;
+    std::vector<char> touching_;  // by finger, by body
+    bool on_support_ = true;
+    bool supported_before_ = false;
+    int phase_ = -1;
+    uint32_t status_ = 0;
+    std::vector<Event> events_;
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,202 @@
+#include "analysis/grasp_trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/butterworth.h"
+
+namespace dihaptic::analysis {
+
+void GraspTrace::add(const servo::Frame& frame) {
+    const size_t n = frame.fingers.size();
+    const int first_proxy = static_cast<int>(frame.bodies.size());
+    Sample sample;
+    sample.time = seconds(frame.time);
+    sample.phase = frame.phase;
+    sample.grip = frame.grip_force;
+    sample.load = frame.load_force;
+    sample.on_support = false;
+    sample.touching.assign(n, false);
+    if (object_ >= 0) sample.X_WB = frame.bodies[static_cast<size_t>(object_)].X_WB;
+    for (const servo::FingerFrame& finger : frame.fingers) {
+        sample.p_WP.push_back(finger.p_WP);
+        sample.f_sent_W.push_back(finger.f_sent_W);
+    }
+    for (const servo::ContactFrame& contact : frame.contacts) {
+        if (contact.normal_force <= 0 || (contact.a != object_ && contact.b != object_)) continue;
+        const int other = contact.a == object_ ? contact.b : contact.a;
+        if (other < first_proxy) {
+            sample.on_support = true;
+        } else {
+            sample.touching[static_cast<size_t>(other - first_proxy)] = true;
+        }
+    }
+    samples_.push_back(std::move(sample));
+}
+
+Range GraspTrace::between(double from, double to) const {
+    const auto at = [&](double t) {
+        const double index = std::round((t - (samples_.empty() ? 0 : samples_.front().time)) / tick_);
+        return static_cast<size_t>(std::clamp(index, 0.0, static_cast<double>(samples_.size())));
+    };
+    return {at(from), at(to)};
+}
+
+Range GraspTrace::of_phase(int phase) const {
+    Range range{samples_.size(), 0};
+    for (size_t i = 0; i < samples_.size(); ++i) {
+        if (samples_[i].phase != phase) continue;
+        range.first = std::min(range.first, i);
+        range.last = i + 1;
+    }
+    return range;
+}
+
+size_t GraspTrace::lift_off() const {
+    for (size_t i = 0; i < samples_.size(); ++i) {
+        const Sample& s = samples_[i];
+        const bool held = std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
+        if (held && !s.on_support) return i;
+    }
+    return samples_.size();
+}
+
+bool GraspTrace::all_touching(Range range) const {
+    for (size_t i = range.first; i < range.last; ++i) {
+        for (const char touching : samples_[i].touching) {
+            if (!touching) return false;
+        }
+    }
+    return range.size() > 0;
+}
+
+double GraspTrace::slip(Range range) const {
+    double most = 0;
+    if (range.size() == 0) return most;
+    const Sample& start = samples_[range.first];
+    for (size_t f = 0; f < fingers(); ++f) {
+        const Vec3 reference = start.X_WB.inverse() * start.p_WP[f];
+        for (size_t i = range.first; i < range.last; ++i) {
+            most = std::max(most, (samples_[i].X_WB.inverse() * samples_[i].p_WP[f] - reference).norm());
+        }
+    }
+    return most;
+}
+
+double GraspTrace::height_rms(Range range) const {
+    double mean = 0;
+    double square = 0;
+    const auto n = static_cast<double>(range.size());
+    for (size_t i = range.first; i < range.last; ++i) mean += samples_[i].X_WB.p.z() / n;
+    for (size_t i = range.first; i < range.last; ++i) square += std::pow(samples_[i].X_WB.p.z() - mean, 2) / n;
+    return std::sqrt(square);
+}
+
+double GraspTrace::height_range(Range range) const {
+    if (range.size() == 0) return 0;
+    double low = samples_[range.first].X_WB.p.z();
+    double high = low;
+    for (size_t i = range.first; i < range.last; ++i) {
+        low = std::min(low, samples_[i].X_WB.p.z());
+        high = std::max(high, samples_[i].X_WB.p.z());
+    }
+    return high - low;
+}
+
+double GraspTrace::sag(Range range) const {
+    double low = 0;
+    for (size_t i = range.first; i < range.last; ++i) {
+        low = std::min(low, samples_[i].X_WB.p.z() - samples_[range.first].X_WB.p.z());
+    }
+    return low;
+}
+
+double GraspTrace::axis_tilt_rms(Range range) const {
+    if (range.size() == 0 || fingers() < 2) return 0;
+    const auto axis = [&](size_t i) { return Vec3((samples_[i].p_WP[1] - samples_[i].p_WP[0]).normalized()); };
+    Vec3 mean = Vec3::Zero();
+    for (size_t i = range.first; i < range.last; ++i) mean += axis(i);
+    mean.normalize();
+    double square = 0;
+    for (size_t i = range.first; i < range.last; ++i) {
+        square += std::pow(std::atan2(axis(i).cross(mean).norm(), axis(i).dot(mean)), 2);
+    }
+    return std::sqrt(square / static_cast<double>(range.size()));
+}
+
+double GraspTrace::turn_at(size_t reference, size_t sample) const {
+    // the twist about the line between the fingers (swing-twist decomposition)
+    const Sample& a = samples_[reference];
+    const Sample& b = samples_[sample];
+    const Vec3 axis = (a.p_WP[1] - a.p_WP[0]).normalized();
+    const Quat turned = b.X_WB.R * a.X_WB.R.conjugate();
+    return 2 * std::atan2(turned.vec().dot(axis), turned.w());
+}
+
+double GraspTrace::turn(Range range) const {
+    double most = 0;
+    if (fingers() < 2) return most;
+    for (size_t i = range.first; i < range.last; ++i) most = std::max(most, std::abs(turn_at(range.first, i)));
+    return most;
+}
+
+double GraspTrace::force_above_5_hz(Range range) const {
+    double worst = 0;
+    for (size_t f = 0; f < fingers(); ++f) {
+        double square = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            std::vector<double> force;
+            for (size_t i = range.first; i < range.last; ++i) force.push_back(samples_[i].f_sent_W[f][axis]);
+            if (force.empty()) return 0;
+            for (const double high : model::high_pass(force, 5.0, 1 / tick_)) square += high * high;
+        }
+        worst = std::max(worst, std::sqrt(square / static_cast<double>(range.size())));
+    }
+    return worst;
+}
+
+double GraspTrace::weight_felt(Range range) const {
+    double sum = 0;
+    for (size_t i = range.first; i < range.last; ++i) {
+        for (const Vec3& f : samples_[i].f_sent_W) sum -= f.z();
+    }
+    return sum / static_cast<double>(range.size());
+}
+
+double GraspTrace::mean_grip(Range range) const {
+    double sum = 0;
+    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].grip;
+    return sum / static_cast<double>(range.size());
+}
+
+double GraspTrace::mean_load(Range range) const {
+    double sum = 0;
+    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].load;
+    return sum / static_cast<double>(range.size());
+}
+
+double GraspTrace::peak_grip(Range range) const {
+    double most = 0;
+    for (size_t i = range.first; i < range.last; ++i) most = std::max(most, samples_[i].grip);
+    return most;
+}
+
+double GraspTrace::peak_force(Range range) const {
+    double most = 0;
+    for (size_t i = range.first; i < range.last; ++i) {
+        for (const Vec3& f : samples_[i].f_sent_W) most = std::max(most, f.norm());
+    }
+    return most;
+}
+
+double GraspTrace::mean_force(Range range) const {
+    double most = 0;
+    for (size_t f = 0; f < fingers(); ++f) {
+        double sum = 0;
+        for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].f_sent_W[f].norm();
+        most = std::max(most, sum / static_cast<double>(range.size()));
+    }
+    return most;
+}
+
+}  // namespace dihaptic::analysis

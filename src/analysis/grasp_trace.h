@@ -1,0 +1,79 @@
+// What a grasp looked like, tick by tick, and the figures that follow from it. Summaries of sessions
+// and benchmarks use the same ones.
+#pragma once
+
+#include <vector>
+
+#include "servo/frame.h"
+
+namespace dihaptic::analysis {
+
+/// Range of samples [first, last).
+struct Range {
+    size_t first = 0;
+    size_t last = 0;
+    size_t size() const { return last > first ? last - first : 0; }
+};
+
+/// Keeps of each Frame what the figures need.
+class GraspTrace {
+  public:
+    /// `object`: the body that is held; `tick`: seconds a sample.
+    GraspTrace(int object, double tick) : object_(object), tick_(tick) {}
+
+    void add(const servo::Frame& frame);
+
+    struct Sample {
+        double time;
+        int phase;
+        double grip;         ///< [N]
+        double load;         ///< [N]
+        bool on_support;     ///< the object presses on something that is no finger
+        Pose X_WB;           ///< object
+        std::vector<Vec3> p_WP;
+        std::vector<Vec3> f_sent_W;   ///< on the handle
+        std::vector<char> touching;   ///< presses the object
+    };
+    const std::vector<Sample>& samples() const { return samples_; }
+    double tick() const { return tick_; }
+    size_t fingers() const { return samples_.empty() ? 0 : samples_.front().p_WP.size(); }
+
+    /// Samples in [from, to) seconds; of one phase.
+    Range between(double from, double to) const;
+    Range of_phase(int phase) const;
+
+    /// First sample from which the object presses on nothing but the fingers; samples().size() if none.
+    size_t lift_off() const;
+    /// Every finger presses the object in every sample.
+    bool all_touching(Range range) const;
+    /// Largest distance of a proxy's origin, in the object's frame, from where it was at the range's
+    /// start [m].
+    double slip(Range range) const;
+    /// Root mean square, and peak to peak, of the object's height about its mean [m].
+    double height_rms(Range range) const;
+    double height_range(Range range) const;
+    /// Lowest height over the range, relative to that at its start [m].
+    double sag(Range range) const;
+    /// RMS angle of the line between the first two proxies about its mean direction [rad].
+    double axis_tilt_rms(Range range) const;
+    /// Largest turn of the object about that line, since the range's start [rad]; at a sample.
+    double turn(Range range) const;
+    double turn_at(size_t reference, size_t sample) const;
+    /// RMS of the force on a handle above 5 Hz (zero-phase Butterworth), of the worst finger [N].
+    double force_above_5_hz(Range range) const;
+    /// Mean of the vertical handle forces, summed over the fingers, downward [N].
+    double weight_felt(Range range) const;
+    double mean_grip(Range range) const;
+    double mean_load(Range range) const;
+    double peak_grip(Range range) const;
+    /// Largest force sent to any handle, and mean force of the busiest finger [N].
+    double peak_force(Range range) const;
+    double mean_force(Range range) const;
+
+  private:
+    int object_;
+    double tick_;
+    std::vector<Sample> samples_;
+};
+
+}  // namespace dihaptic::analysis

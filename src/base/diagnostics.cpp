@@ -1,0 +1,97 @@
+#include "base/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace dihaptic {
+
+std::string Problem::text() const {
+    std::string out;
+    if (!place.file.empty()) out += place.file + ":";
+    if (place.line > 0) out += fmt::format("{}:", place.line);
+    if (!out.empty()) out += " ";
+    out += severity == Severity::error ? "error: " : "warning: ";
+    if (!key.empty()) out += key + ": ";
+    out += what;
+    if (!out.ends_with('.')) out += ".";
+    if (!remedy.empty()) out += " " + remedy;
+    if (!out.ends_with('.')) out += ".";
+    return out;
+}
+
+namespace {
+
+std::string join(const std::vector<Problem>& problems) {
+    std::string out;
+    for (const Problem& problem : problems) {
+        if (!out.empty()) out += "\n";
+        out += problem.text();
+    }
+    return out;
+}
+
+}  // namespace
+
+Error::Error(std::vector<Problem> problems)
+    : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
+
+Error::Error(Place place, std::string key, std::string what, std::string remedy)
+    : Error({{Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)}}) {}
+
+void Diagnostics::error(Place place, std::string key, std::string what, std::string remedy) {
+    problems_.push_back({Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+}
+
+void Diagnostics::warning(Place place, std::string key, std::string what, std::string remedy) {
+    problems_.push_back({Severity::warning, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+}
+
+void Diagnostics::add(const std::vector<Problem>& problems) {
+    problems_.insert(problems_.end(), problems.begin(), problems.end());
+}
+
+bool Diagnostics::has_errors() const {
+    return std::any_of(problems_.begin(), problems_.end(),
+                       [](const Problem& p) { return p.severity == Severity::error; });
+}
+
+void Diagnostics::throw_if_errors() const {
+    if (has_errors()) throw Error(problems_);
+}
+
+namespace {
+
+/// Levenshtein distance, with two rows of the table.
+size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const size_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+    std::string best;
+    size_t best_distance = std::max<size_t>(2, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,62 @@
+// What is wrong with an input, said so that its author can mend it: file, line, key, what is wrong,
+// and the remedy. Readers collect every problem of a file before they give up.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace dihaptic {
+
+enum class Severity { warning, error };
+
+/// Where a value was written. An empty file means that it came from the program itself.
+struct Place {
+    std::string file;
+    int line = 0;  ///< from 1; 0: the file as a whole
+};
+
+struct Problem {
+    Severity severity = Severity::error;
+    Place place;
+    std::string key;     ///< the key or column it is about; may be empty
+    std::string what;    ///< what is wrong
+    std::string remedy;  ///< what would be right
+
+    /// "file:line: error: key: what. remedy", without the parts that are empty.
+    std::string text() const;
+};
+
+/// Thrown by set-up (never by the tick). what() lists its problems, a line each.
+class Error : public std::runtime_error {
+  public:
+    explicit Error(std::vector<Problem> problems);
+    Error(Place place, std::string key, std::string what, std::string remedy);
+    Error(std::string what, std::string remedy) : Error(Place{}, "", std::move(what), std::move(remedy)) {}
+
+    const std::vector<Problem>& problems() const { return problems_; }
+
+  private:
+    std::vector<Problem> problems_;
+};
+
+/// Collects problems while an input is read.
+class Diagnostics {
+  public:
+    void error(Place place, std::string key, std::string what, std::string remedy);
+    void warning(Place place, std::string key, std::string what, std::string remedy);
+    void add(const std::vector<Problem>& problems);
+
+    const std::vector<Problem>& problems() const { return problems_; }
+    bool has_errors() const;
+    /// Throws Error with all problems when one of them is an error.
+    void throw_if_errors() const;
+
+  private:
+    std::vector<Problem> problems_;
+};
+
+/// The candidate nearest to `word` by edit distance, or "" when none is near enough to suggest.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace dihaptic

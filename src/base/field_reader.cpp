@@ -1,0 +1,269 @@
+#include "base/field_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace dihaptic {
+namespace {
+
+std::vector<std::string> keys_of(const std::string& name, Quantity quantity) {
+    std::vector<std::string> keys;
+    for (const Unit& unit : units(quantity)) keys.push_back(fmt::format("{}_{}", name, unit.suffix));
+    if (keys.empty()) keys.push_back(name);
+    return keys;
+}
+
+std::string alternatives(const std::vector<std::string>& words) {
+    if (words.size() == 1) return words.front();
+    return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
+}
+
+std::string origin_of(const Place& place) {
+    return place.line > 0 ? fmt::format("{}:{}", place.file, place.line) : place.file;
+}
+
+}  // namespace
+
+FieldReader::FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins, std::string path)
+    : mapping_(mapping), diagnostics_(diagnostics), origins_(origins), path_(std::move(path)) {}
+
+Place FieldReader::place_of(std::string_view name) const {
+    for (const auto& [key, node] : mapping_.entries) {
+        if (key == name || key.starts_with(std::string(name) + "_")) return node.place;
+    }
+    return mapping_.place;
+}
+
+bool FieldReader::has(std::string_view name, Quantity quantity) const {
+    for (const std::string& key : keys_of(std::string(name), quantity)) {
+        if (mapping_.find(key) != nullptr) return true;
+    }
+    return false;
+}
+
+FieldReader::Given FieldReader::take(std::string_view name, const Field& field) {
+    fields_.push_back({std::string(name), field.quantity});
+    Given given;
+    const auto all = units(field.quantity);
+    const std::vector<std::string> keys = keys_of(std::string(name), field.quantity);
+    for (size_t i = 0; i < keys.size(); ++i) {
+        const Node* node = mapping_.find(keys[i]);
+        if (node == nullptr) continue;
+        used_.insert(keys[i]);
+        if (given.node != nullptr) {
+            diagnostics_.error(node->place, keys[i], fmt::format("the same {} is given as {} too", name, given.key),
+                               "Keep one of the two.");
+            continue;
+        }
+        given = {node, keys[i], all.empty() ? 1.0 : all[i].si};
+    }
+    // a key without its unit, or with a wrong one, is reported by finish(): it is not missing
+    const bool misspelt = place_of(name).line != mapping_.place.line;
+    if (given.node == nullptr && field.is_required && !misspelt) {
+        diagnostics_.error(mapping_.place, std::string(name), "is missing",
+                           fmt::format("Add {}.", alternatives(keys)));
+    }
+    if (given.node != nullptr) note_origin(name, *given.node);
+    return given;
+}
+
+void FieldReader::note_origin(std::string_view name, const Node& node) {
+    if (origins_ == nullptr) return;
+    const std::string path = path_.empty() ? std::string(name) : fmt::format("{}.{}", path_, name);
+    (*origins_)[path] = origin_of(node.place);
+}
+
+std::optional<double> FieldReader::number(const Given& given, const Node& node, const Field& field) {
+    double value = 0;
+    const std::string& text = node.scalar;
+    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [end, status] = std::from_chars(first, text.data() + text.size(), value);
+    const bool whole = status == std::errc() && end == text.data() + text.size();
+    if (node.kind != Node::Kind::scalar || !whole || !std::isfinite(value)) {
+        const std::string shown = node.kind == Node::Kind::scalar ? "'" + text + "'" : "a list";
+        diagnostics_.error(given.node->place, given.key, fmt::format("must be a number, is {}", shown),
+                           field.quantity == Quantity::none
+                               ? ""
+                               : "Write the number alone; its unit is in the key.");
+        return std::nullopt;
+    }
+    const double si = value * given.to_si;
+    const bool too_low = field.above_min ? si <= field.min : si < field.min;
+    if (too_low || si > field.max) {
+        const double low = field.min / given.to_si;
+        const double high = field.max / given.to_si;
+        std::string bound;
+        if (field.above_min && field.min == 0 && std::isinf(field.max)) {
+            bound = "positive";
+        } else if (std::isinf(field.max)) {
+            bound = fmt::format("{} {:g}", field.above_min ? "above" : "at least", low);
+        } else if (std::isinf(field.min)) {
+            bound = fmt::format("at most {:g}", high);
+        } else {
+            bound = fmt::format("{} {:g} and at most {:g}", field.above_min ? "above" : "at least", low, high);
+        }
+        diagnostics_.error(given.node->place, given.key, fmt::format("must be {}, is {}", bound, text),
+                           "Correct the value, or its unit.");
+        return std::nullopt;
+    }
+    return si;
+}
+
+std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) {
+    if (given.node->kind != Node::Kind::sequence || given.node->items.size() != 3) {
+        diagnostics_.error(given.node->place, given.key, "must be three numbers",
+                           fmt::format("Write {}: [x, y, z].", given.key));
+        return std::nullopt;
+    }
+    Vec3 value;
+    for (int i = 0; i < 3; ++i) {
+        const auto component = number(given, given.node->items[static_cast<size_t>(i)], field);
+        if (!component) return std::nullopt;
+        value[i] = *component;
+    }
+    return value;
+}
+
+std::optional<std::string> FieldReader::word(const Given& given) {
+    if (given.node->kind != Node::Kind::scalar) {
+        diagnostics_.error(given.node->place, given.key, "must be a single word or text", "");
+        return std::nullopt;
+    }
+    return given.node->scalar;
+}
+
+void FieldReader::operator()(std::string_view name, double& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = number(given, *given.node, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, std::optional<double>& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = number(given, *given.node, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, Vec3& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = vector(given, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, std::optional<Vec3>& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = vector(given, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, int& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return;
+    const auto read = number(given, *given.node, field);
+    if (!read) return;
+    if (*read != std::floor(*read) || std::abs(*read) > 1e9) {
+        diagnostics_.error(given.node->place, given.key,
+                           fmt::format("must be a whole number, is {}", given.node->scalar), "");
+        return;
+    }
+    value = static_cast<int>(*read);
+}
+
+void FieldReader::operator()(std::string_view name, bool& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return;
+    const std::string& text = given.node->scalar;
+    if (text == "true" || text == "yes") {
+        value = true;
+    } else if (text == "false" || text == "no") {
+        value = false;
+    } else {
+        diagnostics_.error(given.node->place, given.key, fmt::format("must be yes or no, is '{}'", text), "");
+    }
+}
+
+void FieldReader::operator()(std::string_view name, std::string& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = word(given)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, std::vector<std::string>& value, Field field) {
+    const Node* list = take_list(name, field);
+    if (list == nullptr) return;
+    value.clear();
+    for (const Node& item : list->items) {
+        if (const auto read = word({&item, std::string(name), 1})) value.push_back(*read);
+    }
+}
+
+void FieldReader::operator()(std::string_view name, Node& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) value = *given.node;
+}
+
+const Node* FieldReader::take_mapping(std::string_view name, const Field& field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr || !is_mapping(*given.node, given.key)) return nullptr;
+    return given.node;
+}
+
+bool FieldReader::is_mapping(const Node& node, const std::string& key) {
+    if (node.kind == Node::Kind::mapping) return true;
+    diagnostics_.error(node.place, key, "must have keys of its own",
+                       "Write them below it, indented, one 'key: value' a line.");
+    return false;
+}
+
+const Node* FieldReader::take_list(std::string_view name, const Field& field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return nullptr;
+    if (given.node->kind != Node::Kind::sequence) {
+        diagnostics_.error(given.node->place, given.key, "must be a list",
+                           "Start each of its items with a dash, or write [a, b].");
+        return nullptr;
+    }
+    return given.node;
+}
+
+int FieldReader::read_choice(std::string_view name, const std::vector<std::string_view>& names,
+                             const Field& field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return -1;
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (given.node->kind == Node::Kind::scalar && given.node->scalar == names[i]) return static_cast<int>(i);
+    }
+    diagnostics_.error(given.node->place, given.key, fmt::format("'{}' is not known", given.node->scalar),
+                       fmt::format("Use {}.", alternatives({names.begin(), names.end()})));
+    return -1;
+}
+
+void FieldReader::finish() {
+    for (const auto& [key, node] : mapping_.entries) {
+        if (used_.contains(key)) continue;
+        const Known* field = nullptr;
+        std::vector<std::string> known;
+        for (const Known& candidate : fields_) {
+            const bool same = key == candidate.name || (candidate.quantity != Quantity::none &&
+                                                        key.starts_with(candidate.name + "_"));
+            if (same && (field == nullptr || candidate.name.size() > field->name.size())) field = &candidate;
+            for (std::string& name : keys_of(candidate.name, candidate.quantity)) known.push_back(std::move(name));
+        }
+        if (field != nullptr) {
+            const bool bare = key == field->name;
+            diagnostics_.error(node.place, key,
+                               bare ? "needs its unit in the key"
+                                    : fmt::format("is not a unit of {}", dihaptic::name(field->quantity)),
+                               fmt::format("Write {}.", alternatives(keys_of(field->name, field->quantity))));
+            continue;
+        }
+        const std::string guess = nearest(key, known);
+        diagnostics_.error(node.place, key, "is not known here",
+                           guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
+                                         : fmt::format("Did you mean {}?", guess));
+    }
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,130 @@
+// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong with it:
+// unknown keys, wrong units, wrong types, values out of bounds, missing fields.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "base/geometry.h"
+#include "base/node.h"
+
+namespace dihaptic {
+
+/// Where each setting came from: path ("coupling.stiffness") to "file:line" or "command line".
+using Origins = std::map<std::string, std::string>;
+
+/// The visitor that fills one struct from one mapping. Fields that the mapping does not have keep the
+/// value they had: reading several mappings into one struct, one after the other, is how a later file
+/// overrides an earlier one.
+class FieldReader {
+  public:
+    /// `path` is the struct's own place in `origins` ("" for the outermost); `origins` may be null.
+    FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins = nullptr,
+                std::string path = "");
+
+    void operator()(std::string_view name, double& value, Field field = {});
+    void operator()(std::string_view name, std::optional<double>& value, Field field = {});
+    void operator()(std::string_view name, Vec3& value, Field field = {});
+    void operator()(std::string_view name, std::optional<Vec3>& value, Field field = {});
+    void operator()(std::string_view name, int& value, Field field = {});
+    void operator()(std::string_view name, bool& value, Field field = {});
+    void operator()(std::string_view name, std::string& value, Field field = {});
+    void operator()(std::string_view name, std::vector<std::string>& value, Field field = {});
+
+    template <NamedEnum E>
+    void operator()(std::string_view name, E& value, Field field = {}) {
+        const auto names = enum_names(value);
+        const int index = read_choice(name, {names.begin(), names.end()}, field);
+        if (index >= 0) value = static_cast<E>(index);
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldReader>
+    void operator()(std::string_view name, Struct& value, Field field = {}) {
+        if (const Node* node = take_mapping(name, field)) read_into(value, *node, std::string(name));
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldReader>
+    void operator()(std::string_view name, std::optional<Struct>& value, Field field = {}) {
+        if (const Node* node = take_mapping(name, field)) read_into(value.emplace(), *node, std::string(name));
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldReader>
+    void operator()(std::string_view name, std::vector<Struct>& values, Field field = {}) {
+        const Node* list = take_list(name, field);
+        if (list == nullptr) return;
+        values.clear();
+        for (const Node& item : list->items) {
+            const std::string place = std::string(name) + "[" + std::to_string(values.size()) + "]";
+            if (is_mapping(item, place)) read_into(values.emplace_back(), item, place);
+        }
+    }
+
+    /// Keeps a part of the file as it is, for a reader that knows what is in it.
+    void operator()(std::string_view name, Node& value, Field field = {});
+
+    /// Where the struct itself was written; where one of its fields was, or else the struct.
+    Place place() const { return mapping_.place; }
+    Place place_of(std::string_view name) const;
+    /// True when the mapping gives the field, in whatever unit.
+    bool has(std::string_view name, Quantity quantity = Quantity::none) const;
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    /// Reports the keys that no field asked for. Call it after visit().
+    void finish();
+
+  private:
+    struct Known {
+        std::string name;
+        Quantity quantity;
+    };
+    struct Given {
+        const Node* node = nullptr;
+        std::string key;
+        double to_si = 1;
+    };
+
+    Given take(std::string_view name, const Field& field);
+    const Node* take_mapping(std::string_view name, const Field& field);
+    const Node* take_list(std::string_view name, const Field& field);
+    bool is_mapping(const Node& node, const std::string& key);
+    int read_choice(std::string_view name, const std::vector<std::string_view>& names, const Field& field);
+    std::optional<double> number(const Given& given, const Node& scalar, const Field& field);
+    std::optional<Vec3> vector(const Given& given, const Field& field);
+    std::optional<std::string> word(const Given& given);
+    void note_origin(std::string_view name, const Node& node);
+
+    template <class Struct>
+    void read_into(Struct& value, const Node& node, const std::string& name) {
+        FieldReader inner(node, diagnostics_, origins_, path_.empty() ? name : path_ + "." + name);
+        value.visit(inner);
+        inner.finish();
+    }
+
+    const Node& mapping_;
+    Diagnostics& diagnostics_;
+    Origins* origins_;
+    std::string path_;
+    std::vector<Known> fields_;
+    std::set<std::string> used_;
+};
+
+/// Reads a whole mapping into a struct; problems go to `diagnostics`.
+template <class Struct>
+void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics, Origins* origins = nullptr) {
+    if (mapping.kind != Node::Kind::mapping) {
+        diagnostics.error(mapping.place, "", "is not a list of keys and values", "Write one 'key: value' a line.");
+        return;
+    }
+    FieldReader reader(mapping, diagnostics, origins);
+    value.visit(reader);
+    reader.finish();
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,73 @@
+// Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units: what
+// a session keeps of its inputs. Reading the result gives the same struct, to the bit.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field.h"
+#include "base/geometry.h"
+#include "base/node.h"
+
+namespace dihaptic {
+
+class FieldWriter {
+  public:
+    void operator()(std::string_view name, const double& value, Field field = {});
+    void operator()(std::string_view name, const std::optional<double>& value, Field field = {});
+    void operator()(std::string_view name, const Vec3& value, Field field = {});
+    void operator()(std::string_view name, const std::optional<Vec3>& value, Field field = {});
+    void operator()(std::string_view name, const int& value, Field field = {});
+    void operator()(std::string_view name, const bool& value, Field field = {});
+    void operator()(std::string_view name, const std::string& value, Field field = {});
+    void operator()(std::string_view name, const std::vector<std::string>& value, Field field = {});
+
+    template <NamedEnum E>
+    void operator()(std::string_view name, const E& value, Field = {}) {
+        mapping_.set(std::string(name), Node::of(std::string(enum_name(value))));
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldWriter>
+    void operator()(std::string_view name, Struct& value, Field = {}) {
+        mapping_.set(std::string(name), write(value));
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldWriter>
+    void operator()(std::string_view name, std::optional<Struct>& value, Field = {}) {
+        if (value) mapping_.set(std::string(name), write(*value));
+    }
+
+    template <class Struct>
+        requires Described<Struct, FieldWriter>
+    void operator()(std::string_view name, std::vector<Struct>& values, Field = {}) {
+        Node list;
+        list.kind = Node::Kind::sequence;
+        for (Struct& value : values) list.items.push_back(write(value));
+        if (!list.items.empty()) mapping_.set(std::string(name), list);
+    }
+
+    void operator()(std::string_view name, const Node& value, Field field = {});
+
+    Node take() { return std::move(mapping_); }
+
+    template <class Struct>
+    static Node write(Struct& value) {
+        FieldWriter writer;
+        value.visit(writer);
+        return writer.take();
+    }
+
+  private:
+    Node mapping_ = Node::mapping();
+};
+
+/// The struct as a mapping.
+template <class Struct>
+Node write_fields(Struct value) {
+    return FieldWriter::write(value);
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,127 @@
+#include "base/node.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace dihaptic {
+
+const Node* Node::find(const std::string& key) const {
+    for (const auto& [name, value] : entries) {
+        if (name == key) return &value;
+    }
+    return nullptr;
+}
+
+Node Node::of(std::string scalar) {
+    Node node;
+    node.kind = Kind::scalar;
+    node.scalar = std::move(scalar);
+    return node;
+}
+
+Node Node::mapping() {
+    Node node;
+    node.kind = Kind::mapping;
+    return node;
+}
+
+void Node::set(const std::string& key, Node value) {
+    for (auto& [name, old] : entries) {
+        if (name == key) {
+            old = std::move(value);
+            return;
+        }
+    }
+    entries.emplace_back(key, std::move(value));
+}
+
+namespace {
+
+Node convert(const YAML::Node& in, const std::string& file) {
+    Node out;
+    out.place = {file, in.Mark().line + 1};
+    switch (in.Type()) {
+        case YAML::NodeType::Scalar:
+            out.kind = Node::Kind::scalar;
+            out.scalar = in.Scalar();
+            break;
+        case YAML::NodeType::Sequence:
+            out.kind = Node::Kind::sequence;
+            for (const auto& item : in) out.items.push_back(convert(item, file));
+            break;
+        case YAML::NodeType::Map:
+            out.kind = Node::Kind::mapping;
+            for (const auto& entry : in) {
+                const Place at{file, entry.first.Mark().line + 1};
+                if (!entry.first.IsScalar()) throw Error(at, "", "a key must be a word", "");
+                const std::string key = entry.first.Scalar();
+                if (out.find(key) != nullptr) {
+                    throw Error(at, key, "is given twice", "Keep one of the two lines.");
+                }
+                Node value = convert(entry.second, file);
+                value.place = at;
+                out.entries.emplace_back(key, std::move(value));
+            }
+            break;
+        default: break;
+    }
+    return out;
+}
+
+YAML::Node emit(const Node& node) {
+    YAML::Node out;
+    switch (node.kind) {
+        case Node::Kind::null: break;
+        case Node::Kind::scalar: out = node.scalar; break;
+        case Node::Kind::sequence:
+            out = YAML::Node(YAML::NodeType::Sequence);
+            for (const Node& item : node.items) out.push_back(emit(item));
+            if (std::all_of(node.items.begin(), node.items.end(),
+                            [](const Node& item) { return item.kind == Node::Kind::scalar; })) {
+                out.SetStyle(YAML::EmitterStyle::Flow);
+            }
+            break;
+        case Node::Kind::mapping:
+            out = YAML::Node(YAML::NodeType::Map);
+            for (const auto& [key, value] : node.entries) out[key] = emit(value);
+            break;
+    }
+    return out;
+}
+
+}  // namespace
+
+Node parse_yaml(const std::string& text, const std::string& file) {
+    try {
+        Node root = convert(YAML::Load(text), file);
+        if (root.place.line == 0) root.place.line = 1;
+        return root;
+    } catch (const YAML::Exception& e) {
+        throw Error({file, e.mark.line + 1}, "", "is not YAML: " + e.msg,
+                    "Check the indentation (spaces, no tabs) and the brackets near this line.");
+    }
+}
+
+Node read_yaml(const std::string& file) {
+    errno = 0;
+    std::ifstream in(file);
+    std::ostringstream text;
+    if (in) text << in.rdbuf();
+    if (!in || in.bad() || text.fail()) {
+        const std::string why = errno != 0 ? std::strerror(errno) : "it is empty or not a file";
+        throw Error({file, 0}, "", "cannot be read: " + why, "Check the name and the folder.");
+    }
+    return parse_yaml(text.str(), file);
+}
+
+std::string to_yaml(const Node& node) {
+    YAML::Emitter out;
+    out << emit(node);
+    return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,35 @@
+#include "base/random.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dihaptic {
+namespace {
+
+/// FNV-1a over the stream's name, started from the seed.
+uint64_t mix(uint64_t seed, std::string_view stream) {
+    uint64_t hash = 14695981039346656037ULL ^ (seed * 0x9E3779B97F4A7C15ULL);
+    for (const char c : stream) {
+        hash ^= static_cast<unsigned char>(c);
+        hash *= 1099511628211ULL;
+    }
+    return hash;
+}
+
+}  // namespace
+
+Random::Random(uint64_t seed, std::string_view stream) : engine_(mix(seed, stream)) {}
+
+// The standard's distributions may differ between libraries; these do not.
+double Random::uniform(double low, double high) {
+    const double unit = static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+    return low + (high - low) * unit;
+}
+
+double Random::normal() {
+    // Box-Muller; 1 - u keeps the logarithm finite
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform(0, 1)));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform(0, 1));
+}
+
+}  // namespace dihaptic

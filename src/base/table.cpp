@@ -1,0 +1,94 @@
+#include "base/table.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic {
+
+std::string to_csv(const Table::Cell& cell) {
+    if (const double* number = std::get_if<double>(&cell)) return std::isnan(*number) ? "" : fmt::format("{:.9g}", *number);
+    const std::string& text = std::get<std::string>(cell);
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + "\"";
+}
+
+std::string to_csv(const Table& table) {
+    std::string out;
+    const auto line = [&](const auto& cells, const auto& text) {
+        for (size_t i = 0; i < cells.size(); ++i) {
+            if (i > 0) out += ",";
+            out += text(cells[i]);
+        }
+        out += "\n";
+    };
+    line(table.columns, [](const Table::Column& column) { return to_csv(Table::Cell(column.name)); });
+    for (const auto& row : table.rows) line(row, [](const Table::Cell& cell) { return to_csv(cell); });
+    return out;
+}
+
+void write_csv(const Table& table, const std::string& file) { write_file(to_csv(table), file); }
+
+std::vector<std::vector<std::string>> read_csv(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error({file, 0}, "", "cannot be read", "Check the name and the folder.");
+    std::vector<std::vector<std::string>> rows;
+    std::string cell;
+    std::vector<std::string> row;
+    bool quoted = false;
+    for (char c = 0; in.get(c);) {
+        if (quoted) {
+            if (c == '"' && in.peek() == '"') {
+                cell += static_cast<char>(in.get());
+            } else if (c == '"') {
+                quoted = false;
+            } else {
+                cell += c;
+            }
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == ',' || c == '\n') {
+            row.push_back(std::move(cell));
+            cell.clear();
+            if (c == '\n') {
+                rows.push_back(std::move(row));
+                row.clear();
+            }
+        } else if (c != '\r') {
+            cell += c;
+        }
+    }
+    if (!cell.empty() || !row.empty()) {
+        row.push_back(std::move(cell));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void write_file(const std::string& text, const std::string& file) {
+    const std::string part = file + ".part";
+    errno = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    std::error_code failed;
+    if (out) std::filesystem::rename(part, file, failed);
+    if (!out || failed) {
+        const std::string why = failed ? failed.message() : std::strerror(errno);
+        std::filesystem::remove(part, failed);
+        throw Error({file, 0}, "", "cannot be written: " + why, "Check the folder's permissions and the disk's space.");
+    }
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,47 @@
+// Units of values in files. Inside the program everything is SI. In a file a physical value names its
+// unit in the key: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace dihaptic {
+
+/// What kind of quantity a value is. The first unit of each kind is the one that is written.
+enum class Quantity {
+    none,  ///< a pure number: no suffix
+    length,
+    angle,
+    mass,
+    density,
+    time,
+    frequency,
+    speed,
+    force,
+    stiffness,
+    damping,
+    torque,
+    acceleration,
+    force_rate,
+    stiffness_per_force,
+};
+
+struct Unit {
+    std::string_view suffix;  ///< as in a key, e.g. "mm"
+    double si;                ///< one of this unit in SI
+};
+
+/// The units that a quantity may be given in, the SI unit first; empty for Quantity::none.
+std::span<const Unit> units(Quantity quantity);
+
+/// "length", "stiffness", ...: for messages.
+std::string_view name(Quantity quantity);
+
+/// The key that a value is written with, e.g. "size_m".
+std::string si_key(std::string_view field, Quantity quantity);
+
+/// The SI unit as people write it, e.g. "N/m"; "1" for Quantity::none.
+std::string_view si_symbol(Quantity quantity);
+
+}  // namespace dihaptic

@@ -1,0 +1,34 @@
+// The record of one contact point. Contacts are found once a step, by dynamics; whoever reads contacts
+// (frames, fingers) reads these.
+#pragma once
+
+#include "base/geometry.h"
+
+namespace dihaptic::contact {
+
+/// Names a body of one World, scene bodies first, then the fingers' proxies.
+struct BodyIndex {
+    int value = -1;
+    bool valid() const { return value >= 0; }
+    auto operator<=>(const BodyIndex&) const = default;
+};
+
+struct Contact {
+    BodyIndex a;
+    BodyIndex b;
+    Vec3 p_WC = Vec3::Zero();   ///< on b's surface [m]
+    Vec3 n_W = Vec3::UnitZ();   ///< unit normal, from a to b
+    double gap = 0;             ///< distance before the step; negative: penetration [m]
+    double friction = 0;        ///< coefficient of the pair
+    double normal_force = 0;    ///< pressing the bodies apart, mean over the step, at least 0 [N]
+    Vec3 f_B_W = Vec3::Zero();  ///< whole force of a on b, mean over the step [N]
+};
+
+/// What a solve achieved.
+struct SolveStats {
+    int iterations = 0;
+    double residual = 0;    ///< largest change of a contact's velocity in the last iteration [m/s]
+    bool fallback = false;  ///< another solver than the one asked for answered
+};
+
+}  // namespace dihaptic::contact

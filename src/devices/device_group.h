@@ -1,0 +1,122 @@
+// The seam to devices: all devices of one backend, read together and written together.
+//
+// Making a group configures it, which may allocate and throw an Error that names the remedy. Then
+// activate(), any number of read() and write() pairs, a pair a tick, and deactivate(). The pair neither
+// allocates nor throws; trouble shows in each reading's status.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/field_reader.h"
+#include "base/geometry.h"
+#include "hand/driver.h"
+#include "hand/spec.h"
+
+namespace dihaptic::devices {
+
+/// What can be the matter with a device in one tick.
+enum DeviceStatus : uint32_t {
+    kOutsideWorkspace = 1u << 0,  ///< beyond what the device can reach: move the hand, or the rig's device
+    kForceClamped = 1u << 1,      ///< asked for more than its peak force: soften the coupling
+    kNoMoreData = 1u << 2,        ///< a recording has ended
+};
+
+/// State of one device, in its base frame D.
+struct Reading {
+    Vec3 p_DH = Vec3::Zero();  ///< endpoint [m]
+    Vec3 v_DH = Vec3::Zero();  ///< [m/s]
+    uint32_t buttons = 0;
+    uint32_t status = 0;       ///< DeviceStatus
+};
+
+/// What a device can do.
+struct DeviceInfo {
+    std::string model;
+    double peak_force = std::numeric_limits<double>::infinity();        ///< [N]
+    double continuous_force = std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
+    double damping = 0;               ///< of handle and hand together, for what stiffness the loop holds [N*s/m]
+    double delay = 0;                 ///< from write to force [s]
+    std::optional<Vec3> workspace;    ///< edges of the box around D's origin [m]
+};
+
+/// One device, as the rig file has it.
+struct DeviceConfig {
+    std::string finger;
+    Pose X_WD;
+    Node options;  ///< the backend's own
+};
+
+/// What some backends need of the rest of the program.
+struct Context {
+    double tick = 1e-3;                        ///< [s]
+    const hand::Driver* driver = nullptr;      ///< moves the simulated fingers; outlives the group
+    hand::Impedance impedance;
+    hand::TremorSpec tremor;
+    uint64_t seed = 0;
+    /// Recorded readings of a tick, for replay; false after the last.
+    std::function<bool(Time, std::span<Reading>)> recording;
+};
+
+class DeviceGroup {
+  public:
+    virtual ~DeviceGroup() = default;
+
+    int size() const { return static_cast<int>(infos_.size()); }
+    const DeviceInfo& info(int device) const { return infos_[static_cast<size_t>(device)]; }
+
+    void activate() {
+        assert(!active_);
+        do_activate();
+        active_ = true;
+    }
+    void deactivate() {
+        if (active_) do_deactivate();
+        active_ = false;
+    }
+    /// States at time `now`, one for each device.
+    void read(Time now, std::span<Reading> readings) noexcept {
+        assert(active_ && readings.size() == infos_.size());
+        do_read(now, readings);
+    }
+    /// Forces in D to hold until the next write, one for each device [N].
+    void write(std::span<const Vec3> f_D) noexcept {
+        assert(active_ && f_D.size() == infos_.size());
+        do_write(f_D);
+    }
+
+  protected:
+    explicit DeviceGroup(std::vector<DeviceInfo> infos) : infos_(std::move(infos)) {}
+
+  private:
+    virtual void do_activate() = 0;
+    virtual void do_deactivate() = 0;
+    virtual void do_read(Time now, std::span<Reading> readings) noexcept = 0;
+    virtual void do_write(std::span<const Vec3> f_D) noexcept = 0;
+
+    std::vector<DeviceInfo> infos_;
+    bool active_ = false;
+};
+
+/// An entry of the device table, one for each subfolder of this room.
+struct Backend {
+    const char* name;
+    /// Checks the options of a device, without touching hardware.
+    void (*check)(const DeviceConfig& config, Diagnostics& diagnostics);
+    std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs, const Context& context);
+};
+
+/// All backends.
+std::span<const Backend> backends();
+/// The one of that name, or null.
+const Backend* find_backend(const std::string& name);
+
+}  // namespace dihaptic::devices

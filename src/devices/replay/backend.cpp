@@ -1,0 +1,67 @@
+#include "devices/replay/backend.h"
+
+namespace dihaptic::devices::replay {
+namespace {
+
+/// What forces were limited by when the recording was made.
+struct Options {
+    double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("peak_force", peak_force, Field::of(Quantity::force).positive());
+    }
+};
+
+std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
+    std::vector<DeviceInfo> out;
+    Diagnostics diagnostics;
+    for (const DeviceConfig& config : configs) {
+        Options options;
+        if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+        DeviceInfo info;
+        info.model = "recording";
+        info.peak_force = options.peak_force;
+        out.push_back(info);
+    }
+    diagnostics.throw_if_errors();
+    return out;
+}
+
+class ReplayGroup final : public DeviceGroup {
+  public:
+    ReplayGroup(const std::vector<DeviceConfig>& configs, const Context& context)
+        : DeviceGroup(infos(configs)), recording_(context.recording) {}
+
+  private:
+    void do_activate() override {}
+    void do_deactivate() override {}
+    void do_read(Time now, std::span<Reading> readings) noexcept override {
+        if (recording_(now, readings)) return;
+        for (Reading& reading : readings) reading.status |= kNoMoreData;
+    }
+    void do_write(std::span<const Vec3>) noexcept override {}
+
+    std::function<bool(Time, std::span<Reading>)> recording_;
+};
+
+void check(const DeviceConfig& config, Diagnostics& diagnostics) {
+    try {
+        infos({config});
+    } catch (const Error& e) {
+        diagnostics.add(e.problems());
+    }
+}
+
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, const Context& context) {
+    if (!context.recording) {
+        throw Error("devices of the backend 'replay' need a recording", "Use: dihaptic replay SESSION.");
+    }
+    return std::make_unique<ReplayGroup>(configs, context);
+}
+
+}  // namespace
+
+Backend backend() { return {"replay", check, make}; }
+
+}  // namespace dihaptic::devices::replay

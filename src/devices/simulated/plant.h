@@ -1,0 +1,70 @@
+// Mechanics of a simulated device in a simulated finger's grip, in one point:
+//
+//     m a = f_finger + f_device + f_friction
+//
+// integrated at 10 kHz (semi-implicit Euler), with the device's force held from write to write, clamped
+// to its peak, and acting `delay_ticks` late. Coulomb friction takes up to friction * h of momentum a
+// step and holds the endpoint when it can.
+#pragma once
+
+#include <array>
+
+#include "base/clock.h"
+#include "devices/simulated/options.h"
+#include "hand/finger.h"
+
+namespace dihaptic::devices::simulated {
+
+class Plant {
+  public:
+    Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor, uint64_t seed,
+          int finger, const hand::Driver& driver);
+
+    /// Puts the endpoint at the finger's target, at rest.
+    void reset();
+    /// Moves on to `now`.
+    void advance(Time now) noexcept;
+    /// The force to hold from now on, in world axes [N]; true when it had to be clamped.
+    bool hold(const Vec3& f_W) noexcept;
+
+    const Vec3& p_WH() const { return p_; }
+    const Vec3& v_WH() const { return v_; }
+
+  private:
+    static constexpr Time kStep = std::chrono::microseconds(100);
+
+    Options options_;
+    hand::Finger finger_;
+    hand::Tremor tremor_;
+    int index_;
+    const hand::Driver& driver_;
+    Time time_{0};
+    Vec3 p_ = Vec3::Zero();
+    Vec3 v_ = Vec3::Zero();
+    std::vector<Vec3> pending_;  // forces written, the oldest acting now; delay_ticks + 1 of them
+    size_t newest_ = 0;
+};
+
+/// What an encoder and a driver make of a position: steps, and a velocity from past positions.
+class Encoder {
+  public:
+    explicit Encoder(const Options& options) : step_(options.position_step), window_(options.velocity_window) {}
+
+    struct Measured {
+        Vec3 p;
+        Vec3 v;
+    };
+    Measured measure(Time now, const Vec3& p, const Vec3& v) noexcept;
+
+  private:
+    struct Sample {
+        Time time;
+        Vec3 p;
+    };
+    double step_;
+    int window_;
+    std::array<Sample, Options::kMostWindow + 1> past_{};
+    int count_ = 0;
+};
+
+}  // namespace dihaptic::devices::simulated

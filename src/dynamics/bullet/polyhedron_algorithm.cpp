@@ -1,0 +1,157 @@
+#include "dynamics/bullet/polyhedron_algorithm.h"
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+
+#include <algorithm>
+
+#include "dynamics/bullet/shape.h"
+
+namespace dihaptic::dynamics {
+namespace {
+
+/// Contacts are found this far ahead of touch, and further for bodies that could close more in the step.
+constexpr double kMargin = 5e-4;      // [m]
+constexpr double kMostMargin = 5e-3;  // [m]
+/// A contact is the continuation of an old one within this distance on the body.
+constexpr double kSamePoint = 5e-3;  // [m]
+
+const Polyhedron* polyhedron(const btCollisionObject& object) {
+    return static_cast<const Polyhedron*>(object.getUserPointer());
+}
+
+double reach(const btCollisionObject& a, const btCollisionObject& b, double h) {
+    const btVector3 closing = a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
+    return std::min(kMostMargin, kMargin + h * closing.length());
+}
+
+class Algorithm final : public btActivatingCollisionAlgorithm {
+  public:
+    Algorithm(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+              const btCollisionObjectWrapper* b, const double& step)
+        : btActivatingCollisionAlgorithm(info, a, b), manifold_(info.m_manifold), step_(step) {
+        if (manifold_ == nullptr) {
+            manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
+            owned_ = true;
+        }
+    }
+    ~Algorithm() override {
+        if (owned_) m_dispatcher->releaseManifold(manifold_);
+    }
+
+    void processCollision(const btCollisionObjectWrapper* a_wrap, const btCollisionObjectWrapper* b_wrap,
+                          const btDispatcherInfo&, btManifoldResult* result) override {
+        const btCollisionObject& a = *a_wrap->getCollisionObject();
+        const btCollisionObject& b = *b_wrap->getCollisionObject();
+        const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
+        const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
+        const double margin = reach(a, b, step_);
+        ContactPatch patch;
+        if (polyhedron(a) == nullptr) {
+            patch = collide_half_space(X_WA, *polyhedron(b), X_WB, margin);
+        } else if (polyhedron(b) == nullptr) {
+            patch = collide_half_space(X_WB, *polyhedron(a), X_WA, margin);
+            flip(patch);
+        } else {
+            patch = collide(*polyhedron(a), X_WA, *polyhedron(b), X_WB, margin);
+        }
+        result->setPersistentManifold(manifold_);
+        store(patch, X_WA, X_WB, manifold_->getBody0() == &a);
+    }
+
+    btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                   btManifoldResult*) override {
+        return 1;
+    }
+    void getAllContactManifolds(btManifoldArray& manifolds) override { manifolds.push_back(manifold_); }
+
+  private:
+    static void flip(ContactPatch& patch) {
+        patch.n_W = -patch.n_W;
+        for (ContactPoint& point : patch.points) std::swap(point.p_WA, point.p_WB);
+    }
+
+    /// Replaces the manifold's points. Bullet's normal points from its body 1 to its body 0.
+    void store(ContactPatch& patch, const Pose& X_WA, const Pose& X_WB, bool a_is_body0) {
+        std::array<btManifoldPoint, 4> old;
+        std::array<bool, 4> taken{};
+        const int old_count = manifold_->getNumContacts();
+        for (int i = 0; i < old_count; ++i) old[static_cast<size_t>(i)] = manifold_->getContactPoint(i);
+        manifold_->clearManifold();
+        if (!a_is_body0) flip(patch);
+        const Pose& X_W0 = a_is_body0 ? X_WA : X_WB;
+        const Pose& X_W1 = a_is_body0 ? X_WB : X_WA;
+        const Pose X_0W = X_W0.inverse();
+        const Pose X_1W = X_W1.inverse();
+        for (int i = 0; i < patch.count; ++i) {
+            const ContactPoint& point = patch.points[static_cast<size_t>(i)];
+            btManifoldPoint out(to_bullet(X_0W * point.p_WA), to_bullet(X_1W * point.p_WB),
+                                to_bullet(Vec3(-patch.n_W)), point.gap);
+            out.m_positionWorldOnA = to_bullet(point.p_WA);
+            out.m_positionWorldOnB = to_bullet(point.p_WB);
+            int nearest = -1;
+            double distance = kSamePoint * kSamePoint;
+            for (int j = 0; j < old_count; ++j) {
+                const double d = (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
+                if (!taken[static_cast<size_t>(j)] && d < distance) {
+                    distance = d;
+                    nearest = j;
+                }
+            }
+            if (nearest >= 0) {
+                const btManifoldPoint& last = old[static_cast<size_t>(nearest)];
+                taken[static_cast<size_t>(nearest)] = true;
+                out.m_appliedImpulse = last.m_appliedImpulse;
+                out.m_appliedImpulseLateral1 = last.m_appliedImpulseLateral1;
+                out.m_appliedImpulseLateral2 = last.m_appliedImpulseLateral2;
+                out.m_lateralFrictionDir1 = last.m_lateralFrictionDir1;
+                out.m_lateralFrictionDir2 = last.m_lateralFrictionDir2;
+                out.m_lifeTime = last.m_lifeTime + 1;
+            }
+            manifold_->addManifoldPoint(out);
+        }
+    }
+
+    btPersistentManifold* manifold_;
+    bool owned_ = false;
+    const double& step_;
+};
+
+}  // namespace
+
+struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
+    Create(const double& h, btCollisionAlgorithmCreateFunc* bullets) : step(h), otherwise(bullets) {}
+
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override {
+        const auto flat = [](const btCollisionObjectWrapper* w) {
+            return w->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE ||
+                   polyhedron(*w->getCollisionObject()) != nullptr;
+        };
+        if (!flat(a) || !flat(b)) return otherwise->CreateCollisionAlgorithm(info, a, b);
+        void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
+        return new (memory) Algorithm(info, a, b, step);
+    }
+
+    const double& step;
+    btCollisionAlgorithmCreateFunc* otherwise;
+};
+
+PolyhedronAlgorithms::PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step) {
+    constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE};
+    for (const int a : kTypes) {
+        for (const int b : kTypes) {
+            if (a == STATIC_PLANE_PROXYTYPE && b == STATIC_PLANE_PROXYTYPE) continue;
+            btCollisionAlgorithmCreateFunc* otherwise =
+                dispatcher.getCollisionConfiguration()->getCollisionAlgorithmCreateFunc(a, b);
+            creators_.push_back(std::make_unique<Create>(step, otherwise));
+            dispatcher.registerCollisionCreateFunc(a, b, creators_.back().get());
+        }
+    }
+}
+
+PolyhedronAlgorithms::~PolyhedronAlgorithms() = default;
+
+}  // namespace dihaptic::dynamics

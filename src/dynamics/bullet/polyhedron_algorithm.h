@@ -1,0 +1,32 @@
+// Bullet's door to dynamics/polyhedron.h: the collision algorithm for pairs of boxes and hulls, and for
+// either against a plane. Contacts keep the impulses of the last step's nearest point, for warm starts.
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+
+#include <memory>
+#include <vector>
+
+#include "dynamics/polyhedron.h"
+
+namespace dihaptic::dynamics {
+
+/// Hulls with more edges than this collide by Bullet's distance algorithm: the number of edge pairs
+/// grows with the square.
+constexpr size_t kMostEdges = 64;
+
+/// Registers the algorithm. Bodies show that they are polyhedra by their user pointer: a
+/// `const Polyhedron*` in Bullet's frame of the body.
+class PolyhedronAlgorithms {
+  public:
+    /// `step` is read at each use: the coming step [s].
+    PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step);
+    ~PolyhedronAlgorithms();
+
+  private:
+    struct Create;
+    std::vector<std::unique_ptr<Create>> creators_;
+};
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,41 @@
+// Bullet's sequential-impulse solver (Catto 2005), with its working memory reserved and with its
+// iterations and residual told.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include <span>
+#include <vector>
+
+#include "contact/contact.h"
+#include "dynamics/settings.h"
+
+namespace dihaptic::dynamics {
+
+class SequentialImpulse : private btSequentialImpulseConstraintSolver {
+  public:
+    void reserve(int bodies, int contacts);
+
+    /// Changes the bodies' velocities so that the contacts hold; the manifolds keep the impulses.
+    contact::SolveStats solve(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
+                              const Settings& settings, double h, btDispatcher& dispatcher);
+
+  private:
+    void convertContacts(btPersistentManifold** manifolds, int manifold_count, const btContactSolverInfo& info) override;
+    btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
+                                  btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
+                                  int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override;
+
+    std::vector<btVector3> last_friction_;  // by contact, impulse of the last step on body 0
+    int iterations_ = 0;
+    btScalar residual_squared_ = 0;
+};
+
+/// Moves the warm-start impulses of a contact patch toward an even share. Which of a pad's four
+/// corners carries its load is undetermined when the pad cannot turn, and a sequential solver started
+/// from nothing loads the first corner alone: the held object then turns about that corner. Shares
+/// that the load does determine are restored by the solve itself.
+void even_out(btPersistentManifold& manifold);
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,315 @@
+#include "dynamics/polyhedron.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dihaptic::dynamics {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// An edge axis must separate better than the best face by this much: faces give whole patches, and
+/// near ties would flip between one point and four.
+constexpr double kFacePreference = 1e-5;  // [m]
+
+/// Polygon of fixed capacity: a face clipped by a face.
+struct Polygon {
+    std::array<Vec3, 2 * Polyhedron::kMostFaceVertices> points;
+    size_t count = 0;
+
+    void add(const Vec3& p) {
+        if (count < points.size()) points[count++] = p;
+    }
+};
+
+/// The part of `in` with n . x <= offset (Sutherland and Hodgman 1974).
+void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out) {
+    out.count = 0;
+    for (size_t i = 0; i < in.count; ++i) {
+        const Vec3& p = in.points[i];
+        const Vec3& q = in.points[(i + 1) % in.count];
+        const double dp = n.dot(p) - offset;
+        const double dq = n.dot(q) - offset;
+        if (dp <= 0) out.add(p);
+        if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) out.add(p + dp / (dp - dq) * (q - p));
+    }
+}
+
+/// Best separating face of `a` for `b`, whose vertices are given in a's frame.
+struct FaceQuery {
+    double separation = -kInfinity;
+    int face = -1;
+};
+
+FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin) {
+    FaceQuery best;
+    const Pose X_BA = X_AB.inverse();
+    for (size_t f = 0; f < a.faces.size(); ++f) {
+        // the plane in b's frame, so that b's vertices need no transform
+        const Vec3 n = X_BA.R * a.faces[f].normal;
+        const double offset = a.faces[f].offset - a.faces[f].normal.dot(X_AB.p);
+        double lowest = kInfinity;
+        for (const Vec3& v : b.vertices) lowest = std::min(lowest, n.dot(v));
+        const double separation = lowest - offset;
+        if (separation > best.separation) best = {separation, static_cast<int>(f)};
+        if (separation > margin) break;  // apart: whatever else there is does not matter
+    }
+    return best;
+}
+
+/// Best separating pair of edges, everything in a's frame.
+struct EdgeQuery {
+    double separation = -kInfinity;
+    Vec3 axis = Vec3::Zero();  ///< from a to b
+    int direction_a = -1;
+    int direction_b = -1;
+};
+
+EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin) {
+    EdgeQuery best;
+    const Pose X_BA = X_AB.inverse();
+    for (size_t i = 0; i < a.directions.size(); ++i) {
+        for (size_t j = 0; j < b.directions.size(); ++j) {
+            Vec3 axis = a.directions[i].cross(X_AB.R * b.directions[j]);
+            const double size = axis.norm();
+            if (size < 1e-4) continue;  // parallel edges: a face axis does as well
+            axis /= size;
+            double a_low = kInfinity, a_high = -kInfinity, b_low = kInfinity, b_high = -kInfinity;
+            for (const Vec3& v : a.vertices) {
+                const double d = axis.dot(v);
+                a_low = std::min(a_low, d);
+                a_high = std::max(a_high, d);
+            }
+            const Vec3 axis_B = X_BA.R * axis;
+            const double shift = axis.dot(X_AB.p);
+            for (const Vec3& v : b.vertices) {
+                const double d = axis_B.dot(v) + shift;
+                b_low = std::min(b_low, d);
+                b_high = std::max(b_high, d);
+            }
+            const double above = b_low - a_high;
+            const double below = a_low - b_high;
+            const double separation = std::max(above, below);
+            if (separation > best.separation) {
+                best = {separation, above > below ? axis : Vec3(-axis), static_cast<int>(i), static_cast<int>(j)};
+            }
+            if (separation > margin) return best;
+        }
+    }
+    return best;
+}
+
+/// The edge of that direction which lies furthest along the axis.
+const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
+    const Polyhedron::Edge* best = nullptr;
+    double furthest = -kInfinity;
+    for (const Polyhedron::Edge& edge : p.edges) {
+        if (edge.direction != direction) continue;
+        const double d = axis.dot(p.vertices[static_cast<size_t>(edge.from)] + p.vertices[static_cast<size_t>(edge.to)]);
+        if (d > furthest) {
+            furthest = d;
+            best = &edge;
+        }
+    }
+    return *best;
+}
+
+/// Keeps four points that span the patch: the deepest, the furthest from it, and those that make the
+/// largest triangles with these two, one on each side.
+void reduce(const Polygon& points, const std::array<double, 2 * Polyhedron::kMostFaceVertices>& gaps, const Vec3& n,
+            std::array<size_t, 4>& kept, int& count) {
+    if (points.count <= 4) {
+        count = static_cast<int>(points.count);
+        for (size_t i = 0; i < points.count; ++i) kept[i] = i;
+        return;
+    }
+    size_t deepest = 0;
+    for (size_t i = 1; i < points.count; ++i) {
+        if (gaps[i] < gaps[deepest] - 1e-9) deepest = i;
+    }
+    size_t furthest = deepest;
+    double most = -1;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double d = (points.points[i] - points.points[deepest]).squaredNorm();
+        if (d > most + 1e-12) {
+            most = d;
+            furthest = i;
+        }
+    }
+    const Vec3 line = points.points[furthest] - points.points[deepest];
+    size_t left = deepest, right = deepest;
+    double left_area = 0, right_area = 0;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double area = line.cross(points.points[i] - points.points[deepest]).dot(n);
+        if (area > left_area + 1e-15) {
+            left_area = area;
+            left = i;
+        }
+        if (area < right_area - 1e-15) {
+            right_area = area;
+            right = i;
+        }
+    }
+    count = 0;
+    kept[static_cast<size_t>(count++)] = deepest;
+    kept[static_cast<size_t>(count++)] = furthest;
+    if (left != deepest) kept[static_cast<size_t>(count++)] = left;
+    if (right != deepest) kept[static_cast<size_t>(count++)] = right;
+}
+
+/// Clips the face of `other` that looks at the reference face. The patch's points are (on reference,
+/// on other); its normal leaves the reference.
+void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other, const Pose& X_WO,
+                  double margin, ContactPatch& patch) {
+    const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
+    const Pose X_RO = X_WR.inverse() * X_WO;
+    const Vec3 n_O = X_RO.R.conjugate() * reference.normal;
+    size_t incident = 0;
+    double most_opposed = kInfinity;
+    for (size_t f = 0; f < other.faces.size(); ++f) {
+        const double d = other.faces[f].normal.dot(n_O);
+        if (d < most_opposed) {
+            most_opposed = d;
+            incident = f;
+        }
+    }
+    Polygon polygon;
+    for (const int v : other.faces[incident].vertices) polygon.add(X_RO * other.vertices[static_cast<size_t>(v)]);
+    Polygon clipped;
+    const std::vector<int>& loop = reference.vertices;
+    for (size_t i = 0; i < loop.size(); ++i) {
+        const Vec3& p = ref.vertices[static_cast<size_t>(loop[i])];
+        const Vec3& q = ref.vertices[static_cast<size_t>(loop[(i + 1) % loop.size()])];
+        const Vec3 side = (q - p).cross(reference.normal).normalized();
+        clip(polygon, side, side.dot(p), clipped);
+        std::swap(polygon, clipped);
+    }
+    Polygon near;
+    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps{};
+    for (size_t i = 0; i < polygon.count; ++i) {
+        const double gap = reference.normal.dot(polygon.points[i]) - reference.offset;
+        if (gap > margin) continue;
+        gaps[near.count] = gap;
+        near.add(polygon.points[i]);
+    }
+    std::array<size_t, 4> kept{};
+    reduce(near, gaps, reference.normal, kept, patch.count);
+    patch.n_W = X_WR.R * reference.normal;
+    for (int i = 0; i < patch.count; ++i) {
+        const size_t k = kept[static_cast<size_t>(i)];
+        const Vec3 on_other = X_WR * near.points[k];
+        patch.points[static_cast<size_t>(i)] = {on_other - gaps[k] * patch.n_W, on_other, gaps[k]};
+    }
+}
+
+void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB, const EdgeQuery& query,
+                  ContactPatch& patch) {
+    const Polyhedron::Edge& ea = support_edge(a, query.direction_a, query.axis);
+    const Polyhedron::Edge& eb = support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
+    const Vec3 pa = a.vertices[static_cast<size_t>(ea.from)];
+    const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
+    const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
+    const Vec3 db = X_AB * b.vertices[static_cast<size_t>(eb.to)] - pb;
+    // closest points of the two lines, kept on the edges
+    const Vec3 r = pa - pb;
+    const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
+    const double det = aa * bb - ab * ab;
+    const double s = std::clamp((ab * db.dot(r) - bb * da.dot(r)) / det, 0.0, 1.0);
+    const double t = std::clamp((aa * db.dot(r) - ab * da.dot(r)) / det, 0.0, 1.0);
+    patch.n_W = X_WA.R * query.axis;
+    patch.count = 1;
+    patch.points[0] = {X_WA * Vec3(pa + s * da), X_WA * Vec3(pb + t * db), query.separation};
+}
+
+}  // namespace
+
+Polyhedron Polyhedron::of(const scene::Hull& hull) {
+    Polyhedron out;
+    out.vertices = hull.vertices;
+    for (const std::vector<int>& loop : hull.faces) {
+        Face face;
+        face.vertices = loop;
+        // Newell's normal: robust for polygons of many vertices
+        Vec3 normal = Vec3::Zero();
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const Vec3& p = out.vertices[static_cast<size_t>(loop[i])];
+            const Vec3& q = out.vertices[static_cast<size_t>(loop[(i + 1) % loop.size()])];
+            normal += p.cross(q);
+            const int from = loop[i];
+            const int to = loop[(i + 1) % loop.size()];
+            if (from < to) out.edges.push_back({from, to, 0});
+        }
+        face.normal = normal.normalized();
+        face.offset = face.normal.dot(out.vertices[static_cast<size_t>(loop.front())]);
+        out.faces.push_back(std::move(face));
+    }
+    for (Edge& edge : out.edges) {
+        const Vec3 d = (out.vertices[static_cast<size_t>(edge.to)] - out.vertices[static_cast<size_t>(edge.from)]).normalized();
+        const auto same = std::find_if(out.directions.begin(), out.directions.end(),
+                                       [&](const Vec3& known) { return known.cross(d).norm() < 1e-6; });
+        edge.direction = static_cast<int>(same - out.directions.begin());
+        if (same == out.directions.end()) out.directions.push_back(d);
+    }
+    return out;
+}
+
+Polyhedron Polyhedron::box(const Vec3& size) {
+    scene::Hull hull;
+    for (int i = 0; i < 8; ++i) {
+        hull.vertices.push_back(size.cwiseProduct(Vec3(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5)));
+    }
+    hull.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    return of(hull);
+}
+
+ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
+                     double margin) noexcept {
+    ContactPatch patch;
+    const Pose X_AB = X_WA.inverse() * X_WB;
+    const FaceQuery on_a = query_faces(a, b, X_AB, margin);
+    if (on_a.separation > margin) return patch;
+    const FaceQuery on_b = query_faces(b, a, X_AB.inverse(), margin);
+    if (on_b.separation > margin) return patch;
+    const EdgeQuery edges = query_edges(a, b, X_AB, margin);
+    if (edges.separation > margin) return patch;
+
+    if (edges.separation > std::max(on_a.separation, on_b.separation) + kFacePreference) {
+        edge_contact(a, X_WA, b, X_AB, edges, patch);
+    } else if (on_a.separation + kFacePreference >= on_b.separation) {
+        face_contact(a, X_WA, on_a.face, b, X_WB, margin, patch);
+    } else {
+        face_contact(b, X_WB, on_b.face, a, X_WA, margin, patch);
+        patch.n_W = -patch.n_W;
+        for (int i = 0; i < patch.count; ++i) {
+            ContactPoint& point = patch.points[static_cast<size_t>(i)];
+            std::swap(point.p_WA, point.p_WB);
+        }
+    }
+    return patch;
+}
+
+ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB, double margin) noexcept {
+    ContactPatch patch;
+    patch.n_W = X_WA.R * Vec3::UnitZ();
+    const double offset = patch.n_W.dot(X_WA.p);
+    // the face that looks down, as a patch; a round hull's face may miss its lowest vertex, a corner's may not
+    Polygon near;
+    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps{};
+    for (const Vec3& vertex : b.vertices) {
+        const Vec3 p = X_WB * vertex;
+        const double gap = patch.n_W.dot(p) - offset;
+        if (gap > margin) continue;
+        if (near.count == near.points.size()) break;
+        gaps[near.count] = gap;
+        near.add(p);
+    }
+    std::array<size_t, 4> kept{};
+    reduce(near, gaps, patch.n_W, kept, patch.count);
+    for (int i = 0; i < patch.count; ++i) {
+        const size_t k = kept[static_cast<size_t>(i)];
+        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W, near.points[k], gaps[k]};
+    }
+    return patch;
+}
+
+}  // namespace dihaptic::dynamics

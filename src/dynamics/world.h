@@ -1,0 +1,91 @@
+// The World: rigid bodies under gravity, contact and friction. One step is
+//
+//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      everything but contacts, on the velocities
+//     find contacts; solve for contact impulses           velocities now obey contact and friction
+//     x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
+//
+// so that the solver's friction sees all of the step's loads (applied torques too, which Bullet's own
+// order hides from it). Bodies that are at rest and touch nothing that moves sleep: they cost nothing
+// and stay exactly where they are (sleep.h).
+//
+// Set-up may allocate and throw; after activate() a step does neither.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "contact/contact.h"
+#include "dynamics/settings.h"
+#include "scene/scene.h"
+
+namespace dihaptic::dynamics {
+
+using contact::BodyIndex;
+
+struct BodyState {
+    Pose X_WB;
+    Vec3 v_WB = Vec3::Zero();  ///< of B's origin [m/s]
+    Vec3 w_WB = Vec3::Zero();  ///< angular velocity [rad/s]
+    bool awake = true;         ///< false: asleep or fixed; the state does not change
+};
+
+/// What a step could not do as asked.
+enum class StepStatus : unsigned {
+    ok = 0,
+    contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts() leaves
+                              ///< the rest out. Raise dynamics.max_contacts.
+};
+
+class World {
+  public:
+    /// All bodies of the scene, at their initial poses.
+    World(const scene::Scene& scene, const Settings& settings);
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Adds a finger's proxy at a position. Gravity does not act on it and it does not turn.
+    BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP);
+    /// Reserves all memory that steps need.
+    void activate();
+
+    int size() const;         ///< number of bodies, proxies included
+    int scene_size() const;   ///< number of bodies of the scene: indices below this one
+    BodyIndex find(const std::string& name) const;
+    const std::string& name(BodyIndex body) const;
+    /// Coefficient of friction between two bodies.
+    double friction(BodyIndex a, BodyIndex b) const;
+
+    /// States after the last step.
+    std::span<const BodyState> states() const { return states_; }
+    const BodyState& state(BodyIndex body) const { return states_[static_cast<size_t>(body.value)]; }
+    /// Bodies that took part in the last step: all others are where they were.
+    std::span<const size_t> stepped() const;
+    /// Contacts of the last step, those of sleeping bodies left out.
+    std::span<const contact::Contact> contacts() const { return contacts_; }
+    const contact::SolveStats& solve_stats() const { return stats_; }
+    double mass(BodyIndex body) const;
+    const Vec3& gravity() const { return gravity_; }
+
+    /// The mass that the next steps see [kg].
+    void set_mass(BodyIndex body, double mass) noexcept;
+    void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
+    /// Puts a body somewhere else, at rest.
+    void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
+    /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].
+    void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
+
+    /// Steps by h [s].
+    StepStatus step(double h) noexcept;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+    std::vector<BodyState> states_;
+    std::vector<contact::Contact> contacts_;
+    contact::SolveStats stats_;
+    Vec3 gravity_;
+};
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,61 @@
+// The experiment file (docs/files.md): which scene, on which rig, moved by which hand.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hand/movement.h"
+#include "hand/spec.h"
+#include "servo/settings.h"
+
+namespace dihaptic::experiment {
+
+/// A recorded movement that pulls the simulated fingers, and the block that stands where they closed.
+struct MovementSpec {
+    std::string file;                ///< CSV, relative to the experiment file; --movement replaces it
+    hand::RecordingAxes axes = hand::RecordingAxes::world;
+    std::string block;               ///< a box of the scene: turned and sized to stand between the fingers
+    double squeeze = 0.006;          ///< each recorded finger goes so far beyond the block's face [m]
+    std::optional<double> width;     ///< of the block along the grasp; unset: from aperture and squeeze [m]
+    std::optional<double> grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("file", file);
+        v("axes", axes, Field::text().required());
+        v("block", block, Field::text().required());
+        v("squeeze", squeeze, Field::length().at_least(0));
+        v("width", width, Field::length().positive());
+        v("grasp_at", grasp_at, Field::of(Quantity::time).at_least(0));
+    }
+};
+
+struct Experiment {
+    std::string title;
+    std::string scene;                     ///< file, relative to this one
+    std::string rig;                       ///< file, relative to this one; empty: ideal simulated devices
+    std::optional<hand::HandSpec> hand;    ///< in place of the scene's
+    std::optional<MovementSpec> movement;
+    Node settings;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("title", title);
+        v("scene", scene, Field::text().required());
+        v("rig", rig);
+        v("hand", hand);
+        v("movement", movement);
+        v("settings", settings);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Reads an experiment file, without the files that it names. Problems go to `diagnostics`.
+Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
+
+enum class FileKind { scene, rig, experiment, movement, unknown };
+/// What a file is, from its name and its keys. Throws Error when it cannot be read.
+FileKind kind_of(const std::string& file);
+
+}  // namespace dihaptic::experiment

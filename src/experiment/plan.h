@@ -1,0 +1,49 @@
+// A plan is everything that a session needs, read, resolved and checked: nothing is left to go wrong
+// for lack of a file once a person holds the devices.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "experiment/movement.h"
+#include "hand/script.h"
+#include "rig/rig.h"
+#include "scene/scene.h"
+#include "servo/servo.h"
+
+namespace dihaptic::experiment {
+
+/// What the user asked for.
+struct Request {
+    std::string file;                 ///< a scene or an experiment
+    std::string rig;                  ///< in place of the experiment's
+    std::string movement;             ///< in place of the experiment's
+    std::vector<std::string> set;     ///< "coupling.stiffness_N_m=600": settings from the command line
+    uint64_t seed = 1;
+};
+
+struct Plan {
+    std::string title;
+    std::string file;
+    scene::Scene scene;
+    rig::Rig rig;
+    servo::Settings settings;
+    Origins origins;
+    hand::HandSpec hand;
+    std::shared_ptr<const hand::Driver> driver;  ///< shared with the devices that it moves
+    std::optional<MovementReport> movement;
+    std::vector<Problem> warnings;
+    uint64_t seed = 1;
+};
+
+/// Reads and checks. Throws Error with every problem found.
+Plan make_plan(const Request& request);
+
+/// Servo on the plan's rig.
+std::unique_ptr<servo::Servo> make_servo(const Plan& plan);
+
+/// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
+/// Returns what the file is, in words.
+std::string check_file(const std::string& file, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::experiment

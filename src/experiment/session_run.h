@@ -1,0 +1,50 @@
+// Runs a plan as a session: from the first tick to a folder with its raw log, complete or not.
+#pragma once
+
+#include <atomic>
+
+#include "experiment/plan.h"
+#include "recording/recorder.h"
+#include "recording/session.h"
+#include "servo/run.h"
+
+namespace dihaptic::experiment {
+
+enum class Clock { virtual_clock, real };
+
+struct RunOptions {
+    Clock clock = Clock::virtual_clock;
+    std::string out = "sessions";       ///< folder that session folders are made in
+    std::string command;                ///< as typed, for the record
+    recording::Participant participant;
+};
+
+struct RunResult {
+    std::string folder;
+    bool interrupted = false;
+    double simulated = 0;   ///< session time reached [s]
+    double elapsed = 0;     ///< wall time of the ticks [s]
+    int64_t ticks = 0;
+    int64_t dropped = 0;    ///< frames that the recorder could not take
+    int64_t overruns = 0;
+    servo::TickTimes tick_times;
+};
+
+/// Share of the session done, from 0 to 1; called about ten times a second of wall time.
+using Progress = std::function<void(double share)>;
+
+/// Runs to the end of the driver's movement, or until `stop`. Throws Error when the disk gives up; what
+/// was written stays and can be recovered.
+RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop, const Progress& progress);
+
+/// A replay, compared tick by tick with what was recorded.
+struct ReplayResult {
+    int64_t ticks = 0;
+    int64_t different_ticks = 0;   ///< any force or position that differs in any bit
+    double first_difference = -1;  ///< session time [s]
+    double elapsed = 0;
+};
+/// Re-runs a session from the device input in its raw log. Throws Error when it cannot.
+ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop, const Progress& progress);
+
+}  // namespace dihaptic::experiment

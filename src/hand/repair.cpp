@@ -1,0 +1,263 @@
+#include "hand/repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/field.h"
+#include "model/butterworth.h"
+
+namespace dihaptic::hand {
+namespace {
+
+constexpr double kGap = 1.75;          // frames further apart than this many frame times: some are missing
+constexpr size_t kFrozenRun = 5;       // as many equal positions in a row, and then a step: frozen
+constexpr double kFrozenStep = 0.003;  // [m]
+constexpr size_t kWildRun = 5;         // a wild position may last so many frames
+
+double frame_time(const Movement& movement) {
+    std::vector<double> steps;
+    for (size_t i = 1; i < movement.frames.size(); ++i) steps.push_back(movement.frames[i].time - movement.frames[i - 1].time);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    return steps[steps.size() / 2];
+}
+
+/// Judges one finger's positions frame by frame.
+class FingerRepair {
+  public:
+    FingerRepair(const Movement& movement, int finger, double frame)
+        : movement_(movement), finger_(finger), frame_(frame), valid_(movement.frames.size(), true) {}
+
+    void run(std::vector<Fault>& faults) {
+        drop_missing(faults);
+        drop_frozen(faults);
+        drop_wild(faults);
+        widen_jumps(faults);
+    }
+    const std::vector<char>& valid() const { return valid_; }
+
+  private:
+    const Vec3& at(size_t i) const { return movement_.frames[i].p_WH[static_cast<size_t>(finger_)]; }
+    double time(size_t i) const { return movement_.frames[i].time; }
+    bool plausible(size_t a, size_t b) const {
+        return (at(b) - at(a)).norm() <= kMaxSpeed * (time(b) - time(a) + frame_);
+    }
+    size_t next_valid(size_t i) const {
+        do ++i;
+        while (i < valid_.size() && !valid_[i]);
+        return i;
+    }
+    /// The last valid frame before i, or i itself when there is none.
+    size_t last_valid(size_t i) const {
+        for (size_t j = i; j > 0; --j) {
+            if (valid_[j - 1]) return j - 1;
+        }
+        return i;
+    }
+    void report(std::vector<Fault>& faults, FaultKind kind, size_t first, size_t end, bool wrong_unit = false) const {
+        Fault fault;
+        fault.kind = kind;
+        fault.finger = finger_;
+        fault.line = movement_.frames[first].line;
+        const size_t before = last_valid(first);
+        const size_t after = std::min(end, valid_.size() - 1);
+        fault.start = time(before);
+        fault.end = time(after);
+        fault.distance = (at(after) - at(before)).norm();
+        fault.wrong_unit = wrong_unit;
+        faults.push_back(fault);
+    }
+
+    void drop_missing(std::vector<Fault>& faults) {
+        for (size_t i = 0; i < valid_.size(); ++i) valid_[i] = at(i).allFinite();
+        for (size_t i = 0; i < valid_.size(); ++i) {
+            if (valid_[i] || (i > 0 && !valid_[i - 1])) continue;
+            size_t end = next_valid(i);
+            report(faults, FaultKind::missing_marker, i, end);
+        }
+    }
+
+    /// A lost marker repeats its last position; the tracker may or may not say so.
+    void drop_frozen(std::vector<Fault>& faults) {
+        for (size_t i = 0; i + 1 < valid_.size();) {
+            size_t end = i + 1;
+            bool told = false;
+            for (; end < valid_.size() && valid_[i] && at(end) == at(i); ++end) {
+                if (movement_.frames[end].occluded) told = true;
+            }
+            const size_t run = end - i;
+            const bool steps_after = end < valid_.size() && valid_[end] && (at(end) - at(i)).norm() > kFrozenStep;
+            if (run > 1 && (told || (run >= kFrozenRun && steps_after))) {
+                for (size_t j = i + 1; j < end; ++j) valid_[j] = false;
+                report(faults, FaultKind::frozen_marker, i + 1, end);
+            }
+            i = std::max(end, i + 1);
+        }
+    }
+
+    /// Positions that no hand could have reached, and that the next frames take back.
+    void drop_wild(std::vector<Fault>& faults) {
+        for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
+            const size_t before = last_valid(i);
+            if (before == i || plausible(before, i)) continue;
+            size_t back = i;
+            for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
+                back = next_valid(back);
+                if (back < valid_.size() && plausible(before, back)) break;
+            }
+            if (back >= valid_.size() || !plausible(before, back)) continue;
+            const bool thousandth = at(i).norm() < 2e-3 * at(before).norm() && at(i).norm() > 0.5e-3 * at(before).norm();
+            for (size_t j = i; j < back; ++j) valid_[j] = false;
+            report(faults, FaultKind::wild_position, i, back, thousandth);
+        }
+    }
+
+    /// A step from one place to another: give it time, frame by frame on both sides.
+    void widen_jumps(std::vector<Fault>& faults) {
+        for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
+            size_t before = last_valid(i);
+            if (before == i || plausible(before, i)) continue;
+            const size_t first = i;
+            size_t after = i;
+            while ((at(after) - at(before)).norm() > kBridgeSpeed * (time(after) - time(before))) {
+                const size_t wider_after = next_valid(after);
+                const size_t wider_before = last_valid(before);
+                if (wider_after >= valid_.size() && wider_before == before) break;
+                if (wider_after < valid_.size()) {
+                    valid_[after] = false;
+                    after = wider_after;
+                }
+                if (wider_before != before) {
+                    valid_[before] = false;
+                    before = wider_before;
+                }
+            }
+            report(faults, FaultKind::jump, first, after);
+            i = after;
+        }
+    }
+
+    const Movement& movement_;
+    int finger_;
+    double frame_;
+    std::vector<char> valid_;
+};
+
+/// Monotone cubic interpolation (Fritsch and Carlson 1980): never overshoots its samples.
+class MonotoneCubic {
+  public:
+    MonotoneCubic(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0) {
+        const size_t n = x_.size();
+        std::vector<double> h(n - 1), d(n - 1);
+        for (size_t i = 0; i + 1 < n; ++i) {
+            h[i] = x_[i + 1] - x_[i];
+            d[i] = (y_[i + 1] - y_[i]) / h[i];
+        }
+        for (size_t i = 1; i + 1 < n; ++i) {
+            if (d[i - 1] * d[i] <= 0) continue;
+            const double w1 = 2 * h[i] + h[i - 1];
+            const double w2 = h[i] + 2 * h[i - 1];
+            slope_[i] = (w1 + w2) / (w1 / d[i - 1] + w2 / d[i]);
+        }
+    }
+    double operator()(double x) const {
+        if (x <= x_.front()) return y_.front();
+        if (x >= x_.back()) return y_.back();
+        const auto i = static_cast<size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
+        const double h = x_[i + 1] - x_[i];
+        const double s = (x - x_[i]) / h;
+        const double s2 = s * s;
+        const double s3 = s2 * s;
+        return (2 * s3 - 3 * s2 + 1) * y_[i] + (s3 - 2 * s2 + s) * h * slope_[i] + (3 * s2 - 2 * s3) * y_[i + 1] +
+               (s3 - s2) * h * slope_[i + 1];
+    }
+
+  private:
+    std::vector<double> x_, y_, slope_;
+};
+
+void find_gaps(const Movement& movement, double frame, std::vector<Fault>& faults) {
+    for (size_t i = 1; i < movement.frames.size(); ++i) {
+        const Movement::Frame& a = movement.frames[i - 1];
+        const Movement::Frame& b = movement.frames[i];
+        if (b.time - a.time <= kGap * frame) continue;
+        Fault fault;
+        fault.start = a.time;
+        fault.end = b.time;
+        fault.line = b.line;
+        for (size_t f = 0; f < a.p_WH.size(); ++f) {
+            if (a.p_WH[f].allFinite() && b.p_WH[f].allFinite()) {
+                fault.distance = std::max(fault.distance, (b.p_WH[f] - a.p_WH[f]).norm());
+            }
+        }
+        faults.push_back(fault);
+    }
+}
+
+}  // namespace
+
+double Path::bridged_share() const {
+    if (bridged.empty()) return 0;
+    return static_cast<double>(std::count(bridged.begin(), bridged.end(), char{1})) / static_cast<double>(bridged.size());
+}
+
+Path repair(const Movement& movement) {
+    Path path;
+    path.fingers = movement.fingers;
+    const double frame = frame_time(movement);
+    const double t0 = movement.frames.front().time;
+    const double t1 = movement.frames.back().time;
+    const auto samples = static_cast<size_t>(std::floor((t1 - t0) * Path::kRate)) + 1;
+    path.bridged.assign(samples, 0);
+    find_gaps(movement, frame, path.faults);
+
+    for (size_t f = 0; f < movement.fingers.size(); ++f) {
+        FingerRepair finger(movement, static_cast<int>(f), frame);
+        finger.run(path.faults);
+        std::vector<double> times;
+        std::array<std::vector<double>, 3> values;
+        for (size_t i = 0; i < movement.frames.size(); ++i) {
+            if (!finger.valid()[i]) continue;
+            times.push_back(movement.frames[i].time - t0);
+            for (size_t axis = 0; axis < 3; ++axis) values[axis].push_back(movement.frames[i].p_WH[f][static_cast<int>(axis)]);
+        }
+        if (times.size() < 4) {
+            throw Error({movement.file, 0}, movement.fingers[f], "fewer than four frames are usable",
+                        "Record this movement again.");
+        }
+        // what lies between frames that are too far apart is bridged, at the ends too
+        const auto mark = [&](double from, double to) {
+            const auto first = static_cast<size_t>(std::max(0.0, std::ceil(from * Path::kRate)));
+            for (size_t s = first; s < samples && static_cast<double>(s) / Path::kRate < to; ++s) path.bridged[s] = 1;
+        };
+        if (times.front() > 0) mark(0, times.front());
+        for (size_t i = 1; i < times.size(); ++i) {
+            if (times[i] - times[i - 1] > kGap * frame) mark(times[i - 1], times[i]);
+        }
+        if (times.back() < t1 - t0) mark(times.back(), t1 - t0 + 1);
+
+        std::vector<Vec3>& out = path.p_WH.emplace_back(samples);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const MonotoneCubic curve(times, values[axis]);
+            std::vector<double> sampled(samples);
+            for (size_t s = 0; s < samples; ++s) sampled[s] = curve(static_cast<double>(s) / Path::kRate);
+            sampled = model::low_pass(sampled, kSmoothing, Path::kRate);
+            for (size_t s = 0; s < samples; ++s) out[s][static_cast<int>(axis)] = sampled[s];
+        }
+    }
+    std::stable_sort(path.faults.begin(), path.faults.end(),
+                     [](const Fault& a, const Fault& b) { return a.start < b.start; });
+    return path;
+}
+
+std::string describe(const Fault& fault, const std::vector<std::string>& fingers) {
+    const std::string who = fault.finger < 0 ? "" : fingers[static_cast<size_t>(fault.finger)] + ": ";
+    std::string text = fmt::format("{:.3f} to {:.3f} s (line {}): {}{}, {:.0f} ms, {:.1f} mm apart", fault.start,
+                                   fault.end, fault.line, who, enum_name(fault.kind), (fault.end - fault.start) * 1e3,
+                                   fault.distance * 1e3);
+    if (fault.wrong_unit) text += "; its values are a thousandth of their neighbours': metres? multiply them by 1000";
+    return text;
+}
+
+}  // namespace dihaptic::hand

@@ -1,0 +1,94 @@
+// How the simulated hand is described in scene and experiment files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+
+namespace dihaptic::hand {
+
+/// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The spring
+/// stiffens with the force that the finger feels, as muscle does.
+struct Impedance {
+    double mass = 0;                ///< added to the device's [kg]
+    double stiffness = 300;         ///< [N/m]
+    double damping = 3;             ///< [N*s/m]
+    double stiffness_per_force = 0; ///< rise of the stiffness per newton of force felt [1/m]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("mass", mass, Field::of(Quantity::mass).at_least(0));
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
+        v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("stiffness_per_force", stiffness_per_force, Field::of(Quantity::stiffness_per_force).at_least(0));
+    }
+};
+
+/// Physiological tremor of the equilibrium point: one sine per axis, of a frequency and phase drawn
+/// once from the band, at the same amplitude.
+struct TremorSpec {
+    double amplitude = 0;  ///< per axis [m]
+    double low = 8;        ///< band [Hz]
+    double high = 10;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("amplitude", amplitude, Field::length().at_least(0));
+        v("low", low, Field::of(Quantity::frequency).positive());
+        v("high", high, Field::of(Quantity::frequency).positive());
+    }
+};
+
+/// Where a finger is in the hand: on which side of the hand's centre, and how far off.
+struct FingerPlace {
+    std::string name;
+    Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
+    Vec3 offset = Vec3::Zero();  ///< added in world axes [m]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("side", side);
+        v("offset", offset, Field::length());
+    }
+};
+
+/// One step of a script: the hand goes from where the last step left it, by minimum jerk.
+struct ScriptStep {
+    std::string name;
+    double duration = 0;             ///< [s]
+    std::optional<double> aperture;  ///< at the end: twice each finger's distance from the centre [m]
+    Vec3 move = Vec3::Zero();        ///< of the centre [m]
+    bool steady = false;             ///< constant speed instead of minimum jerk
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("duration", duration, Field::of(Quantity::time).positive().required());
+        v("aperture", aperture, Field::length());
+        v("move", move, Field::length());
+        v("steady", steady);
+    }
+};
+
+struct HandSpec {
+    Impedance impedance;
+    TremorSpec tremor;
+    Vec3 centre = Vec3::Zero();  ///< at the start [m]
+    double aperture = 0.1;       ///< at the start [m]
+    std::vector<FingerPlace> fingers;  ///< empty: thumb at -x and index at +x
+    std::vector<ScriptStep> script;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("impedance", impedance);
+        v("tremor", tremor);
+        v("centre", centre, Field::length());
+        v("aperture", aperture, Field::length().at_least(0));
+        v("fingers", fingers);
+        v("script", script);
+    }
+};
+
+}  // namespace dihaptic::hand

@@ -1,0 +1,50 @@
+// What an experiment may choose about haptic rendering.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "base/field.h"
+
+namespace dihaptic::haptics {
+
+enum class CouplingKind { implicit, dual_spring };
+constexpr auto enum_names(CouplingKind) { return std::array{"implicit", "dual_spring"}; }
+
+/// How a handle and its proxy pull at each other; equations in README.md.
+struct CouplingSettings {
+    CouplingKind kind = CouplingKind::implicit;
+    double stiffness = 1000;        ///< k [N/m]
+    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
+
+    // dual spring only
+    double body_damping_along = 0.5;   ///< c_b,par: along the line from handle to proxy [N*s/m]
+    double body_damping_across = 0.5;  ///< c_b,perp: across it [N*s/m]
+    double free_stiffening = 10;       ///< k_b over k while the proxy touches nothing
+    double smoothing = 0.2;            ///< alpha: share of the new force in the force sent; 1: no smoothing
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind);
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
+        v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("body_damping_along", body_damping_along, Field::of(Quantity::damping).at_least(0));
+        v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
+        v("free_stiffening", free_stiffening, Field::number().at_least(1));
+        v("smoothing", smoothing, Field::number().positive().at_most(1));
+    }
+};
+
+/// What no force may exceed, whatever computed it.
+struct SafetySettings {
+    std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force
+    double max_force_rate = 3000;     ///< change of force, magnitude [N/s]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("max_force", max_force, Field::of(Quantity::force).positive());
+        v("max_force_rate", max_force_rate, Field::of(Quantity::force_rate).positive());
+    }
+};
+
+}  // namespace dihaptic::haptics

@@ -1,0 +1,35 @@
+// `dihaptic bench friction`: definitions in docs/measures.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/grasp.h"
+
+namespace dihaptic::measure {
+
+struct FrictionFigures {
+    dynamics::Solver solver{};
+    double drift_mm = 0;
+    double accel_error = 0;
+    double direction_error_deg = 0;
+    double stack_drift_mm = 0;
+    std::optional<double> cards_drift_mm;  ///< nothing: it fell
+    std::optional<double> arch_drift_mm;   ///< nothing: it fell
+    double creep_mm = 0;
+};
+
+/// All figures of one solver.
+FrictionFigures bench_friction(const dynamics::Settings& settings, const Progress& progress);
+
+/// Scenes of the bench, for tests too.
+scene::Scene incline_scene(double slope, double turn, double friction);
+scene::Scene stack_scene(int blocks);
+scene::Scene cards_scene(int storeys);
+scene::Scene arch_scene(int voussoirs);
+
+std::string to_json(const std::vector<FrictionFigures>& figures);
+std::string to_table(const std::vector<FrictionFigures>& figures);
+
+}  // namespace dihaptic::measure

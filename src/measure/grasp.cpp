@@ -1,0 +1,283 @@
+#include "measure/grasp.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "model/grasp.h"
+#include "model/minimum_jerk.h"
+
+namespace dihaptic::measure {
+namespace {
+
+constexpr std::array kCalmList{100, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 3000, 4000, 5000, 6000, 8000};
+constexpr double kLastSeconds = 3;  // of the hold: what is judged there has settled
+constexpr double kGravity = 9.81;
+
+double degrees(double rad) { return rad * 180 / std::numbers::pi; }
+
+Setup with(Setup setup, double k, Fingering fingering = Fingering::ideal, Row row = Row::ideal) {
+    setup.settings.coupling.stiffness = k;
+    setup.fingering = fingering;
+    setup.row = row;
+    return setup;
+}
+
+/// A spring of the same K that pushes at every instant, sampled by nothing: the best that the kick can be.
+double perfect_peak(double k, double speed) {
+    const double h = 1e-6;
+    const double mass = 0.075;
+    const double damping = 3;
+    double x = -kStartGap, v = 0, peak = 0;
+    const double end = kStartGap + kSqueeze;
+    for (double t = 0; t < end / speed + 1; t += h) {
+        const bool running = speed * t < end;
+        const double target = -kStartGap + std::min(speed * t, end);
+        const double push = x > 0 ? k * x : 0;
+        peak = std::max(peak, push);
+        v += h / mass * (kHandStiffness * (target - x) + damping * ((running ? speed : 0) - v) - push);
+        x += h * v;
+    }
+    return peak;
+}
+
+}  // namespace
+
+HoldFigures measure_hold(const Setup& setup) {
+    Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
+    analysis::GraspTrace trace(1, setup.settings.tick());
+    bench.run([&](const servo::Frame& frame) { trace.add(frame); });
+
+    const analysis::Range lift = trace.of_phase(kRise);
+    const analysis::Range hold = trace.of_phase(kHold);
+    const double end = bench.driver().phases()[kHold].end;
+    const analysis::Range settled = trace.between(end - kLastSeconds, end);
+    const double k = setup.settings.coupling.stiffness;
+
+    HoldFigures out;
+    out.k = k;
+    out.fingering = setup.fingering;
+    const size_t lift_off = trace.lift_off();
+    const double risen = trace.samples()[hold.first].X_WB.p.z() - kBlockSize / 2;
+    out.held = trace.all_touching({lift_off, hold.last}) && risen >= 0.09 && trace.sag(hold) > -0.001;
+    out.lift_slip_mm = trace.slip(lift) * 1e3;
+    out.slip_mm = trace.slip(hold) * 1e3;
+    out.z_rms_um = trace.height_rms(settled) * 1e6;
+    out.z_pp_um = trace.height_range(settled) * 1e6;
+    out.tilt_rms_deg = degrees(trace.axis_tilt_rms(settled));
+    out.turn_deg = degrees(trace.turn(hold));
+    out.hf_force_n = trace.force_above_5_hz(settled);
+    out.weight_ratio = trace.weight_felt(settled) / (setup.mass * kGravity);
+    out.grip_ratio = trace.mean_grip(settled) / model::series_spring_force(kSqueeze, kHandStiffness, k);
+    return out;
+}
+
+bool calm_grasp(const HoldFigures& hold) {
+    return hold.held && hold.hf_force_n < 0.02 && std::abs(hold.weight_ratio - 1) < 0.005 &&
+           std::abs(hold.grip_ratio - 1) < 0.02;
+}
+
+bool calm_wall(const Setup& setup) {
+    Bench bench(wall_scene(setup), wall_hand(setup), setup);
+    analysis::GraspTrace trace(-1, setup.settings.tick());
+    bench.run([&](const servo::Frame& frame) { trace.add(frame); });
+    const double end = bench.driver().duration();
+    const analysis::Range settled = trace.between(end - kLastSeconds, end);
+    const double expected =
+        model::series_spring_force(kSqueeze, kHandStiffness, setup.settings.coupling.stiffness);
+    return trace.force_above_5_hz(settled) < 0.02 && std::abs(trace.mean_force(settled) / expected - 1) < 0.02;
+}
+
+KickFigures measure_kick(Setup setup, double speed) {
+    hand::HandSpec hand = wall_hand(setup);
+    const double way = kStartGap + kSqueeze;
+    hand.script = {{"press", way / speed, {}, {way, 0, 0}, true},
+                   {"stay", 1, {}, Vec3::Zero(), false},
+                   {"leave", way / speed, {}, {-way, 0, 0}, true},
+                   {"away", 0.2, {}, Vec3::Zero(), false}};
+    Bench bench(wall_scene(setup), hand, setup);
+    KickFigures out;
+    out.k = setup.settings.coupling.stiffness;
+    out.speed = speed;
+    double peak = 0;
+    double first_force = 0;
+    double first_depth = 0;
+    int ticks_since_touch = -1;
+    bench.run([&](const servo::Frame& frame) {
+        const servo::FingerFrame& finger = frame.fingers[0];
+        const double push = -finger.f_sent_W.x();
+        const double depth = finger.p_WH.x() + kPadThickness / 2;
+        if (frame.phase < 2) {
+            peak = std::max(peak, push);
+            if (ticks_since_touch >= 0) ++ticks_since_touch;
+            if (ticks_since_touch < 0 && finger.normal_force > 0) {
+                ticks_since_touch = 0;
+                first_force = push;
+                first_depth = depth;
+            } else if (ticks_since_touch == 1) {
+                first_depth = std::max(first_depth, depth);  // reached while the first force was held
+            }
+        } else {
+            out.leave_pull_n = std::max(out.leave_pull_n, -push);
+        }
+    });
+    out.kick_ratio = peak / perfect_peak(out.k, speed);
+    out.touch_step_n = std::max(0.0, first_force - out.k * first_depth);
+    return out;
+}
+
+double measure_drag(const Setup& setup) {
+    scene::Scene scene = wall_scene(setup);
+    scene.bodies[0].position.x() += 10;
+    const double way = 0.2;
+    hand::HandSpec hand;
+    hand.script = {{"move", model::kMinimumJerkPeak * way / 0.5, {}, {0, way, 0}, false},
+                   {"rest", 0.2, {}, Vec3::Zero(), false}};
+    Bench bench(scene, hand, setup);
+    double peak = 0;
+    bench.run([&](const servo::Frame& frame) { peak = std::max(peak, frame.fingers[0].f_sent_W.norm()); });
+    return peak;
+}
+
+std::pair<double, double> measure_torque(const Setup& setup) {
+    Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
+    analysis::GraspTrace trace(1, setup.settings.tick());
+    const double begin = bench.driver().phases()[kHold].start + 2;
+    const double tick = setup.settings.tick();
+    const dynamics::BodyIndex block{1};
+    bench.run([&](const servo::Frame& frame) { trace.add(frame); },
+              [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+                  const double now = static_cast<double>(last.sequence + 1) * tick;
+                  if (now >= begin - tick / 2 && now < begin + 0.2 - tick / 2) {
+                      commands.load({block, Vec3::Zero(), Vec3(0.02, 0, 0)});
+                  }
+              });
+    const size_t start = trace.between(begin, begin).first - 1;
+    const size_t end = trace.between(begin + 0.2, begin).first - 1;
+    const size_t after = trace.between(begin + 1.2, begin).first - 1;
+    return {degrees(std::abs(trace.turn_at(start, end))), degrees(std::abs(trace.turn_at(start, after)))};
+}
+
+double highest_calm(const std::function<bool(double k)>& calm) {
+    double highest = 0;
+    for (const int k : kCalmList) {
+        if (!calm(k)) break;
+        highest = k;
+    }
+    return highest;
+}
+
+GraspFigures bench_grasp(const Setup& base, const Progress& progress) {
+    GraspFigures out;
+    out.damping_per_k = haptics::damping(with(base, 1).settings.coupling, base.settings.step());
+    constexpr std::array kHoldK{300.0, 600.0, 1000.0, 2000.0, 4000.0};
+    const double steps = 3 * kHoldK.size() + 4 + 6 + 9 + 2;
+    double done = 0;
+    const auto say = [&](const std::string& what) {
+        if (progress) progress(what, done++ / steps);
+    };
+    for (const Fingering fingering : {Fingering::ideal, Fingering::real, Fingering::off_centre}) {
+        for (const double k : kHoldK) {
+            say(fmt::format("hold, {} fingering, K {}", enum_name(fingering), k));
+            out.hold.push_back(measure_hold(with(base, k, fingering)));
+        }
+    }
+    for (const double k : {300.0, 600.0, 1000.0, 2000.0}) {
+        say(fmt::format("slow dynamics, K {}", k));
+        Setup slow = with(base, k);
+        slow.settings.dynamics.every = 10;
+        const HoldFigures hold = measure_hold(slow);
+        out.slow_dynamics.push_back({k, hold.held, hold.slip_mm, hold.hf_force_n});
+    }
+    const auto calm = [&](Row row) {
+        say("calm stiffness of a held block");
+        return highest_calm([&](double k) { return calm_grasp(measure_hold(with(base, k, Fingering::offset, row))); });
+    };
+    const auto wall = [&](Row row) {
+        say("calm stiffness of a wall");
+        return highest_calm([&](double k) { return calm_wall(with(base, k, Fingering::ideal, row)); });
+    };
+    out.calm_k = calm(Row::ideal);
+    out.calm_k_delay = calm(Row::delay);
+    out.calm_k_premium = calm(Row::premium);
+    out.wall_k = wall(Row::ideal);
+    out.wall_k_delay = wall(Row::delay);
+    out.wall_k_premium = wall(Row::premium);
+    say("torque");
+    std::tie(out.torque_turn_deg, out.torque_turn_after_deg) = measure_torque(with(base, 1000));
+    for (const double k : {300.0, 1000.0, 2000.0}) {
+        for (const double speed : {0.1, 0.3, 0.5}) {
+            say(fmt::format("touch at {} m/s, K {}", speed, k));
+            out.kick.push_back(measure_kick(with(base, k), speed));
+        }
+    }
+    say("drag");
+    out.drag_n = measure_drag(base);
+    return out;
+}
+
+std::string to_json(const GraspFigures& figures, const Setup& setup) {
+    nlohmann::ordered_json out;
+    out["coupling"] = enum_name(setup.settings.coupling.kind);
+    out["solver"] = enum_name(setup.settings.dynamics.solver);
+    out["proxy"] = "rigid";
+    out["damping"] = fmt::format("{:g} s * K", figures.damping_per_k);
+    for (const HoldFigures& h : figures.hold) {
+        out["hold"].push_back({{"k", h.k}, {"fingering", enum_name(h.fingering)}, {"held", h.held},
+                               {"lift_slip_mm", h.lift_slip_mm}, {"slip_mm", h.slip_mm}, {"z_rms_um", h.z_rms_um},
+                               {"z_pp_um", h.z_pp_um}, {"tilt_rms_deg", h.tilt_rms_deg}, {"turn_deg", h.turn_deg},
+                               {"hf_force_n", h.hf_force_n}, {"weight_ratio", h.weight_ratio},
+                               {"grip_ratio", h.grip_ratio}});
+    }
+    for (const SlowFigures& s : figures.slow_dynamics) {
+        out["slow_dynamics"].push_back({{"k", s.k}, {"held", s.held}, {"slip_mm", s.slip_mm}, {"hf_force_n", s.hf_force_n}});
+    }
+    out["calm_k"] = figures.calm_k;
+    out["calm_k_delay"] = figures.calm_k_delay;
+    out["calm_k_premium"] = figures.calm_k_premium;
+    out["wall_k"] = figures.wall_k;
+    out["wall_k_delay"] = figures.wall_k_delay;
+    out["wall_k_premium"] = figures.wall_k_premium;
+    out["torque_turn_deg"] = figures.torque_turn_deg;
+    out["torque_turn_after_deg"] = figures.torque_turn_after_deg;
+    out["torsion_limit_ratio"] = nullptr;  // rigid pads have no soft-finger torsion
+    for (const KickFigures& kick : figures.kick) {
+        out["kick"].push_back({{"k", kick.k}, {"speed_m_s", kick.speed}, {"kick_ratio", kick.kick_ratio},
+                               {"touch_step_n", kick.touch_step_n}, {"leave_pull_n", kick.leave_pull_n}});
+    }
+    out["drag_n"] = figures.drag_n;
+    return out.dump(2) + "\n";
+}
+
+std::string to_table(const GraspFigures& figures, const Setup& setup) {
+    std::string out = fmt::format("coupling {}, solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n\n",
+                                  enum_name(setup.settings.coupling.kind), enum_name(setup.settings.dynamics.solver),
+                                  figures.damping_per_k, setup.mass * 1e3, setup.friction, setup.settings.rate);
+    out += "     K  fingering   held  lift slip    slip   z RMS    z p-p  tilt RMS    turn   >5 Hz  weight    grip\n"
+           "   N/m                          mm      mm      um       um       deg     deg       N   ratio   ratio\n";
+    for (const HoldFigures& h : figures.hold) {
+        out += fmt::format("{:6.0f}  {:10s}  {:4s}  {:9.5f} {:7.5f} {:7.3f} {:8.3f}  {:8.5f} {:7.4f} {:7.4f} {:7.4f} {:7.4f}\n",
+                           h.k, enum_name(h.fingering), h.held ? "yes" : "NO", h.lift_slip_mm, h.slip_mm, h.z_rms_um,
+                           h.z_pp_um, h.tilt_rms_deg, h.turn_deg, h.hf_force_n, h.weight_ratio, h.grip_ratio);
+    }
+    out += "\ndynamics every 10 ticks\n     K  held     slip mm   >5 Hz N\n";
+    for (const SlowFigures& s : figures.slow_dynamics) {
+        out += fmt::format("{:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", s.k, s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
+    }
+    out += fmt::format("\nhighest calm K [N/m]     ideal   delay  premium\n  held block           {:7.0f} {:7.0f}  {:7.0f}\n"
+                       "  fixed wall           {:7.0f} {:7.0f}  {:7.0f}\n",
+                       figures.calm_k, figures.calm_k_delay, figures.calm_k_premium, figures.wall_k,
+                       figures.wall_k_delay, figures.wall_k_premium);
+    out += "\ntouching and leaving a wall\n     K   speed  kick ratio  touch step  leave pull\n   N/m     m/s                       N           N\n";
+    for (const KickFigures& kick : figures.kick) {
+        out += fmt::format("{:6.0f} {:7.1f} {:11.4f} {:11.5f} {:11.5f}\n", kick.k, kick.speed, kick.kick_ratio,
+                           kick.touch_step_n, kick.leave_pull_n);
+    }
+    out += fmt::format("\ndrag in free motion {:.5f} N\nturn by 0.02 N*m for 0.2 s: {:.5f} deg, 1 s later {:.5f} deg\n",
+                       figures.drag_n, figures.torque_turn_deg, figures.torque_turn_after_deg);
+    return out;
+}
+
+}  // namespace dihaptic::measure

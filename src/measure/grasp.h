@@ -1,0 +1,77 @@
+// `dihaptic bench grasp`: definitions in docs/measures.md.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/plant.h"
+
+namespace dihaptic::measure {
+
+struct HoldFigures {
+    double k = 0;
+    Fingering fingering = Fingering::ideal;
+    bool held = false;
+    double lift_slip_mm = 0;
+    double slip_mm = 0;
+    double z_rms_um = 0;
+    double z_pp_um = 0;
+    double tilt_rms_deg = 0;
+    double turn_deg = 0;
+    double hf_force_n = 0;
+    double weight_ratio = 0;
+    double grip_ratio = 0;
+};
+
+struct SlowFigures {
+    double k = 0;
+    bool held = false;
+    double slip_mm = 0;
+    double hf_force_n = 0;
+};
+
+struct KickFigures {
+    double k = 0;
+    double speed = 0;  ///< [m/s]
+    double kick_ratio = 0;
+    double touch_step_n = 0;
+    double leave_pull_n = 0;
+};
+
+struct GraspFigures {
+    double damping_per_k = 0;  ///< default damping over K [s]
+    std::vector<HoldFigures> hold;
+    std::vector<SlowFigures> slow_dynamics;
+    double calm_k = 0, calm_k_delay = 0, calm_k_premium = 0;
+    double wall_k = 0, wall_k_delay = 0, wall_k_premium = 0;
+    double torque_turn_deg = 0;
+    double torque_turn_after_deg = 0;
+    std::vector<KickFigures> kick;
+    double drag_n = 0;
+};
+
+/// One lift and hold, with setup.settings.coupling.stiffness.
+HoldFigures measure_hold(const Setup& setup);
+bool calm_grasp(const HoldFigures& hold);
+/// One finger pressed 15 mm into a fixed wall: whether it is calm.
+bool calm_wall(const Setup& setup);
+/// Touching a wall at a speed, and leaving it.
+KickFigures measure_kick(Setup setup, double speed);
+/// Peak handle force on a free minimum-jerk path of 20 cm with a peak of 0.5 m/s [N].
+double measure_drag(const Setup& setup);
+/// Turn by a torque of 0.02 N*m for 0.2 s in the hold: at its end, and 1 s later [deg].
+std::pair<double, double> measure_torque(const Setup& setup);
+
+/// Highest K of the list up to which every K is calm; 0 when none is.
+double highest_calm(const std::function<bool(double k)>& calm);
+
+using Progress = std::function<void(const std::string& what, double share)>;
+/// All figures. `setup` gives solver, coupling, mass, friction and rate.
+GraspFigures bench_grasp(const Setup& setup, const Progress& progress);
+
+std::string to_json(const GraspFigures& figures, const Setup& setup);
+std::string to_table(const GraspFigures& figures, const Setup& setup);
+
+}  // namespace dihaptic::measure

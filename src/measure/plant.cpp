@@ -1,0 +1,140 @@
+#include "measure/plant.h"
+
+namespace dihaptic::measure {
+namespace {
+
+scene::Body body(const std::string& name, const Vec3& size, const Vec3& position, double friction) {
+    scene::Body out;
+    out.name = name;
+    out.shape = scene::Shape::box(size);
+    out.position = position;
+    out.friction = friction;
+    return out;
+}
+
+scene::Finger pad(const std::string& name, double friction) {
+    scene::Finger out;
+    out.name = name;
+    out.shape = scene::Shape::box({kPadThickness, 0.020, 0.020});
+    out.mass = 0.001;
+    out.friction = friction;
+    return out;
+}
+
+/// Blocks in rows behind the work, out of the fingers' way.
+void add_extra_blocks(scene::Scene& scene, int count, double friction) {
+    for (int i = 0; i < count; ++i) {
+        const double pitch = 0.05;
+        const int column = i % 32;
+        const int row = i / 32;
+        scene::Body block = body("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
+                                 {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
+        block.mass = 0.1;
+        scene.bodies.push_back(block);
+    }
+}
+
+Node device_options(const Setup& setup) {
+    Node options = Node::mapping();
+    if (setup.row == Row::delay) options.set("delay_ticks", Node::of("1"));
+    if (setup.row == Row::premium) {
+        options.set("position_step_mm", Node::of("0.03"));
+        options.set("friction_N", Node::of("0.04"));
+    }
+    return options;
+}
+
+}  // namespace
+
+scene::Scene grasp_scene(const Setup& setup) {
+    scene::Scene scene;
+    scene::Body table = body("table", {2.0, 4.0, 0.1}, {0, 1.5, -0.05}, setup.friction);
+    table.fixed = true;
+    scene::Body block = body("block", Vec3::Constant(kBlockSize), {0, 0, kBlockSize / 2}, setup.friction);
+    block.mass = setup.mass;
+    scene.bodies = {table, block};
+    scene.object = "block";
+    scene.fingers = {pad("thumb", setup.friction), pad("index", setup.friction)};
+    add_extra_blocks(scene, setup.extra_blocks, setup.friction);
+    return scene;
+}
+
+hand::HandSpec grasp_hand(const Setup& setup) {
+    hand::HandSpec hand;
+    const double contact = kBlockSize + kPadThickness;
+    hand.centre = {0, 0, kBlockSize / 2};
+    hand.aperture = contact + 2 * kStartGap;
+    const double closed = contact - 2 * kSqueeze;
+    hand.script = {{"close", 1, closed, Vec3::Zero(), false},
+                   {"wait", 1, {}, Vec3::Zero(), false},
+                   {"rise", 1, {}, {0, 0, kLift}, false},
+                   {"hold", setup.hold_time, {}, Vec3::Zero(), false},
+                   {"open", 1, hand.aperture, Vec3::Zero(), false}};
+    hand::FingerPlace thumb{"thumb", {-1, 0, 0}, Vec3::Zero()};
+    hand::FingerPlace index{"index", {1, 0, 0}, Vec3::Zero()};
+    switch (setup.fingering) {
+        case Fingering::ideal: break;
+        case Fingering::real:
+            hand.tremor = {0.1e-3, 8, 9};
+            [[fallthrough]];
+        case Fingering::offset:
+            thumb.offset = {0, 0.002, 0.002};
+            index.offset = {0, -0.002, -0.002};
+            break;
+        case Fingering::off_centre:
+            thumb.offset = index.offset = {0, 0, 0.005};
+            break;
+    }
+    hand.fingers = {thumb, index};
+    return hand;
+}
+
+scene::Scene wall_scene(const Setup& setup) {
+    scene::Scene scene;
+    scene::Body wall = body("wall", {0.2, 0.5, 0.5}, {0.1, 0, 0}, setup.friction);
+    wall.fixed = true;
+    scene.bodies = {wall};
+    scene.fingers = {pad("thumb", setup.friction)};
+    return scene;
+}
+
+hand::HandSpec wall_hand(const Setup&) {
+    hand::HandSpec hand;
+    hand.centre = {-kPadThickness / 2 - kStartGap, 0, 0};
+    hand.script = {{"close", 1, {}, {kStartGap + kSqueeze, 0, 0}, false}, {"hold", 5, {}, Vec3::Zero(), false}};
+    return hand;
+}
+
+Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const Setup& setup) {
+    const std::vector<std::string> fingers = scene::finger_names(scene);
+    driver_ = std::make_unique<hand::ScriptDriver>(hand, fingers);
+    rig::Rig rig = rig::simulated_rig(fingers);
+    for (rig::Device& device : rig.devices) device.options = device_options(setup);
+    devices::Context context;
+    context.tick = setup.settings.tick();
+    context.driver = driver_.get();
+    context.impedance = hand.impedance;
+    context.tremor = hand.tremor;
+    context.seed = 1;
+    servo_ = std::make_unique<servo::Servo>(scene, setup.settings, rig::make_devices(rig, fingers, context),
+                                            rig::poses(rig, fingers));
+    servo_->activate();
+}
+
+void Bench::run(const servo::FrameSink& sink, const servo::Director& extra, servo::TickTimes* times) {
+    const auto& phases = driver_->phases();
+    int32_t phase = 0;
+    double now = 0;
+    const double tick = servo_->settings().tick();
+    const servo::Director director = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+                                         servo::Commands& commands) {
+        now = static_cast<double>(last.sequence + 1) * tick;
+        while (phase + 1 < static_cast<int32_t>(phases.size()) && now >= phases[static_cast<size_t>(phase)].end - tick / 2) ++phase;
+        commands.phase = phase;
+        if (extra) extra(last, handles, commands);
+    };
+    const std::atomic<bool> stop{false};
+    run_virtual(*servo_, director, sink, from_seconds(driver_->duration()), stop, times);
+}
+
+}  // namespace dihaptic::measure

@@ -1,0 +1,30 @@
+// `dihaptic bench scale`: what a tick costs as the table fills. Definitions in docs/measures.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/grasp.h"
+
+namespace dihaptic::measure {
+
+struct Cost {
+    double median_us = 0;
+    double p99_us = 0;
+    double max_us = 0;
+};
+
+struct ScaleFigures {
+    int extra = 0;
+    Cost awake;
+    Cost asleep;
+    double bullet_us = 0;  ///< median bare Bullet step of the same world, nothing asleep
+};
+
+/// The whole tick, recording included, over the script of `bench grasp`.
+std::vector<ScaleFigures> bench_scale(const Setup& setup, const std::vector<int>& extras, const Progress& progress);
+
+std::string to_json(const std::vector<ScaleFigures>& figures);
+std::string to_table(const std::vector<ScaleFigures>& figures);
+
+}  // namespace dihaptic::measure

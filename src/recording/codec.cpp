@@ -1,0 +1,170 @@
+#include "recording/codec.h"
+
+#include <bit>
+#include <cstring>
+
+namespace dihaptic::recording {
+namespace {
+
+using servo::Frame;
+
+static_assert(std::endian::native == std::endian::little, "the log is little-endian");
+static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
+
+/// What a field takes in the log.
+template <class T>
+constexpr bool kIsField = std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quat>;
+
+class Writer {
+  public:
+    explicit Writer(std::span<std::byte> out) : out_(out) {}
+
+    template <class T>
+    void operator()(const char*, const T& value, const char*) {
+        static_assert(kIsField<T>);
+        put(&value, sizeof(T));
+    }
+    template <class T>
+    void each(const char*, const std::vector<T>& list) {
+        (*this)("", static_cast<uint16_t>(list.size()), "");
+        for (const T& item : list) T::visit(item, *this);
+    }
+    template <class T>
+    void changed(const char*, const std::vector<T>& list, const std::vector<uint16_t>& which) {
+        (*this)("", static_cast<uint16_t>(which.size()), "");
+        for (const uint16_t i : which) {
+            (*this)("", i, "");
+            T::visit(list[i], *this);
+        }
+    }
+    size_t size() const { return fits_ ? used_ : 0; }
+
+  private:
+    void put(const void* data, size_t size) {
+        if (used_ + size > out_.size()) fits_ = false;
+        if (!fits_) return;
+        std::memcpy(out_.data() + used_, data, size);
+        used_ += size;
+    }
+    std::span<std::byte> out_;
+    size_t used_ = 0;
+    bool fits_ = true;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::byte> in) : in_(in) {}
+
+    template <class T>
+    void operator()(const char*, T& value, const char*) {
+        if (used_ + sizeof(T) > in_.size()) good_ = false;
+        if (!good_) return;
+        std::memcpy(static_cast<void*>(&value), in_.data() + used_, sizeof(T));
+        used_ += sizeof(T);
+    }
+    template <class T>
+    void each(const char*, std::vector<T>& list) {
+        uint16_t count = 0;
+        (*this)("", count, "");
+        if (!good_) return;
+        list.resize(count);
+        for (T& item : list) T::visit(item, *this);
+    }
+    template <class T>
+    void changed(const char*, std::vector<T>& list, std::vector<uint16_t>& which) {
+        uint16_t count = 0;
+        (*this)("", count, "");
+        which.clear();
+        for (uint16_t n = 0; n < count && good_; ++n) {
+            uint16_t i = 0;
+            (*this)("", i, "");
+            if (i >= list.size()) good_ = false;
+            if (!good_) return;
+            which.push_back(i);
+            T::visit(list[i], *this);
+        }
+    }
+    bool whole() const { return good_ && used_ == in_.size(); }
+
+  private:
+    std::span<const std::byte> in_;
+    size_t used_ = 0;
+    bool good_ = true;
+};
+
+template <class T>
+const char* type_name() {
+    if constexpr (std::is_same_v<T, double>) return "float64";
+    if constexpr (std::is_same_v<T, Vec3>) return "float64[3]";
+    if constexpr (std::is_same_v<T, Quat>) return "float64[4] (x, y, z, w)";
+    if constexpr (std::is_same_v<T, int64_t>) return "int64";
+    if constexpr (std::is_same_v<T, int32_t>) return "int32";
+    if constexpr (std::is_same_v<T, uint32_t>) return "uint32";
+    if constexpr (std::is_same_v<T, Time>) return "int64";
+    return "";
+}
+
+/// Lists fields; visits one item of each list.
+class Lister {
+  public:
+    template <class T>
+    void operator()(const char* name, const T&, const char* unit) {
+        text_ += prefix_ + name + " " + type_name<T>() + " " + unit + "\n";
+    }
+    template <class T>
+    void each(const char* name, const std::vector<T>&) {
+        item<T>(name, "uint16 count, then each:");
+    }
+    template <class T>
+    void changed(const char* name, const std::vector<T>&, const std::vector<uint16_t>&) {
+        item<T>(name, "uint16 count, then uint16 index and item of each that changed:");
+    }
+    std::string take() { return std::move(text_); }
+
+  private:
+    template <class T>
+    void item(const char* name, const char* how) {
+        text_ += std::string(name) + " " + how + "\n";
+        prefix_ = "  ";
+        const T value{};
+        T::visit(value, *this);
+        prefix_.clear();
+    }
+    std::string text_;
+    std::string prefix_;
+};
+
+}  // namespace
+
+size_t most_bytes(const Layout& layout, size_t contacts) {
+    // a frame with everything in it, measured
+    Frame frame;
+    frame.fingers.resize(layout.fingers);
+    frame.bodies.resize(layout.bodies);
+    for (size_t i = 0; i < layout.bodies; ++i) frame.changed.push_back(static_cast<uint16_t>(i));
+    frame.contacts.resize(contacts);
+    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.bodies + 256 * contacts);
+    return encode(frame, bytes);
+}
+
+size_t encode(const Frame& frame, std::span<std::byte> out) noexcept {
+    Writer writer(out);
+    Frame::visit(frame, writer);
+    return writer.size();
+}
+
+bool decode(std::span<const std::byte> in, const Layout& layout, Frame& frame) {
+    frame.bodies.resize(layout.bodies);
+    Reader reader(in);
+    Frame::visit(frame, reader);
+    return reader.whole() && frame.fingers.size() == layout.fingers;
+}
+
+std::string schema() {
+    Lister lister;
+    const Frame frame;
+    Frame::visit(frame, lister);
+    return lister.take();
+}
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,33 @@
+// Frames as bytes, field by field in the order of Frame::visit(), little-endian. Bodies are written when
+// they changed: decoding onto the frame before fills in those that did not.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "servo/frame.h"
+
+namespace dihaptic::recording {
+
+/// How many of each there are: fixed for a session.
+struct Layout {
+    size_t fingers = 0;
+    size_t bodies = 0;
+};
+
+/// Bytes of the largest frame with so many contacts.
+size_t most_bytes(const Layout& layout, size_t contacts);
+
+/// Writes the frame into `out` and returns how many bytes it took, or 0 when it does not fit. Allocates
+/// nothing.
+size_t encode(const servo::Frame& frame, std::span<std::byte> out) noexcept;
+
+/// Reads a frame onto the one before it; false when the bytes are no frame of this layout.
+bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame);
+
+/// Names, types and units of all fields, a line each: logs of another version are told apart by it.
+std::string schema();
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,147 @@
+#include "recording/hdf5.h"
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::recording::hdf5 {
+namespace {
+
+constexpr hsize_t kChunkRows = 4096;
+constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
+
+void check(herr_t status) {
+    if (status < 0) {
+        throw Error("session.nwb cannot be written", "Free some space, then run 'dihaptic recover' on the session's folder.");
+    }
+}
+
+Id string_type() {
+    Id type(H5Tcopy(H5T_C_S1));
+    check(H5Tset_size(type, H5T_VARIABLE));
+    check(H5Tset_cset(type, H5T_CSET_UTF8));
+    return type;
+}
+
+std::vector<const char*> pointers(const std::vector<std::string>& values) {
+    std::vector<const char*> out;
+    for (const std::string& value : values) out.push_back(value.c_str());
+    return out;
+}
+
+Id scalar() { return Id(H5Screate(H5S_SCALAR)); }
+
+Id list(size_t size) {
+    const hsize_t extent = size;
+    return Id(H5Screate_simple(1, &extent, nullptr));
+}
+
+void attribute(hid_t object, const std::string& name, hid_t type, hid_t space, const void* data) {
+    const Id id(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+    check(H5Awrite(id, type, data));
+}
+
+Id dataset(hid_t parent, const std::string& name, hid_t type, hid_t space, const void* data) {
+    Id id(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    check(H5Dwrite(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    return id;
+}
+
+}  // namespace
+
+Id::Id(hid_t id) : id_(id) { check(id < 0 ? -1 : 0); }
+
+Id::~Id() {
+    if (id_ >= 0) H5Idec_ref(id_);
+}
+
+Id& Id::operator=(Id&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+}
+
+Id create_file(const std::string& path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
+    return Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+Id create_group(hid_t parent, const std::string& name) {
+    return Id(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& value) {
+    const char* text = value.c_str();
+    attribute(object, name, string_type(), scalar(), &text);
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values) {
+    attribute(object, name, string_type(), list(values.size()), pointers(values).data());
+}
+
+void write_attribute(hid_t object, const std::string& name, double value) {
+    attribute(object, name, H5T_NATIVE_DOUBLE, scalar(), &value);
+}
+
+void write_attribute(hid_t object, const std::string& name, float value) {
+    attribute(object, name, H5T_NATIVE_FLOAT, scalar(), &value);
+}
+
+void write_attribute(hid_t object, const std::string& name, int32_t value) {
+    attribute(object, name, H5T_NATIVE_INT32, scalar(), &value);
+}
+
+Id write_dataset(hid_t parent, const std::string& name, const std::string& value) {
+    const char* text = value.c_str();
+    return dataset(parent, name, string_type(), scalar(), &text);
+}
+
+Id write_dataset(hid_t parent, const std::string& name, const std::vector<std::string>& values) {
+    return dataset(parent, name, string_type(), list(values.size()), pointers(values).data());
+}
+
+Id write_dataset(hid_t parent, const std::string& name, double value) {
+    return dataset(parent, name, H5T_NATIVE_DOUBLE, scalar(), &value);
+}
+
+Id write_dataset(hid_t parent, const std::string& name, const std::vector<double>& values) {
+    return dataset(parent, name, H5T_NATIVE_DOUBLE, list(values.size()), values.data());
+}
+
+Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_t>& values) {
+    return dataset(parent, name, H5T_NATIVE_INT64, list(values.size()), values.data());
+}
+
+Rows::Rows(hid_t parent, const std::string& name, size_t columns) : columns_(columns) {
+    const int rank = columns == 1 ? 1 : 2;
+    const hsize_t none[2] = {0, columns};
+    const hsize_t most[2] = {H5S_UNLIMITED, columns};
+    const hsize_t chunk[2] = {kChunkRows, columns};
+    const Id space(H5Screate_simple(rank, none, most));
+    const Id create(H5Pcreate(H5P_DATASET_CREATE));
+    check(H5Pset_chunk(create, rank, chunk));
+    check(H5Pset_shuffle(create));
+    check(H5Pset_deflate(create, kDeflate));
+    dataset_ = Id(H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, create, H5P_DEFAULT));
+    buffer_.reserve(kChunkRows * columns);
+}
+
+void Rows::add(const double* row) {
+    buffer_.insert(buffer_.end(), row, row + columns_);
+    if (buffer_.size() >= kChunkRows * columns_) flush();
+}
+
+void Rows::flush() {
+    const hsize_t rows = buffer_.size() / columns_;
+    if (rows == 0) return;
+    const int rank = columns_ == 1 ? 1 : 2;
+    const hsize_t extent[2] = {written_ + rows, columns_};
+    const hsize_t start[2] = {written_, 0};
+    const hsize_t count[2] = {rows, columns_};
+    check(H5Dset_extent(dataset_, extent));
+    const Id file_space(H5Dget_space(dataset_));
+    check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
+    const Id memory_space(H5Screate_simple(rank, count, nullptr));
+    check(H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, memory_space, file_space, H5P_DEFAULT, buffer_.data()));
+    written_ += rows;
+    buffer_.clear();
+}
+
+}  // namespace dihaptic::recording::hdf5

@@ -1,0 +1,269 @@
+#include "recording/nwb.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <random>
+
+#include "recording/hdf5.h"
+#include "recording/raw_log.h"
+
+namespace dihaptic::recording {
+namespace {
+
+using hdf5::create_group;
+using hdf5::Id;
+using hdf5::write_attribute;
+using hdf5::write_dataset;
+
+/// Random UUID (version 4), which NWB wants on every object.
+std::string new_uuid() {
+    static std::mt19937_64 engine{std::random_device{}()};
+    const uint64_t a = (engine() & ~0xF000ULL) | 0x4000ULL;
+    const uint64_t b = (engine() & ~(3ULL << 62)) | (2ULL << 62);
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", a >> 32, (a >> 16) & 0xFFFF, a & 0xFFFF, b >> 48,
+                       b & 0xFFFFFFFFFFFFULL);
+}
+
+void mark(hid_t object, const std::string& type, const std::string& space = "core") {
+    write_attribute(object, "namespace", space);
+    write_attribute(object, "neurodata_type", type);
+    write_attribute(object, "object_id", new_uuid());
+}
+
+/// NWB's words for SI units; the same as here for the rest.
+std::string nwb_unit(const std::string& unit) {
+    static const std::map<std::string, std::string> kWords{
+        {"m", "meters"}, {"m/s", "meters/second"}, {"N", "newtons"}, {"rad/s", "radians/second"}, {"s", "seconds"}, {"1", "n/a"}};
+    const auto found = kWords.find(unit);
+    return found == kWords.end() ? unit : found->second;
+}
+
+/// One series of a tick's values.
+class Series {
+  public:
+    Series(hid_t acquisition, const std::string& name, size_t columns, const std::string& unit,
+           const std::string& description, bool spatial)
+        : group_(create_group(acquisition, name)), rows_(group_, "data", columns) {
+        mark(group_, spatial ? "SpatialSeries" : "TimeSeries");
+        write_attribute(group_, "description", description);
+        write_attribute(group_, "comments", "no comments");
+        write_attribute(rows_.dataset(), "unit", nwb_unit(unit));
+        write_attribute(rows_.dataset(), "conversion", 1.0F);
+        write_attribute(rows_.dataset(), "offset", 0.0F);
+        write_attribute(rows_.dataset(), "resolution", -1.0F);
+        if (spatial) {
+            write_dataset(group_, "reference_frame",
+                          "World: x right, y away from the person, z up; origin on the table top.");
+        }
+    }
+    void add(const double* row) { rows_.add(row); }
+    void close(double tick, const std::vector<double>* times) {
+        rows_.flush();
+        if (times == nullptr) {
+            const Id start = write_dataset(group_, "starting_time", 0.0);
+            write_attribute(start, "rate", static_cast<float>(1 / tick));
+            write_attribute(start, "unit", "seconds");
+        } else {
+            const Id stamps = write_dataset(group_, "timestamps", *times);
+            write_attribute(stamps, "interval", int32_t{1});
+            write_attribute(stamps, "unit", "seconds");
+        }
+    }
+
+  private:
+    Id group_;
+    hdf5::Rows rows_;
+};
+
+/// Turns frames into series, one for each field that Frame::visit() names. The first frame creates them.
+class FrameExporter {
+  public:
+    FrameExporter(hid_t acquisition, const LogHead& head) : acquisition_(acquisition), head_(head) {}
+
+    void add(const servo::Frame& frame) {
+        next_ = 0;
+        times_.push_back(seconds(frame.time));
+        regular_ = regular_ && std::abs(times_.back() - static_cast<double>(times_.size() - 1) * head_.tick) < 1e-12;
+        servo::Frame::visit(frame, *this);
+    }
+    void close() {
+        for (Series& series : series_) series.close(head_.tick, regular_ ? nullptr : &times_);
+        if (contacts_) contacts_->close(head_.tick, &contact_times_);
+    }
+
+    // as a visitor
+    template <class T>
+    void operator()(const char* name, const T& value, const char* unit) {
+        if constexpr (std::is_same_v<T, Vec3>) {
+            put(name, value.data(), 3, unit);
+        } else if constexpr (std::is_same_v<T, Quat>) {
+            const double wxyz[4] = {value.w(), value.x(), value.y(), value.z()};
+            put(name, wxyz, 4, unit);
+        } else if constexpr (!std::is_same_v<T, Time>) {
+            const auto number = static_cast<double>(value);
+            put(name, &number, 1, unit);
+        }
+    }
+    void each(const char*, const std::vector<servo::FingerFrame>& fingers) {
+        for (size_t i = 0; i < fingers.size(); ++i) {
+            prefix_ = head_.fingers[i] + "_";
+            servo::FingerFrame::visit(fingers[i], *this);
+        }
+        prefix_.clear();
+    }
+    void changed(const char*, const std::vector<servo::BodyFrame>& bodies, const std::vector<uint16_t>&) {
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            prefix_ = head_.bodies[i] + "_";
+            servo::BodyFrame::visit(bodies[i], *this);
+        }
+        prefix_.clear();
+    }
+    void each(const char*, const std::vector<servo::ContactFrame>& contacts) {
+        for (const servo::ContactFrame& c : contacts) {
+            const double row[14] = {static_cast<double>(c.a), static_cast<double>(c.b), static_cast<double>(c.points),
+                                    c.p_WC.x(), c.p_WC.y(), c.p_WC.z(), c.n_W.x(), c.n_W.y(), c.n_W.z(), c.gap,
+                                    c.normal_force, c.f_B_W.x(), c.f_B_W.y(), c.f_B_W.z()};
+            if (!contacts_) {
+                contacts_.emplace(acquisition_, "contacts", 14, "n/a",
+                                  "A row a contact: body a, body b (0 up: the scene's bodies in order, then the fingers), "
+                                  "points, centre of pressure x y z [m], normal x y z from a to b, smallest gap [m], "
+                                  "normal force [N], force on b x y z [N].",
+                                  false);
+            }
+            contacts_->add(row);
+            contact_times_.push_back(times_.back());
+        }
+    }
+
+  private:
+    void put(const std::string& name, const double* value, size_t columns, const char* unit) {
+        if (next_ == series_.size()) {
+            const std::string full = prefix_ + name;
+            const bool spatial = columns == 3 && name.ends_with("position");
+            const std::string order = columns == 4 ? " Columns: w, x, y, z." : "";
+            series_.emplace_back(acquisition_, full, columns, unit, describe(name) + order, spatial);
+        }
+        series_[next_++].add(value);
+    }
+    std::string describe(const std::string& name) const {
+        std::string words = prefix_.empty() ? name : prefix_ + name;
+        for (char& c : words) c = c == '_' ? ' ' : c;
+        return words + ", every tick of the servo.";
+    }
+
+    hid_t acquisition_;
+    const LogHead& head_;
+    std::string prefix_;
+    std::vector<Series> series_;
+    size_t next_ = 0;
+    std::vector<double> times_;
+    bool regular_ = true;
+    std::optional<Series> contacts_;
+    std::vector<double> contact_times_;
+};
+
+/// A DynamicTable (or TimeIntervals) from a table; columns whose cells are all numbers are numeric.
+void write_dynamic_table(hid_t parent, const std::string& name, const Table& table, const std::string& type,
+                         const std::string& space, const std::string& description) {
+    const Id group = create_group(parent, name);
+    mark(group, type, space);
+    write_attribute(group, "description", description);
+    std::vector<std::string> names;
+    for (const Table::Column& column : table.columns) names.push_back(column.name);
+    write_attribute(group, "colnames", names);
+    std::vector<int64_t> ids;
+    for (size_t i = 0; i < table.rows.size(); ++i) ids.push_back(static_cast<int64_t>(i));
+    const Id id = write_dataset(group, "id", ids);
+    mark(id, "ElementIdentifiers", "hdmf-common");
+    for (size_t c = 0; c < table.columns.size(); ++c) {
+        std::vector<double> numbers;
+        std::vector<std::string> texts;
+        for (const auto& row : table.rows) {
+            if (const double* number = std::get_if<double>(&row[c])) numbers.push_back(*number);
+            texts.push_back(to_csv(row[c]));
+        }
+        const Id column = numbers.size() == table.rows.size() ? write_dataset(group, names[c], numbers)
+                                                              : write_dataset(group, names[c], texts);
+        mark(column, "VectorData", "hdmf-common");
+        write_attribute(column, "description", table.columns[c].description);
+    }
+}
+
+void write_general(hid_t file, const SessionInfo& info) {
+    const Id general = create_group(file, "general");
+    write_dataset(general, "session_id", info.title);
+    write_dataset(general, "experiment_description", info.title);
+    if (!info.notes.empty()) {
+        std::string notes;
+        for (const std::string& note : info.notes) notes += note + "\n";
+        write_dataset(general, "notes", notes);
+    }
+    const Id subject = create_group(general, "subject");
+    mark(subject, "Subject");
+    write_dataset(subject, "subject_id", info.participant.id.empty() ? "unknown" : info.participant.id);
+    write_dataset(subject, "species", "Homo sapiens");
+    write_dataset(subject, "sex", info.participant.sex.empty() ? "U" : info.participant.sex);
+    if (!info.participant.age.empty()) {
+        const Id age = write_dataset(subject, "age", "P" + info.participant.age + "Y");
+        write_attribute(age, "reference", "birth");
+    }
+    const Id devices = create_group(general, "devices");
+    for (const DeviceRecord& record : info.devices) {
+        const Id device = create_group(devices, record.finger);
+        mark(device, "Device");
+        write_attribute(device, "description", record.model);
+    }
+}
+
+void write_head(hid_t file, const SessionInfo& info) {
+    mark(file, "NWBFile");
+    write_attribute(file, "nwb_version", "2.7.0");
+    write_dataset(file, "identifier", new_uuid());
+    write_dataset(file, "session_description", info.title.empty() ? "Dihaptic session" : info.title);
+    write_dataset(file, "session_start_time", info.started);
+    write_dataset(file, "timestamps_reference_time", info.started);
+    write_dataset(file, "file_create_date", std::vector<std::string>{iso_now()});
+}
+
+}  // namespace
+
+void write_nwb(const SessionFolder& folder, const NwbContent& content, const std::function<void(double)>& progress) {
+    RawLogReader log(folder.raw_log());
+    const auto size = static_cast<double>(std::filesystem::file_size(folder.raw_log()));
+    const std::string part = folder.nwb() + ".part";
+    {
+        const Id file = hdf5::create_file(part);
+        write_head(file, content.info);
+        for (const char* group : {"analysis", "processing"}) create_group(file, group);
+        const Id stimulus = create_group(file, "stimulus");
+        for (const char* group : {"presentation", "templates"}) create_group(stimulus, group);
+        write_general(file, content.info);
+
+        const Id acquisition = create_group(file, "acquisition");
+        FrameExporter exporter(acquisition, log.head());
+        const double frame_bytes = 1000;  // about: for the progress only
+        double done = 0;
+        while (const servo::Frame* frame = log.next()) {
+            exporter.add(*frame);
+            done += frame_bytes;
+            if (progress && frame->sequence % 1000 == 0) progress(std::min(0.99, done / size));
+        }
+        exporter.close();
+
+        const Id intervals = create_group(file, "intervals");
+        write_dynamic_table(intervals, "trials", content.trials, "TimeIntervals", "core", "The trials, in order.");
+        write_dynamic_table(intervals, "phases", content.phases, "TimeIntervals", "core", "What each trial is made of.");
+        const Id scratch = create_group(file, "scratch");
+        write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
+                            "Every setting of the session, and where it came from.");
+    }
+    std::filesystem::rename(part, folder.nwb());
+    if (progress) progress(1);
+}
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,69 @@
+#include "recording/recorder.h"
+
+#include <algorithm>
+
+namespace dihaptic::recording {
+namespace {
+
+/// Contacts that a frame may have at most, for the size of its buffer.
+size_t most_contacts(const LogHead& head) { return 64 + 8 * (head.fingers.size() + head.bodies.size()); }
+
+/// A second of frames, even while the disk is busy.
+constexpr size_t kRingFrames = 1024;
+constexpr size_t kMostRing = 64u << 20;
+
+}  // namespace
+
+Recorder::Recorder(const std::string& file, const LogHead& head, Writing writing)
+    : log_(file, head),
+      writing_(writing),
+      encoded_(most_bytes(head.layout(), most_contacts(head))),
+      ring_(writing == Writing::in_place ? 0 : std::min(kMostRing, kRingFrames * encoded_.size())) {
+    if (writing_ == Writing::in_thread) thread_ = std::thread([this] { run(); });
+}
+
+Recorder::~Recorder() {
+    done_.store(true);
+    if (thread_.joinable()) thread_.join();
+}
+
+void Recorder::record(const servo::Frame& frame) {
+    const size_t size = encode(frame, encoded_);
+    const std::span<const std::byte> bytes(encoded_.data(), size);
+    if (writing_ == Writing::in_thread) {
+        if (size == 0 || !ring_.push(bytes)) dropped_.fetch_add(1, std::memory_order_relaxed);
+        return;
+    }
+    log_.add(bytes);
+    if (frame.time - last_flush_ >= kFlushEvery) {
+        log_.flush();
+        last_flush_ = frame.time;
+    }
+}
+
+void Recorder::drain() {
+    while (ring_.pop(received_)) log_.add(received_);
+    log_.flush();
+}
+
+void Recorder::run() {
+    try {
+        while (!done_.load()) {
+            drain();
+            std::this_thread::sleep_for(kFlushEvery / 2);
+        }
+        drain();
+    } catch (...) {
+        error_ = std::current_exception();
+        failed_.store(true);
+    }
+}
+
+void Recorder::finish() {
+    done_.store(true);
+    if (thread_.joinable()) thread_.join();
+    if (error_) std::rethrow_exception(error_);
+    log_.finish();
+}
+
+}  // namespace dihaptic::recording

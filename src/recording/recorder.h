@@ -1,0 +1,53 @@
+// From the servo's frames to raw.log. On the real clock the servo pushes into a ring and a thread of
+// the recorder's writes; on the virtual clock frames are written where they arise.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <thread>
+
+#include "base/ring.h"
+#include "recording/raw_log.h"
+
+namespace dihaptic::recording {
+
+enum class Writing { in_place, in_thread };
+
+/// A chunk is handed to the operating system at least this often: more than that a crash cannot lose.
+constexpr Time kFlushEvery = std::chrono::milliseconds(50);
+
+class Recorder {
+  public:
+    Recorder(const std::string& file, const LogHead& head, Writing writing);
+    ~Recorder();
+
+    /// Records a frame. In a thread: neither waits nor allocates; a frame that finds the ring full is
+    /// dropped and counted. In place: throws Error when the disk is full.
+    void record(const servo::Frame& frame);
+    /// True once writing has failed: stop the session, then finish() says why.
+    bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
+    /// Writes what is left, and the end mark. Throws what the thread met.
+    void finish();
+
+    int64_t frames() const { return log_.frames(); }
+    int64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+  private:
+    void drain();
+    void run();
+
+    RawLogWriter log_;
+    Writing writing_;
+    std::vector<std::byte> encoded_;   // servo's side
+    std::vector<std::byte> received_;  // thread's side
+    Time last_flush_{0};
+    Ring ring_;
+    std::atomic<int64_t> dropped_{0};
+    std::atomic<bool> failed_{false};
+    std::atomic<bool> done_{false};
+    std::exception_ptr error_;
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,63 @@
+#include "scene/hull.h"
+
+#include <LinearMath/btConvexHullComputer.h>
+
+namespace dihaptic::scene {
+
+Hull convex_hull(std::span<const Vec3> points) {
+    Hull hull;
+    if (points.size() < 4) return hull;
+    btConvexHullComputer computer;
+    computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
+    for (int i = 0; i < computer.vertices.size(); ++i) {
+        const btVector3& v = computer.vertices[i];
+        hull.vertices.emplace_back(v.x(), v.y(), v.z());
+    }
+    for (int f = 0; f < computer.faces.size(); ++f) {
+        std::vector<int> face;
+        const btConvexHullComputer::Edge* first = &computer.edges[computer.faces[f]];
+        const btConvexHullComputer::Edge* edge = first;
+        do {
+            face.push_back(edge->getSourceVertex());
+            edge = edge->getNextEdgeOfFace();
+        } while (edge != first);
+        hull.faces.push_back(std::move(face));
+    }
+    Vec3 low = hull.vertices.front();
+    Vec3 high = low;
+    for (const Vec3& v : hull.vertices) {
+        low = low.cwiseMin(v);
+        high = high.cwiseMax(v);
+    }
+    const double extent = (high - low).norm();
+    if (hull.faces.size() < 4 || integrate(hull.vertices, hull.faces).volume < 1e-6 * std::pow(extent, 3)) return {};
+    return hull;
+}
+
+VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces) {
+    double volume = 0;
+    Vec3 first = Vec3::Zero();   // integral of x
+    Mat3 second = Mat3::Zero();  // integral of x x^T
+    for (const std::vector<int>& face : faces) {
+        for (size_t i = 1; i + 1 < face.size(); ++i) {
+            const Vec3& a = vertices[static_cast<size_t>(face[0])];
+            const Vec3& b = vertices[static_cast<size_t>(face[i])];
+            const Vec3& c = vertices[static_cast<size_t>(face[i + 1])];
+            const double six_volumes = a.dot(b.cross(c));
+            const Vec3 sum = a + b + c;
+            volume += six_volumes / 6;
+            first += six_volumes / 24 * sum;
+            second += six_volumes / 120 *
+                      (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+        }
+    }
+    VolumeIntegrals out;
+    out.volume = volume;
+    if (volume <= 0) return out;
+    out.centre = first / volume;
+    const Mat3 about_centre = second - volume * out.centre * out.centre.transpose();
+    out.inertia = about_centre.trace() * Mat3::Identity() - about_centre;
+    return out;
+}
+
+}  // namespace dihaptic::scene

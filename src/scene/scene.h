@@ -1,0 +1,136 @@
+// What a world is made of, and the scene file (docs/files.md) that says so.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "scene/shape.h"
+
+namespace dihaptic::scene {
+
+/// A set of world axes: x is 1, y is 2, z is 4.
+enum class Axes { none, x, y, xy, z, xz, yz, xyz };
+constexpr auto enum_names(Axes) {
+    return std::array{"none", "x", "y", "xy", "z", "xz", "yz", "xyz"};
+}
+constexpr bool contains(Axes axes, int axis) { return (static_cast<int>(axes) >> axis & 1) != 0; }
+
+struct Body {
+    std::string name;
+    Shape shape;
+    std::optional<double> mass;     ///< [kg]; this or the density, unless the body is fixed
+    std::optional<double> density;  ///< [kg/m^3]
+    bool fixed = false;             ///< never moves
+    Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
+    Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
+    double friction = 0.8;          ///< see pair_friction()
+    Axes moves = Axes::xyz;         ///< world axes that it may move along: z is a bead on an upright string
+    Axes turns = Axes::xyz;         ///< world axes that it may turn about: none, one, or xyz
+    std::string colour;             ///< "#rrggbb"; empty: the view chooses
+    Place place;                    ///< in the scene file
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        shape.visit(v);
+        v("mass", mass, Field::of(Quantity::mass).positive());
+        v("density", density, Field::of(Quantity::density).positive());
+        v("fixed", fixed);
+        v("position", position, Field::length());
+        v("rotation", rotation, Field::of(Quantity::angle));
+        v("friction", friction, Field::number().at_least(0));
+        v("moves", moves);
+        v("turns", turns);
+        v("colour", colour);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+    Pose pose() const { return {rotation_xyz(rotation), position}; }
+    bool moves_at_all() const { return !fixed && (moves != Axes::none || turns != Axes::none); }
+};
+
+/// The rigid body that stands for a finger in the world: no gravity acts on it, and it keeps its
+/// canonical orientation.
+struct Finger {
+    std::string name;
+    Shape shape;
+    double mass = 0.001;           ///< [kg]
+    double friction = 0.8;         ///< see pair_friction()
+    Vec3 rotation = Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        shape.visit(v);
+        v("mass", mass, Field::of(Quantity::mass).positive());
+        v("friction", friction, Field::number().at_least(0));
+        v("rotation", rotation, Field::of(Quantity::angle));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Friction of one pair of bodies or fingers, in place of what their own frictions would give.
+struct PairFriction {
+    std::vector<std::string> between;  ///< two names
+    double friction = 0;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("between", between, Field::text().required());
+        v("friction", friction, Field::number().at_least(0).required());
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+struct Scene {
+    std::string title;
+    Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
+    std::vector<Body> bodies;
+    std::vector<PairFriction> pairs;
+    std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
+    std::string object;           ///< the body that the summary is about; empty: the first that can move
+    Node settings;                ///< settings that this scene asks for (servo::Settings)
+    Node hand;                    ///< how the simulated hand tries the scene out (hand::HandSpec)
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("title", title);
+        v("gravity", gravity, Field::of(Quantity::acceleration));
+        v("bodies", bodies, Field::text().required());
+        v("pairs", pairs);
+        v("fingers", fingers);
+        v("object", object);
+        v("settings", settings);
+        v("hand", hand);
+    }
+
+    /// Index of the named body, or -1.
+    int find(const std::string& name) const;
+    /// Index of the body that the summary is about, or -1 when nothing can move.
+    int object_index() const;
+};
+
+/// Names of the fingers, in order.
+std::vector<std::string> finger_names(const Scene& scene);
+
+/// Coefficient of friction between two things: what the file says of the pair, or else the geometric
+/// mean of their own: two of 0.8 give 0.8.
+double pair_friction(const Scene& scene, const std::string& a, double friction_a, const std::string& b,
+                     double friction_b);
+
+/// Mass of a body that is not fixed, from its mass or its density [kg].
+double mass(const Body& body);
+
+/// Reads a scene file with its meshes. Every problem goes to `diagnostics`; what could be read is returned.
+Scene read_scene(const std::string& file, Diagnostics& diagnostics);
+
+/// Fills in the default fingers, loads meshes, and checks the scene as a whole. `folder` is what mesh
+/// files are relative to.
+void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::scene

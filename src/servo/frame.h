@@ -1,0 +1,148 @@
+// The Frame: the one record of a tick. Log, NWB file, summaries and plots follow from its visit().
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/geometry.h"
+
+namespace dihaptic::servo {
+
+constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// What a tick could not do as asked; describe() has the remedies.
+enum Status : uint32_t {
+    kContactsFull = 1u << 0,
+    kForceLimited = 1u << 1,
+    kRateLimited = 1u << 2,
+    kNotFinite = 1u << 3,
+    kOutsideWorkspace = 1u << 4,
+    kForceClamped = 1u << 5,
+    kNoMoreData = 1u << 6,
+    kOverrun = 1u << 7,
+};
+constexpr int kStatusBits = 8;
+
+struct StatusText {
+    std::string what;
+    std::string remedy;
+};
+/// Text for one bit.
+StatusText describe(Status bit);
+
+struct FingerFrame {
+    Vec3 p_DH = Vec3::Zero();  ///< as read from the device
+    Vec3 v_DH = Vec3::Zero();
+    uint32_t buttons = 0;
+    uint32_t status = 0;  ///< Status bits of this finger
+    Vec3 p_WH = Vec3::Zero();
+    Vec3 v_WH = Vec3::Zero();
+    Vec3 p_WP = Vec3::Zero();
+    Vec3 v_WP = Vec3::Zero();
+    Quat R_WP = Quat::Identity();
+    Vec3 f_asked_W = Vec3::Zero();  ///< on the handle, what the coupling wants
+    Vec3 f_sent_W = Vec3::Zero();   ///< on the handle, what the device was told
+    Vec3 f_contact_W = Vec3::Zero();  ///< on the proxy, from what it touches
+    double normal_force = 0;          ///< its normal part, at least 0
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("device_position", f.p_DH, "m");
+        v("device_velocity", f.v_DH, "m/s");
+        v("buttons", f.buttons, "1");
+        v("status", f.status, "1");
+        v("handle_position", f.p_WH, "m");
+        v("handle_velocity", f.v_WH, "m/s");
+        v("proxy_position", f.p_WP, "m");
+        v("proxy_velocity", f.v_WP, "m/s");
+        v("proxy_orientation", f.R_WP, "1");
+        v("force_asked", f.f_asked_W, "N");
+        v("force_sent", f.f_sent_W, "N");
+        v("contact_force", f.f_contact_W, "N");
+        v("normal_force", f.normal_force, "N");
+    }
+};
+
+struct BodyFrame {
+    Pose X_WB;
+    Vec3 v_WB = Vec3::Zero();
+    Vec3 w_WB = Vec3::Zero();
+    uint32_t awake = 1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& b, Visitor& v) {
+        v("position", b.X_WB.p, "m");
+        v("orientation", b.X_WB.R, "1");
+        v("velocity", b.v_WB, "m/s");
+        v("angular_velocity", b.w_WB, "rad/s");
+        v("awake", b.awake, "1");
+    }
+};
+
+/// All contact points between two bodies, taken together.
+struct ContactFrame {
+    int32_t a = -1;  ///< bodies: those of the scene first, then the proxies, in order
+    int32_t b = -1;
+    int32_t points = 0;
+    Vec3 p_WC = Vec3::Zero();   ///< centre of pressure; without pressure the mean of the points
+    Vec3 n_W = Vec3::Zero();    ///< mean normal, from a to b
+    double gap = 0;             ///< smallest distance; negative: penetration
+    double normal_force = 0;
+    Vec3 f_B_W = Vec3::Zero();  ///< whole force on b
+
+    template <class Self, class Visitor>
+    static void visit(Self& c, Visitor& v) {
+        v("body_a", c.a, "1");
+        v("body_b", c.b, "1");
+        v("points", c.points, "1");
+        v("position", c.p_WC, "m");
+        v("normal", c.n_W, "1");
+        v("gap", c.gap, "m");
+        v("normal_force", c.normal_force, "N");
+        v("force_on_b", c.f_B_W, "N");
+    }
+};
+
+struct Frame {
+    int64_t sequence = 0;
+    Time time{0};  ///< of the tick, from activation
+    int32_t trial = 0;
+    int32_t phase = 0;  ///< of the trial: index into the driver's or the task's list
+    uint32_t status = 0;
+    double grip_force = kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
+    double load_force = 0;            ///< tangential contact forces along gravity, summed over the fingers
+    int32_t solver_iterations = 0;
+    int32_t solver_fallback = 0;
+    double solver_residual = 0;
+    double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
+    double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
+    std::vector<FingerFrame> fingers;
+    std::vector<BodyFrame> bodies;  ///< of the scene
+    std::vector<uint16_t> changed;  ///< bodies that changed since the last frame: only these are logged
+    std::vector<ContactFrame> contacts;
+
+    /// v(name, value, unit) for values; v.each(name, list) and v.changed(name, list, which) for lists.
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("sequence", f.sequence, "1");
+        v("time", f.time, "ns");
+        v("trial", f.trial, "1");
+        v("phase", f.phase, "1");
+        v("status", f.status, "1");
+        v("grip_force", f.grip_force, "N");
+        v("load_force", f.load_force, "N");
+        v("solver_iterations", f.solver_iterations, "1");
+        v("solver_fallback", f.solver_fallback, "1");
+        v("solver_residual", f.solver_residual, "m/s");
+        v("lateness", f.lateness, "s");
+        v("tick_duration", f.tick_duration, "s");
+        v.each("fingers", f.fingers);
+        v.changed("bodies", f.bodies, f.changed);
+        v.each("contacts", f.contacts);
+    }
+};
+
+}  // namespace dihaptic::servo

@@ -1,0 +1,214 @@
+#include "servo/servo.h"
+
+#include <algorithm>
+
+namespace dihaptic::servo {
+namespace {
+
+uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
+    uint32_t status = 0;
+    if (reading.status & devices::kOutsideWorkspace) status |= kOutsideWorkspace;
+    if (reading.status & devices::kForceClamped) status |= kForceClamped;
+    if (reading.status & devices::kNoMoreData) status |= kNoMoreData;
+    if (limits & haptics::kForceLimited) status |= kForceLimited;
+    if (limits & haptics::kRateLimited) status |= kRateLimited;
+    if (limits & haptics::kNotFinite) status |= kNotFinite;
+    return status;
+}
+
+}  // namespace
+
+Servo::Servo(const scene::Scene& scene, const Settings& settings, std::unique_ptr<devices::DeviceGroup> devices,
+             std::vector<Pose> X_WD)
+    : settings_(settings),
+      period_(from_seconds(settings.tick())),
+      world_(scene, settings.dynamics),
+      devices_(std::move(devices)),
+      X_WD_(std::move(X_WD)) {
+    for (size_t i = 0; i < scene.fingers.size(); ++i) {
+        const double peak = devices_->info(static_cast<int>(i)).peak_force;
+        const double max_force = std::min(settings.safety.max_force.value_or(peak), peak);
+        const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
+        fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force, settings.safety.max_force_rate);
+        X_DW_.push_back(X_WD_[i].inverse());
+    }
+    const size_t n = fingers_.size();
+    readings_.resize(n);
+    handles_.resize(n);
+    outputs_.resize(n);
+    f_D_.resize(n, Vec3::Zero());
+}
+
+Servo::~Servo() { deactivate(); }
+
+void Servo::activate() {
+    world_.activate();
+    frame_ = {};
+    frame_.sequence = -1;
+    frame_.fingers.resize(fingers_.size());
+    frame_.bodies.resize(static_cast<size_t>(world_.scene_size()));
+    frame_.changed.reserve(frame_.bodies.size());
+    frame_.contacts.reserve(world_.contacts().size() + 64 + 8 * static_cast<size_t>(world_.size()));
+    devices_->activate();
+    active_ = true;
+    stopped_ = false;
+}
+
+void Servo::deactivate() {
+    if (!active_) return;
+    std::fill(f_D_.begin(), f_D_.end(), Vec3::Zero());
+    devices_->write(f_D_);
+    devices_->deactivate();
+    active_ = false;
+}
+
+void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcept {
+    lateness_ = lateness;
+    last_tick_ = last_tick;
+    overrun_ = overrun;
+}
+
+const Frame& Servo::tick(Time now, const Director& director) noexcept {
+    measure(now);
+    commands_.load_count = 0;
+    commands_.stop = false;
+    if (director) director(frame_, handles_, commands_);
+
+    dynamics::StepStatus step = dynamics::StepStatus::ok;
+    if ((frame_.sequence + 1) % settings_.dynamics.every == 0) {
+        const double h = settings_.step();
+        for (int i = 0; i < commands_.load_count; ++i) {
+            const Commands::Load& load = commands_.loads[static_cast<size_t>(i)];
+            world_.apply(load.body, load.force_W, load.torque_W);
+        }
+        for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].before_step(world_, handles_[i], h);
+        step = world_.step(h);
+        for (haptics::Finger& finger : fingers_) finger.after_step(world_);
+    }
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        outputs_[i] = fingers_[i].force(world_, handles_[i], settings_.tick());
+        f_D_[i] = X_DW_[i].R * outputs_[i].f_H_W;
+    }
+    devices_->write(f_D_);
+    make_frame(now, commands_, step);
+    stopped_ = commands_.stop || (frame_.status & kNoMoreData) != 0;
+    return frame_;
+}
+
+void Servo::measure(Time now) noexcept {
+    devices_->read(now, readings_);
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        handles_[i].p_WH = X_WD_[i] * readings_[i].p_DH;
+        handles_[i].v_WH = X_WD_[i].R * readings_[i].v_DH;
+        if (frame_.sequence >= 0) continue;
+        Pose X_WP = world_.state(fingers_[i].proxy()).X_WB;
+        X_WP.p = handles_[i].p_WH;
+        world_.set_pose(fingers_[i].proxy(), X_WP);
+    }
+}
+
+void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept {
+    ++frame_.sequence;
+    frame_.time = now;
+    frame_.trial = commands.trial;
+    frame_.phase = commands.phase;
+    frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
+    if (overrun_) frame_.status |= kOverrun;
+    frame_.lateness = lateness_;
+    frame_.tick_duration = last_tick_;
+    frame_.solver_iterations = world_.solve_stats().iterations;
+    frame_.solver_residual = world_.solve_stats().residual;
+    frame_.solver_fallback = world_.solve_stats().fallback;
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        FingerFrame& out = frame_.fingers[i];
+        const dynamics::BodyState& proxy = world_.state(fingers_[i].proxy());
+        const haptics::ProxyTouch& touch = fingers_[i].touch();
+        out.p_DH = readings_[i].p_DH;
+        out.v_DH = readings_[i].v_DH;
+        out.buttons = readings_[i].buttons;
+        out.status = finger_status(readings_[i], outputs_[i].flags);
+        out.p_WH = handles_[i].p_WH;
+        out.v_WH = handles_[i].v_WH;
+        out.p_WP = proxy.X_WB.p;
+        out.v_WP = proxy.v_WB;
+        out.R_WP = proxy.X_WB.R;
+        out.f_asked_W = outputs_[i].f_asked_W;
+        out.f_sent_W = outputs_[i].f_H_W;
+        out.f_contact_W = touch.f_P_W;
+        out.normal_force = touch.normal_force;
+        frame_.status |= out.status;
+    }
+    // bodies that were asleep and still are have not changed: only the awake ones are looked at
+    const auto states = world_.states();
+    const auto keep = [&](uint16_t i) {
+        BodyFrame& out = frame_.bodies[i];
+        out.X_WB = states[i].X_WB;
+        out.v_WB = states[i].v_WB;
+        out.w_WB = states[i].w_WB;
+        out.awake = states[i].awake ? 1 : 0;
+        frame_.changed.push_back(i);
+    };
+    frame_.changed.clear();
+    if (frame_.sequence == 0) {
+        for (size_t i = 0; i < frame_.bodies.size(); ++i) keep(static_cast<uint16_t>(i));
+    } else {
+        for (const size_t i : world_.stepped()) {
+            if (i < frame_.bodies.size()) keep(static_cast<uint16_t>(i));
+        }
+    }
+    merge_contacts();
+    measure_grasp();
+}
+
+void Servo::merge_contacts() noexcept {
+    // the world lists the points of a pair one after the other
+    frame_.contacts.clear();
+    double pressed = 0;
+    for (const contact::Contact& c : world_.contacts()) {
+        const bool same = !frame_.contacts.empty() && frame_.contacts.back().a == c.a.value &&
+                          frame_.contacts.back().b == c.b.value;
+        if (!same) {
+            if (frame_.contacts.size() == frame_.contacts.capacity()) {
+                frame_.status |= kContactsFull;
+                break;
+            }
+            ContactFrame& out = frame_.contacts.emplace_back();
+            out.a = c.a.value;
+            out.b = c.b.value;
+            out.gap = c.gap;
+            pressed = 0;
+        }
+        ContactFrame& out = frame_.contacts.back();
+        // running means, weighted by pressure; a floor of weight serves contacts that do not press
+        const double weight = c.normal_force + 1e-12;
+        pressed += weight;
+        out.p_WC += weight / pressed * (c.p_WC - out.p_WC);
+        out.n_W += weight / pressed * (c.n_W - out.n_W);
+        out.gap = std::min(out.gap, c.gap);
+        out.normal_force += c.normal_force;
+        out.f_B_W += c.f_B_W;
+        ++out.points;
+    }
+}
+
+void Servo::measure_grasp() noexcept {
+    const Vec3 down = world_.gravity().normalized();
+    frame_.load_force = 0;
+    for (const haptics::Finger& finger : fingers_) {
+        const haptics::ProxyTouch& touch = finger.touch();
+        const Vec3 tangential = touch.f_P_W - touch.f_P_W.dot(touch.n_W) * touch.n_W;
+        frame_.load_force += tangential.dot(down);
+    }
+    if (fingers_.size() < 2) return;
+    Vec3 others = Vec3::Zero();
+    for (size_t i = 1; i < fingers_.size(); ++i) others += frame_.fingers[i].p_WP;
+    const Vec3 axis = (others / static_cast<double>(fingers_.size() - 1) - frame_.fingers[0].p_WP).normalized();
+    double squeeze = 0;
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        const haptics::ProxyTouch& touch = fingers_[i].touch();
+        squeeze += (i == 0 ? -1 : 1) * touch.normal_force * touch.n_W.dot(axis);
+    }
+    frame_.grip_force = squeeze / 2;
+}
+
+}  // namespace dihaptic::servo

@@ -1,0 +1,95 @@
+// One tick of the servo, as an ordinary function with time as an argument. Real time, tests, batch
+// runs and replay call the same one:
+//
+//   read the devices -> director -> fold the couplings -> step the world -> forces -> limits -> write -> Frame
+//
+// The force that is written belongs to the positions that were read in the same tick.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "haptics/finger.h"
+#include "rig/rig.h"
+#include "servo/frame.h"
+#include "servo/settings.h"
+
+namespace dihaptic::servo {
+
+/// What the director wants of a tick.
+struct Commands {
+    int32_t trial = 0;
+    int32_t phase = 0;
+    bool stop = false;  ///< this tick is the last
+
+    struct Load {
+        dynamics::BodyIndex body;
+        Vec3 force_W = Vec3::Zero();   ///< at the centre of mass [N]
+        Vec3 torque_W = Vec3::Zero();  ///< [N*m]
+    };
+    std::array<Load, 8> loads;  ///< on bodies, in the coming step
+    int load_count = 0;
+
+    void load(const Load& load) noexcept {
+        if (load_count < static_cast<int>(loads.size())) loads[static_cast<size_t>(load_count++)] = load;
+    }
+};
+
+/// The owner's part of a tick: sees the last Frame and the handles as just read. It runs inside the
+/// tick, so it must not allocate, lock or throw.
+using Director = std::function<void(const Frame& last, std::span<const haptics::Handle> handles, Commands& commands)>;
+
+class Servo {
+  public:
+    /// `X_WD` by device; devices, in the order of the scene's fingers.
+    Servo(const scene::Scene& scene, const Settings& settings, std::unique_ptr<devices::DeviceGroup> devices,
+          std::vector<Pose> X_WD);
+    ~Servo();
+
+    /// Reserves all memory and switches the devices on.
+    void activate();
+    /// Zero force, devices off.
+    void deactivate();
+
+    /// One tick at `now`; returns its Frame, valid until the next tick.
+    const Frame& tick(Time now, const Director& director) noexcept;
+    /// Whether the last tick's director asked to stop, or a recording ended.
+    bool stopped() const { return stopped_; }
+    /// For whoever keeps real time: goes into the next Frame.
+    void note_timing(double lateness, double last_tick, bool overrun) noexcept;
+
+    Time period() const { return period_; }
+    const Settings& settings() const { return settings_; }
+    const dynamics::World& world() const { return world_; }
+    dynamics::World& world() { return world_; }
+    const devices::DeviceGroup& devices() const { return *devices_; }
+
+  private:
+    void measure(Time now) noexcept;
+    void make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept;
+    void merge_contacts() noexcept;
+    void measure_grasp() noexcept;
+
+    Settings settings_;
+    Time period_;
+    dynamics::World world_;
+    std::vector<haptics::Finger> fingers_;
+    std::unique_ptr<devices::DeviceGroup> devices_;
+    std::vector<Pose> X_WD_;
+    std::vector<Pose> X_DW_;
+    std::vector<devices::Reading> readings_;
+    std::vector<haptics::Handle> handles_;
+    std::vector<haptics::Finger::Output> outputs_;
+    std::vector<Vec3> f_D_;
+    Frame frame_;
+    Commands commands_;
+    double lateness_ = kUnmeasured;
+    double last_tick_ = kUnmeasured;
+    bool overrun_ = false;
+    bool active_ = false;
+    bool stopped_ = false;
+};
+
+}  // namespace dihaptic::servo

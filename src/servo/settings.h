@@ -1,0 +1,28 @@
+// Every setting that scene, rig, experiment and command line may give, in one place.
+// Precedence: default < scene < rig < experiment < command line.
+#pragma once
+
+#include "dynamics/settings.h"
+#include "haptics/settings.h"
+
+namespace dihaptic::servo {
+
+struct Settings {
+    double rate = 1000;  ///< ticks a second [Hz]
+    dynamics::Settings dynamics;
+    haptics::CouplingSettings coupling;
+    haptics::SafetySettings safety;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("rate", rate, Field::of(Quantity::frequency).at_least(100).at_most(10000));
+        v("dynamics", dynamics);
+        v("coupling", coupling);
+        v("safety", safety);
+    }
+
+    double tick() const { return 1 / rate; }                        ///< [s]
+    double step() const { return tick() * dynamics.every; }        ///< of the world [s]
+};
+
+}  // namespace dihaptic::servo
