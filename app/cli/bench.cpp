@@ -9,7 +9,7 @@ namespace dihaptic::cli {
 namespace {
 
 struct Options {
-    measure::Setup setup;
+    measure::BenchSetup setup;
     std::string solver;
     std::string coupling;
     bool json = false;
@@ -17,8 +17,10 @@ struct Options {
 
 void add_common(CLI::App& command, Options& options) {
     command.add_option("--solver", options.solver, "contact solver: sequential_impulse");
-    command.add_option("--coupling", options.coupling, "coupling of handle and proxy: implicit, dual_spring");
-    command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")->capture_default_str();
+    command.add_option("--coupling", options.coupling,
+                       "coupling of handle and proxy: implicit, dual_spring");
+    command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")
+        ->capture_default_str();
     command.add_flag("--json", options.json, "one JSON object on standard output, nothing else");
 }
 
@@ -41,26 +43,45 @@ void resolve(Options& options) {
 }
 
 void add_grasp(CLI::App& bench) {
-    auto* command = bench.add_subcommand("grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
+    auto* command = bench.add_subcommand(
+        "grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
     auto options = std::make_shared<Options>();
     add_common(*command, *options);
-    command->add_option("--proxy", "what a finger is in the world: rigid")->check(CLI::IsMember({"rigid"}));
+    command->add_option("--proxy", "what a finger is in the world: rigid")
+        ->check(CLI::IsMember({"rigid"}));
     command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
-    command->add_option("--friction", options->setup.friction, "coefficient")->capture_default_str();
-    command->footer("\nExample:\n  dihaptic bench grasp --coupling dual_spring");
+    command->add_option("--friction", options->setup.friction, "coefficient")
+        ->capture_default_str();
+    command->footer(
+        "\nWithout --coupling the table has both couplings, the JSON object the default "
+        "one.\n\nExample:\n"
+        "  dihaptic bench grasp --coupling dual_spring --mass 0.2");
     command->callback([options] {
         resolve(*options);
-        measure::GraspFigures figures;
+        std::vector<measure::GraspResult> results{{options->setup, {}}};
+        if (!options->json && options->coupling.empty()) {
+            results.push_back(results.front());
+            results.back().setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;
+        }
         {
             ProgressLine line("bench grasp");
-            figures = measure::bench_grasp(options->setup, [&](const std::string& what, double share) { line.show(share, what); });
+            for (size_t i = 0; i < results.size(); ++i) {
+                results[i].figures = measure::bench_grasp(
+                    results[i].setup, [&](const std::string& what, double share) {
+                        line.show(
+                            (static_cast<double>(i) + share) / static_cast<double>(results.size()),
+                            what);
+                    });
+            }
         }
-        fmt::print("{}", options->json ? to_json(figures, options->setup) : to_table(figures, options->setup));
+        fmt::print("{}", options->json ? to_json(results.front().figures, options->setup)
+                                       : to_table(results));
     });
 }
 
 void add_friction(CLI::App& bench) {
-    auto* command = bench.add_subcommand("friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
+    auto* command = bench.add_subcommand(
+        "friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
     auto options = std::make_shared<Options>();
     command->add_option("--solver", options->solver, "only this contact solver; otherwise all");
     command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
@@ -70,15 +91,17 @@ void add_friction(CLI::App& bench) {
         std::vector<measure::FrictionFigures> figures;
         {
             ProgressLine line("bench friction");
-            figures.push_back(measure::bench_friction(options->setup.settings.dynamics,
-                                                      [&](const std::string& what, double share) { line.show(share, what); }));
+            figures.push_back(measure::bench_friction(
+                options->setup.settings.dynamics,
+                [&](const std::string& what, double share) { line.show(share, what); }));
         }
         fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
     });
 }
 
 void add_scale(CLI::App& bench) {
-    auto* command = bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
+    auto* command =
+        bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<Options>();
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_common(*command, *options);
@@ -89,8 +112,9 @@ void add_scale(CLI::App& bench) {
         std::vector<measure::ScaleFigures> figures;
         {
             ProgressLine line("bench scale");
-            figures = measure::bench_scale(options->setup, *extras,
-                                           [&](const std::string& what, double share) { line.show(share, what); });
+            figures = measure::bench_scale(
+                options->setup, *extras,
+                [&](const std::string& what, double share) { line.show(share, what); });
         }
         fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
     });
@@ -99,7 +123,8 @@ void add_scale(CLI::App& bench) {
 }  // namespace
 
 void add_bench(CLI::App& app) {
-    auto* bench = app.add_subcommand("bench", "Measure the figures that the project claims (docs/measures.md)");
+    auto* bench = app.add_subcommand(
+        "bench", "Measure the figures that the project claims (docs/measures.md)");
     bench->require_subcommand(1);
     bench->footer("\nExample:\n  dihaptic bench grasp --json > grasp.json");
     add_grasp(*bench);

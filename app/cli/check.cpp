@@ -8,23 +8,28 @@
 namespace dihaptic::cli {
 
 void add_check(CLI::App& app) {
-    auto* command = app.add_subcommand("check", "Check scene, rig, experiment and movement files before anyone sits down");
+    auto* command = app.add_subcommand(
+        "check", "Check scene, rig, experiment and movement files before anyone sits down");
     auto files = std::make_shared<std::vector<std::string>>();
     command->add_option("FILE", *files, "files to check")->required();
-    command->footer("\nExample:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml movements/*.csv");
+    command->footer(
+        "\nExample:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
+        "movements/*.csv");
     command->callback([files] {
         size_t bad = 0;
         for (const std::string& file : *files) {
             Diagnostics diagnostics;
             const std::string what = experiment::check_file(file, diagnostics);
             print(diagnostics.problems());
-            const auto warnings = std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),
-                                                [](const Problem& p) { return p.severity == Severity::warning; });
+            const auto warnings =
+                std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),
+                              [](const Problem& p) { return p.severity == Severity::warning; });
             if (diagnostics.has_errors()) {
                 ++bad;
                 fmt::print("{}: not usable\n", file);
             } else if (warnings > 0) {
-                fmt::print("{}: {} with {} warning{}\n", file, what, warnings, warnings == 1 ? "" : "s");
+                fmt::print("{}: {} with {} warning{}\n", file, what, warnings,
+                           warnings == 1 ? "" : "s");
             } else {
                 fmt::print("{}: {}, in order\n", file, what);
             }

@@ -14,15 +14,21 @@ namespace {
 std::string typed;
 }
 
-std::string command_line() { return typed; }
-
-void remember_command_line(int argc, char** argv) {
-    for (int i = 0; i < argc; ++i) typed += (i > 0 ? " " : "") + std::string(i == 0 ? "dihaptic" : argv[i]);
+std::string command_line() {
+    return typed;
 }
 
-ProgressLine::ProgressLine(std::string label) : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+void remember_command_line(int argc, char** argv) {
+    for (int i = 0; i < argc; ++i)
+        typed += (i > 0 ? " " : "") + std::string(i == 0 ? "dihaptic" : argv[i]);
+}
 
-ProgressLine::~ProgressLine() { clear(); }
+ProgressLine::ProgressLine(std::string label)
+    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+    clear();
+}
 
 void ProgressLine::show(double share, const std::string& what) {
     const int percent = static_cast<int>(share * 100);
@@ -34,7 +40,9 @@ void ProgressLine::show(double share, const std::string& what) {
     }
     constexpr int kBar = 24;
     const int full = percent * kBar / 100;
-    std::string line = fmt::format("{} [{:<{}}] {:3d} % {}", label_, std::string(static_cast<size_t>(full), '#'), kBar, percent, what);
+    std::string line =
+        fmt::format("{} [{:<{}}] {:3d} % {}", label_, std::string(static_cast<size_t>(full), '#'),
+                    kBar, percent, what);
     const size_t width = line.size();
     if (width < width_) line.append(width_ - width, ' ');
     width_ = width;

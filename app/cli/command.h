@@ -24,7 +24,8 @@ void add_recover(CLI::App& app);
 void add_check(CLI::App& app);
 void add_bench(CLI::App& app);
 
-/// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each tenth.
+/// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each
+/// tenth.
 class ProgressLine {
   public:
     explicit ProgressLine(std::string label);

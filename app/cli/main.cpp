@@ -8,7 +8,9 @@
 
 namespace {
 
-void on_interrupt(int) { dihaptic::cli::stop_requested.store(true); }
+void on_interrupt(int) {
+    dihaptic::cli::stop_requested.store(true);
+}
 
 }  // namespace
 
@@ -18,10 +20,14 @@ int main(int argc, char** argv) {
     std::signal(SIGTERM, on_interrupt);
     cli::remember_command_line(argc, argv);
 
-    CLI::App app("Dihaptic: grasp, lift and turn virtual objects with two force-feedback devices, or with a simulated hand.");
+    CLI::App app(
+        "Dihaptic: grasp, lift and turn virtual objects with two force-feedback devices, or with a "
+        "simulated hand.");
     app.set_version_flag("--version", recording::program_version());
     app.require_subcommand(1);
-    app.footer("\nExample:\n  dihaptic run experiments/lift-block.yaml\n\nEach command has --help of its own.");
+    app.footer(
+        "\nExample:\n  dihaptic run experiments/lift-block.yaml\n\nEach command has --help of its "
+        "own.");
     cli::add_run(app);
     cli::add_replay(app);
     cli::add_recover(app);
@@ -36,7 +42,8 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}\n", e.what());
         return cli::kBadInput;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n", e.what());
+        fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n",
+                   e.what());
         return cli::kFailed;
     }
     return cli::exit_code;

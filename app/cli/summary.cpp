@@ -17,14 +17,16 @@ std::string number(double value, int decimals) {
 
 analysis::SessionFigures finish(const std::string& folder) {
     ProgressLine line("writing session.nwb");
-    return analysis::finish_session(recording::SessionFolder::open(folder), [&](double share) { line.show(share); });
+    return analysis::finish_session(recording::SessionFolder::open(folder),
+                                    [&](double share) { line.show(share); });
 }
 
 void print_movement(const experiment::MovementReport& report, size_t most_lines) {
-    fmt::print("movement {}: {:.2f} s, closed to {:.1f} mm at {:.2f} s, block {:.1f} mm wide\n", report.file,
-               report.duration, report.site.aperture * 1e3, report.site.start, report.block_width * 1e3);
-    fmt::print("bridged {:.1f} % of it, {} faults{}\n", 100 * report.bridged_share, report.faults.size(),
-               report.faults.empty() ? "" : ":");
+    fmt::print("movement {}: {:.2f} s, closed to {:.1f} mm at {:.2f} s, block {:.1f} mm wide\n",
+               report.file, report.duration, report.site.aperture * 1e3, report.site.start,
+               report.block_width * 1e3);
+    fmt::print("bridged {:.1f} % of it, {} faults{}\n", 100 * report.bridged_share,
+               report.faults.size(), report.faults.empty() ? "" : ":");
     for (size_t i = 0; i < report.faults.size() && i < most_lines; ++i) {
         fmt::print("  {}\n", hand::describe(report.faults[i], report.fingers));
     }
@@ -33,16 +35,23 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
     }
 }
 
-void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan, const experiment::RunResult& result) {
-    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n", "phase", "from s", "to s",
-               "grip N", "peak N", "load N", "finger N", "peak N", "slip mm", "weight");
+void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
+                   const experiment::RunResult& result) {
+    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n",
+               "phase", "from s", "to s", "grip N", "peak N", "load N", "finger N", "peak N",
+               "slip mm", "weight");
     for (const analysis::PhaseFigures& p : figures.phases) {
-        fmt::print("{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n", p.name, p.start, p.end,
-                   number(p.mean_grip, 3), number(p.peak_grip, 3), number(p.mean_load, 3), number(p.mean_force, 3),
-                   number(p.peak_force, 3), number(p.slip * 1e3, 4), number(p.weight_felt, 4));
+        fmt::print(
+            "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n",
+            p.name, p.start, p.end, number(p.mean_grip, 3), number(p.peak_grip, 3),
+            number(p.mean_load, 3), number(p.mean_force, 3), number(p.peak_force, 3),
+            number(p.slip * 1e3, 4), number(p.weight_felt, 4));
     }
-    fmt::print("\ngrip: pinch force, mean of the digits; load: tangential force along gravity, both digits; finger: force on\n"
-               "the busiest handle; slip: of a finger on the object; weight: vertical handle forces over the object's weight\n\n");
+    fmt::print(
+        "\ngrip: pinch force, mean of the digits; load: tangential force along gravity, both "
+        "digits; finger: force on\n"
+        "the busiest handle; slip: of a finger on the object; weight: vertical handle forces over "
+        "the object's weight\n\n");
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;
@@ -50,9 +59,12 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         fmt::print("note: in {} of {} ticks {}{}\n", ticks, figures.frames, text.what,
                    text.remedy.empty() ? "" : ": " + text.remedy);
     }
-    fmt::print("{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, {:.1f} us max; period {:.0f} us\n",
-               result.simulated, result.elapsed, result.simulated / result.elapsed, result.tick_times.quantile(0.5),
-               result.tick_times.quantile(0.99), result.tick_times.quantile(1), plan.settings.tick() * 1e6);
+    fmt::print(
+        "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "
+        "{:.1f} us max; period {:.0f} us\n",
+        result.simulated, result.elapsed, result.simulated / result.elapsed,
+        result.tick_times.quantile(0.5), result.tick_times.quantile(0.99),
+        result.tick_times.quantile(1), plan.settings.tick() * 1e6);
     if (result.overruns > 0 || result.dropped > 0) {
         fmt::print("{} overruns, {} frames not recorded\n", result.overruns, result.dropped);
     }

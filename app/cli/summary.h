@@ -7,7 +7,8 @@
 namespace dihaptic::cli {
 
 /// The table of phases, limits that were met, timing, and the folder.
-void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan, const experiment::RunResult& result);
+void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
+                   const experiment::RunResult& result);
 /// What a recorded movement had wrong with it.
 void print_movement(const experiment::MovementReport& report, size_t most_lines);
 

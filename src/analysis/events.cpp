@@ -2,7 +2,8 @@
 
 namespace dihaptic::analysis {
 
-EventFinder::EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases)
+EventFinder::EventFinder(const recording::LogHead& head, int object,
+                         std::vector<std::string> phases)
     : head_(head),
       object_(object),
       phases_(std::move(phases)),
@@ -15,7 +16,9 @@ std::string EventFinder::name(int body) const {
 
 void EventFinder::add(const servo::Frame& frame) {
     const double now = seconds(frame.time);
-    const auto say = [&](const char* what, std::string detail) { events_.push_back({now, frame.trial, what, std::move(detail)}); };
+    const auto say = [&](const char* what, std::string detail) {
+        events_.push_back({now, frame.trial, what, std::move(detail)});
+    };
 
     if (frame.phase != phase_) {
         phase_ = frame.phase;
@@ -37,19 +40,22 @@ void EventFinder::add(const servo::Frame& frame) {
     }
     for (size_t i = 0; i < touching.size(); ++i) {
         if (touching[i] == touching_[i]) continue;
-        say(touching[i] ? "touch" : "release", head_.fingers[i / all] + " " + name(static_cast<int>(i % all)));
+        say(touching[i] ? "touch" : "release",
+            head_.fingers[i / all] + " " + name(static_cast<int>(i % all)));
     }
     touching_ = std::move(touching);
     // an object asleep on its support has no contacts in the frame, and has not moved either
     const bool asleep = object_ >= 0 && !frame.bodies[static_cast<size_t>(object_)].awake;
-    if (object_ >= 0 && !asleep && frame.sequence > 0) {
-        if (supported_before_ && !on_support) say("lift-off", name(object_));
-        if (!supported_before_ && on_support) say("replaced", name(object_));
-        supported_before_ = on_support;
+    if (object_ >= 0 && !asleep) {
+        if (seen_ && supported_ && !on_support) say("lift-off", name(object_));
+        if (seen_ && !supported_ && on_support) say("replaced", name(object_));
+        supported_ = on_support;
     }
+    seen_ = true;
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const auto flag = static_cast<servo::Status>(1u << bit);
-        if ((frame.status & flag) != 0 && (status_ & flag) == 0) say("limit", servo::describe(flag).what);
+        if ((frame.status & flag) != 0 && (status_ & flag) == 0)
+            say("limit", servo::describe(flag).what);
     }
     status_ = frame.status;
 }

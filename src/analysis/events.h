@@ -1,5 +1,5 @@
-// What happened in a session, from its frames: touches and releases, lift-off and replacement of the
-// object, phases, and what the servo could not do as asked.
+// What happened in a session, from its frames: touches and releases, lift-off and replacement of
+// the object, phases, and what the servo could not do as asked.
 #pragma once
 
 #include <string>
@@ -31,8 +31,8 @@ class EventFinder {
     int object_;
     std::vector<std::string> phases_;
     std::vector<char> touching_;  // by finger, by body
-    bool on_support_ = true;
-    bool supported_before_ = false;
+    bool seen_ = false;           // a frame before this one
+    bool supported_ = false;      // in it, the object pressed on something that is no finger
     int phase_ = -1;
     uint32_t status_ = 0;
     std::vector<Event> events_;

@@ -36,7 +36,8 @@ void GraspTrace::add(const servo::Frame& frame) {
 
 Range GraspTrace::between(double from, double to) const {
     const auto at = [&](double t) {
-        const double index = std::round((t - (samples_.empty() ? 0 : samples_.front().time)) / tick_);
+        const double index =
+            std::round((t - (samples_.empty() ? 0 : samples_.front().time)) / tick_);
         return static_cast<size_t>(std::clamp(index, 0.0, static_cast<double>(samples_.size())));
     };
     return {at(from), at(to)};
@@ -55,7 +56,8 @@ Range GraspTrace::of_phase(int phase) const {
 size_t GraspTrace::lift_off() const {
     for (size_t i = 0; i < samples_.size(); ++i) {
         const Sample& s = samples_[i];
-        const bool held = std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
+        const bool held =
+            std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
         if (held && !s.on_support) return i;
     }
     return samples_.size();
@@ -77,7 +79,8 @@ double GraspTrace::slip(Range range) const {
     for (size_t f = 0; f < fingers(); ++f) {
         const Vec3 reference = start.X_WB.inverse() * start.p_WP[f];
         for (size_t i = range.first; i < range.last; ++i) {
-            most = std::max(most, (samples_[i].X_WB.inverse() * samples_[i].p_WP[f] - reference).norm());
+            most = std::max(most,
+                            (samples_[i].X_WB.inverse() * samples_[i].p_WP[f] - reference).norm());
         }
     }
     return most;
@@ -88,7 +91,8 @@ double GraspTrace::height_rms(Range range) const {
     double square = 0;
     const auto n = static_cast<double>(range.size());
     for (size_t i = range.first; i < range.last; ++i) mean += samples_[i].X_WB.p.z() / n;
-    for (size_t i = range.first; i < range.last; ++i) square += std::pow(samples_[i].X_WB.p.z() - mean, 2) / n;
+    for (size_t i = range.first; i < range.last; ++i)
+        square += std::pow(samples_[i].X_WB.p.z() - mean, 2) / n;
     return std::sqrt(square);
 }
 
@@ -113,7 +117,9 @@ double GraspTrace::sag(Range range) const {
 
 double GraspTrace::axis_tilt_rms(Range range) const {
     if (range.size() == 0 || fingers() < 2) return 0;
-    const auto axis = [&](size_t i) { return Vec3((samples_[i].p_WP[1] - samples_[i].p_WP[0]).normalized()); };
+    const auto axis = [&](size_t i) {
+        return Vec3((samples_[i].p_WP[1] - samples_[i].p_WP[0]).normalized());
+    };
     Vec3 mean = Vec3::Zero();
     for (size_t i = range.first; i < range.last; ++i) mean += axis(i);
     mean.normalize();
@@ -136,7 +142,8 @@ double GraspTrace::turn_at(size_t reference, size_t sample) const {
 double GraspTrace::turn(Range range) const {
     double most = 0;
     if (fingers() < 2) return most;
-    for (size_t i = range.first; i < range.last; ++i) most = std::max(most, std::abs(turn_at(range.first, i)));
+    for (size_t i = range.first; i < range.last; ++i)
+        most = std::max(most, std::abs(turn_at(range.first, i)));
     return most;
 }
 
@@ -146,7 +153,8 @@ double GraspTrace::force_above_5_hz(Range range) const {
         double square = 0;
         for (int axis = 0; axis < 3; ++axis) {
             std::vector<double> force;
-            for (size_t i = range.first; i < range.last; ++i) force.push_back(samples_[i].f_sent_W[f][axis]);
+            for (size_t i = range.first; i < range.last; ++i)
+                force.push_back(samples_[i].f_sent_W[f][axis]);
             if (force.empty()) return 0;
             for (const double high : model::high_pass(force, 5.0, 1 / tick_)) square += high * high;
         }

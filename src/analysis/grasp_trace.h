@@ -1,5 +1,5 @@
-// What a grasp looked like, tick by tick, and the figures that follow from it. Summaries of sessions
-// and benchmarks use the same ones.
+// What a grasp looked like, tick by tick, and the figures that follow from it. Summaries of
+// sessions and benchmarks use the same ones.
 #pragma once
 
 #include <vector>
@@ -26,13 +26,13 @@ class GraspTrace {
     struct Sample {
         double time;
         int phase;
-        double grip;         ///< [N]
-        double load;         ///< [N]
-        bool on_support;     ///< the object presses on something that is no finger
-        Pose X_WB;           ///< object
+        double grip;      ///< [N]
+        double load;      ///< [N]
+        bool on_support;  ///< the object presses on something that is no finger
+        Pose X_WB;        ///< object
         std::vector<Vec3> p_WP;
-        std::vector<Vec3> f_sent_W;   ///< on the handle
-        std::vector<char> touching;   ///< presses the object
+        std::vector<Vec3> f_sent_W;  ///< on the handle
+        std::vector<char> touching;  ///< presses the object
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }
@@ -42,12 +42,13 @@ class GraspTrace {
     Range between(double from, double to) const;
     Range of_phase(int phase) const;
 
-    /// First sample from which the object presses on nothing but the fingers; samples().size() if none.
+    /// First sample from which the object presses on nothing but the fingers; samples().size() if
+    /// none.
     size_t lift_off() const;
     /// Every finger presses the object in every sample.
     bool all_touching(Range range) const;
-    /// Largest distance of a proxy's origin, in the object's frame, from where it was at the range's
-    /// start [m].
+    /// Largest distance of a proxy's origin, in the object's frame, from where it was at the
+    /// range's start [m].
     double slip(Range range) const;
     /// Root mean square, and peak to peak, of the object's height about its mean [m].
     double height_rms(Range range) const;

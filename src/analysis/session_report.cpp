@@ -33,7 +33,8 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     out.peak_force = trace.peak_force(range);
     const bool held = trace.all_touching(range);
     bool carried = held && weight > 0;
-    for (size_t i = range.first; i < range.last && carried; ++i) carried = !trace.samples()[i].on_support;
+    for (size_t i = range.first; i < range.last && carried; ++i)
+        carried = !trace.samples()[i].on_support;
     out.slip = held ? trace.slip(range) : kNaN;
     out.weight_felt = carried ? trace.weight_felt(range) / weight : kNaN;
     return out;
@@ -47,7 +48,8 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     diagnostics.throw_if_errors();
     const int object = info.object.empty() ? -1 : scene.find(info.object);
     const double weight =
-        object < 0 ? 0 : scene::mass(scene.bodies[static_cast<size_t>(object)]) * scene.gravity.norm();
+        object < 0 ? 0
+                   : scene::mass(scene.bodies[static_cast<size_t>(object)]) * scene.gravity.norm();
 
     std::vector<std::string> names;
     for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
@@ -88,7 +90,8 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         for (int bit = 0; bit < servo::kStatusBits; ++bit) {
             figures.status_ticks[static_cast<size_t>(bit)] += (frame->status >> bit) & 1u;
         }
-        if (progress && figures.frames % 5000 == 0) progress(std::min(0.99, static_cast<double>(figures.frames) * 1000 / size));
+        if (progress && figures.frames % 5000 == 0)
+            progress(std::min(0.99, static_cast<double>(figures.frames) * 1000 / size));
     }
     close_phase();
     figures.complete = log.complete();
@@ -99,20 +102,22 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
 
 Table phase_table(const SessionFigures& figures) {
     Table table;
-    table.columns = {{"start_time", "s"},
-                     {"stop_time", "s"},
-                     {"trial", "number, from 1"},
-                     {"phase", "name"},
-                     {"mean_grip_N", "pinch component of the normal forces, mean of the digits"},
-                     {"peak_grip_N", "largest grip force"},
-                     {"mean_load_N", "tangential contact forces along gravity, summed over the digits"},
-                     {"mean_force_N", "mean force on the busiest finger"},
-                     {"peak_force_N", "largest force on any finger"},
-                     {"slip_mm", "largest slip of a finger on the object; empty unless all held it throughout"},
-                     {"weight_felt", "vertical handle forces over the object's weight; empty unless carried"}};
+    table.columns = {
+        {"start_time", "s"},
+        {"stop_time", "s"},
+        {"trial", "number, from 1"},
+        {"phase", "name"},
+        {"mean_grip_N", "pinch component of the normal forces, mean of the digits"},
+        {"peak_grip_N", "largest grip force"},
+        {"mean_load_N", "tangential contact forces along gravity, summed over the digits"},
+        {"mean_force_N", "mean force on the busiest finger"},
+        {"peak_force_N", "largest force on any finger"},
+        {"slip_mm", "largest slip of a finger on the object; empty unless all held it throughout"},
+        {"weight_felt", "vertical handle forces over the object's weight; empty unless carried"}};
     for (const PhaseFigures& p : figures.phases) {
-        table.rows.push_back({p.start, p.end, static_cast<double>(p.trial), p.name, p.mean_grip, p.peak_grip, p.mean_load,
-                              p.mean_force, p.peak_force, p.slip * 1e3, p.weight_felt});
+        table.rows.push_back({p.start, p.end, static_cast<double>(p.trial), p.name, p.mean_grip,
+                              p.peak_grip, p.mean_load, p.mean_force, p.peak_force, p.slip * 1e3,
+                              p.weight_felt});
     }
     return table;
 }
@@ -141,9 +146,10 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
         }
         const bool done = phases.back()->name == info.phases.back().name && figures.complete &&
                           info.state != recording::SessionState::interrupted;
-        table.rows.push_back({phases.front()->start, phases.back()->end, info.title, info.participant.id, 1.0,
-                              static_cast<double>(trial), 1.0, static_cast<double>(trial),
-                              done ? "done" : "interrupted", grip, force});
+        table.rows.push_back({phases.front()->start, phases.back()->end, info.title,
+                              info.participant.id, 1.0, static_cast<double>(trial), 1.0,
+                              static_cast<double>(trial), done ? "done" : "interrupted", grip,
+                              force});
     }
     return table;
 }
@@ -152,7 +158,8 @@ Table event_table(const std::vector<Event>& events) {
     Table table;
     table.columns = {{"time_s", ""}, {"trial", ""}, {"event", ""}, {"detail", ""}};
     for (const Event& event : events) {
-        table.rows.push_back({event.time, static_cast<double>(event.trial), event.name, event.detail});
+        table.rows.push_back(
+            {event.time, static_cast<double>(event.trial), event.name, event.detail});
     }
     return table;
 }
@@ -160,7 +167,9 @@ Table event_table(const std::vector<Event>& events) {
 Table read_csv_settings(const recording::SessionFolder& folder) {
     // settings.csv is this program's own: three cells a line, quoted where they must be
     Table table;
-    table.columns = {{"setting", "name and unit"}, {"value", "as used"}, {"origin", "file and line, or default"}};
+    table.columns = {{"setting", "name and unit"},
+                     {"value", "as used"},
+                     {"origin", "file and line, or default"}};
     for (std::vector<std::string>& row : read_csv(folder.file("settings.csv"))) {
         row.resize(3);
         table.rows.push_back({row[0], row[1], row[2]});
@@ -171,11 +180,13 @@ Table read_csv_settings(const recording::SessionFolder& folder) {
 
 }  // namespace
 
-SessionFigures read_figures(const recording::SessionFolder& folder, const std::function<void(double)>& progress) {
+SessionFigures read_figures(const recording::SessionFolder& folder,
+                            const std::function<void(double)>& progress) {
     return read(folder, folder.read_info(), progress).figures;
 }
 
-SessionFigures finish_session(const recording::SessionFolder& folder, const std::function<void(double)>& progress) {
+SessionFigures finish_session(const recording::SessionFolder& folder,
+                              const std::function<void(double)>& progress) {
     recording::NwbContent content;
     content.info = folder.read_info();
     const auto part = [&](double from, double to) {

@@ -1,5 +1,5 @@
-// From raw.log to what a lab reads: trials.csv, phases.csv, events.csv and session.nwb. A session that
-// ended and one that was killed go the same way.
+// From raw.log to what a lab reads: trials.csv, phases.csv, events.csv and session.nwb. A session
+// that ended and one that was killed go the same way.
 #pragma once
 
 #include <functional>
@@ -16,28 +16,30 @@ struct PhaseFigures {
     std::string name;
     double start = 0;  ///< [s]
     double end = 0;
-    double mean_grip = 0, peak_grip = 0;   ///< [N]; NaN with one finger
-    double mean_load = 0;                  ///< [N]
-    double mean_force = 0, peak_force = 0; ///< on the busiest finger; on any [N]
-    double slip = 0;                       ///< [m]; NaN unless every finger holds the object throughout
-    double weight_felt = 0;                ///< share of the object's weight; NaN unless it is carried
+    double mean_grip = 0, peak_grip = 0;    ///< [N]; NaN with one finger
+    double mean_load = 0;                   ///< [N]
+    double mean_force = 0, peak_force = 0;  ///< on the busiest finger; on any [N]
+    double slip = 0;         ///< [m]; NaN unless every finger holds the object throughout
+    double weight_felt = 0;  ///< share of the object's weight; NaN unless it is carried
 };
 
 struct SessionFigures {
     std::vector<PhaseFigures> phases;
     int64_t frames = 0;
-    int64_t missing = 0;        ///< sequence numbers that the log does not have
-    int64_t damaged_bytes = 0;  ///< at the log's end
-    bool complete = false;      ///< the log has its end mark
-    double duration = 0;        ///< [s]
-    uint32_t status = 0;        ///< all status bits that occurred
+    int64_t missing = 0;                ///< sequence numbers that the log does not have
+    int64_t damaged_bytes = 0;          ///< at the log's end
+    bool complete = false;              ///< the log has its end mark
+    double duration = 0;                ///< [s]
+    uint32_t status = 0;                ///< all status bits that occurred
     std::vector<int64_t> status_ticks;  ///< by bit
 };
 
 /// Reads the log and computes the figures; writes nothing.
-SessionFigures read_figures(const recording::SessionFolder& folder, const std::function<void(double)>& progress = {});
+SessionFigures read_figures(const recording::SessionFolder& folder,
+                            const std::function<void(double)>& progress = {});
 
 /// Writes trials.csv, phases.csv, events.csv and session.nwb. Throws Error when it cannot.
-SessionFigures finish_session(const recording::SessionFolder& folder, const std::function<void(double)>& progress);
+SessionFigures finish_session(const recording::SessionFolder& folder,
+                              const std::function<void(double)>& progress);
 
 }  // namespace dihaptic::analysis

@@ -8,7 +8,9 @@ namespace dihaptic {
 using Time = std::chrono::nanoseconds;
 
 /// Seconds as a number, for arithmetic.
-constexpr double seconds(Time time) { return std::chrono::duration<double>(time).count(); }
+constexpr double seconds(Time time) {
+    return std::chrono::duration<double>(time).count();
+}
 
 /// The nearest whole nanosecond to a number of seconds.
 constexpr Time from_seconds(double s) {

@@ -38,14 +38,17 @@ Error::Error(std::vector<Problem> problems)
     : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
 
 Error::Error(Place place, std::string key, std::string what, std::string remedy)
-    : Error({{Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)}}) {}
+    : Error({{Severity::error, std::move(place), std::move(key), std::move(what),
+              std::move(remedy)}}) {}
 
 void Diagnostics::error(Place place, std::string key, std::string what, std::string remedy) {
-    problems_.push_back({Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+    problems_.push_back(
+        {Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)});
 }
 
 void Diagnostics::warning(Place place, std::string key, std::string what, std::string remedy) {
-    problems_.push_back({Severity::warning, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+    problems_.push_back(
+        {Severity::warning, std::move(place), std::move(key), std::move(what), std::move(remedy)});
 }
 
 void Diagnostics::add(const std::vector<Problem>& problems) {

@@ -32,7 +32,8 @@ class Error : public std::runtime_error {
   public:
     explicit Error(std::vector<Problem> problems);
     Error(Place place, std::string key, std::string what, std::string remedy);
-    Error(std::string what, std::string remedy) : Error(Place{}, "", std::move(what), std::move(remedy)) {}
+    Error(std::string what, std::string remedy)
+        : Error(Place{}, "", std::move(what), std::move(remedy)) {}
 
     const std::vector<Problem>& problems() const { return problems_; }
 

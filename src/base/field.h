@@ -11,10 +11,11 @@
 //         }
 //     };
 //
-// and reading (FieldReader), writing (FieldWriter) and whatever else needs names, units and bounds are
-// visitors. An enum lists its names once, for argument-dependent lookup:
+// and reading (FieldReader), writing (FieldWriter) and whatever else needs names, units and bounds
+// are visitors. An enum lists its names once, for argument-dependent lookup:
 //
-//     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }   // in the enum's order
+//     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }   // in the enum's
+//     order
 //
 #pragma once
 
@@ -31,7 +32,7 @@ struct Field {
     Quantity quantity = Quantity::none;
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool above_min = false;   ///< the minimum itself is not allowed
+    bool above_min = false;  ///< the minimum itself is not allowed
     bool is_required = false;
 
     static constexpr Field number() { return {}; }
@@ -63,11 +64,19 @@ struct Field {
 };
 
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires(E e) { enum_names(e); };
+concept NamedEnum = std::is_enum_v<E> && requires(E e) {
+    enum_names(e);
+};
 
-/// A struct that lists its fields for visitors of type V. (Eigen's matrices have a visit() of their own.)
+/// A struct that lists its fields for visitors of type V. (Eigen's matrices have a visit() of their
+/// own.)
 template <class Struct, class V>
-concept Described = !requires { Struct::RowsAtCompileTime; } && requires(Struct& s, V& v) { s.visit(v); };
+concept Described = !requires {
+    Struct::RowsAtCompileTime;
+}
+&&requires(Struct& s, V& v) {
+    s.visit(v);
+};
 
 /// The name of an enum's value in files and tables.
 template <NamedEnum E>

@@ -11,7 +11,8 @@ namespace {
 
 std::vector<std::string> keys_of(const std::string& name, Quantity quantity) {
     std::vector<std::string> keys;
-    for (const Unit& unit : units(quantity)) keys.push_back(fmt::format("{}_{}", name, unit.suffix));
+    for (const Unit& unit : units(quantity))
+        keys.push_back(fmt::format("{}_{}", name, unit.suffix));
     if (keys.empty()) keys.push_back(name);
     return keys;
 }
@@ -27,7 +28,8 @@ std::string origin_of(const Place& place) {
 
 }  // namespace
 
-FieldReader::FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins, std::string path)
+FieldReader::FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins,
+                         std::string path)
     : mapping_(mapping), diagnostics_(diagnostics), origins_(origins), path_(std::move(path)) {}
 
 Place FieldReader::place_of(std::string_view name) const {
@@ -54,7 +56,8 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
         if (node == nullptr) continue;
         used_.insert(keys[i]);
         if (given.node != nullptr) {
-            diagnostics_.error(node->place, keys[i], fmt::format("the same {} is given as {} too", name, given.key),
+            diagnostics_.error(node->place, keys[i],
+                               fmt::format("the same {} is given as {} too", name, given.key),
                                "Keep one of the two.");
             continue;
         }
@@ -76,7 +79,8 @@ void FieldReader::note_origin(std::string_view name, const Node& node) {
     (*origins_)[path] = origin_of(node.place);
 }
 
-std::optional<double> FieldReader::number(const Given& given, const Node& node, const Field& field) {
+std::optional<double> FieldReader::number(const Given& given, const Node& node,
+                                          const Field& field) {
     double value = 0;
     const std::string& text = node.scalar;
     const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
@@ -84,10 +88,10 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node, 
     const bool whole = status == std::errc() && end == text.data() + text.size();
     if (node.kind != Node::Kind::scalar || !whole || !std::isfinite(value)) {
         const std::string shown = node.kind == Node::Kind::scalar ? "'" + text + "'" : "a list";
-        diagnostics_.error(given.node->place, given.key, fmt::format("must be a number, is {}", shown),
-                           field.quantity == Quantity::none
-                               ? ""
-                               : "Write the number alone; its unit is in the key.");
+        diagnostics_.error(
+            given.node->place, given.key, fmt::format("must be a number, is {}", shown),
+            field.quantity == Quantity::none ? ""
+                                             : "Write the number alone; its unit is in the key.");
         return std::nullopt;
     }
     const double si = value * given.to_si;
@@ -103,9 +107,11 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node, 
         } else if (std::isinf(field.min)) {
             bound = fmt::format("at most {:g}", high);
         } else {
-            bound = fmt::format("{} {:g} and at most {:g}", field.above_min ? "above" : "at least", low, high);
+            bound = fmt::format("{} {:g} and at most {:g}", field.above_min ? "above" : "at least",
+                                low, high);
         }
-        diagnostics_.error(given.node->place, given.key, fmt::format("must be {}, is {}", bound, text),
+        diagnostics_.error(given.node->place, given.key,
+                           fmt::format("must be {}, is {}", bound, text),
                            "Correct the value, or its unit.");
         return std::nullopt;
     }
@@ -181,7 +187,8 @@ void FieldReader::operator()(std::string_view name, bool& value, Field field) {
     } else if (text == "false" || text == "no") {
         value = false;
     } else {
-        diagnostics_.error(given.node->place, given.key, fmt::format("must be yes or no, is '{}'", text), "");
+        diagnostics_.error(given.node->place, given.key,
+                           fmt::format("must be yes or no, is '{}'", text), "");
     }
 }
 
@@ -233,9 +240,11 @@ int FieldReader::read_choice(std::string_view name, const std::vector<std::strin
     const Given given = take(name, field);
     if (given.node == nullptr) return -1;
     for (size_t i = 0; i < names.size(); ++i) {
-        if (given.node->kind == Node::Kind::scalar && given.node->scalar == names[i]) return static_cast<int>(i);
+        if (given.node->kind == Node::Kind::scalar && given.node->scalar == names[i])
+            return static_cast<int>(i);
     }
-    diagnostics_.error(given.node->place, given.key, fmt::format("'{}' is not known", given.node->scalar),
+    diagnostics_.error(given.node->place, given.key,
+                       fmt::format("'{}' is not known", given.node->scalar),
                        fmt::format("Use {}.", alternatives({names.begin(), names.end()})));
     return -1;
 }
@@ -248,15 +257,18 @@ void FieldReader::finish() {
         for (const Known& candidate : fields_) {
             const bool same = key == candidate.name || (candidate.quantity != Quantity::none &&
                                                         key.starts_with(candidate.name + "_"));
-            if (same && (field == nullptr || candidate.name.size() > field->name.size())) field = &candidate;
-            for (std::string& name : keys_of(candidate.name, candidate.quantity)) known.push_back(std::move(name));
+            if (same && (field == nullptr || candidate.name.size() > field->name.size()))
+                field = &candidate;
+            for (std::string& name : keys_of(candidate.name, candidate.quantity))
+                known.push_back(std::move(name));
         }
         if (field != nullptr) {
             const bool bare = key == field->name;
-            diagnostics_.error(node.place, key,
-                               bare ? "needs its unit in the key"
-                                    : fmt::format("is not a unit of {}", dihaptic::name(field->quantity)),
-                               fmt::format("Write {}.", alternatives(keys_of(field->name, field->quantity))));
+            diagnostics_.error(
+                node.place, key,
+                bare ? "needs its unit in the key"
+                     : fmt::format("is not a unit of {}", dihaptic::name(field->quantity)),
+                fmt::format("Write {}.", alternatives(keys_of(field->name, field->quantity))));
             continue;
         }
         const std::string guess = nearest(key, known);

@@ -1,5 +1,5 @@
-// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong with it:
-// unknown keys, wrong units, wrong types, values out of bounds, missing fields.
+// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong with
+// it: unknown keys, wrong units, wrong types, values out of bounds, missing fields.
 #pragma once
 
 #include <map>
@@ -17,9 +17,9 @@ namespace dihaptic {
 /// Where each setting came from: path ("coupling.stiffness") to "file:line" or "command line".
 using Origins = std::map<std::string, std::string>;
 
-/// The visitor that fills one struct from one mapping. Fields that the mapping does not have keep the
-/// value they had: reading several mappings into one struct, one after the other, is how a later file
-/// overrides an earlier one.
+/// The visitor that fills one struct from one mapping. Fields that the mapping does not have keep
+/// the value they had: reading several mappings into one struct, one after the other, is how a
+/// later file overrides an earlier one.
 class FieldReader {
   public:
     /// `path` is the struct's own place in `origins` ("" for the outermost); `origins` may be null.
@@ -43,19 +43,21 @@ class FieldReader {
     }
 
     template <class Struct>
-        requires Described<Struct, FieldReader>
+    requires Described<Struct, FieldReader>
     void operator()(std::string_view name, Struct& value, Field field = {}) {
-        if (const Node* node = take_mapping(name, field)) read_into(value, *node, std::string(name));
+        if (const Node* node = take_mapping(name, field))
+            read_into(value, *node, std::string(name));
     }
 
     template <class Struct>
-        requires Described<Struct, FieldReader>
+    requires Described<Struct, FieldReader>
     void operator()(std::string_view name, std::optional<Struct>& value, Field field = {}) {
-        if (const Node* node = take_mapping(name, field)) read_into(value.emplace(), *node, std::string(name));
+        if (const Node* node = take_mapping(name, field))
+            read_into(value.emplace(), *node, std::string(name));
     }
 
     template <class Struct>
-        requires Described<Struct, FieldReader>
+    requires Described<Struct, FieldReader>
     void operator()(std::string_view name, std::vector<Struct>& values, Field field = {}) {
         const Node* list = take_list(name, field);
         if (list == nullptr) return;
@@ -94,7 +96,8 @@ class FieldReader {
     const Node* take_mapping(std::string_view name, const Field& field);
     const Node* take_list(std::string_view name, const Field& field);
     bool is_mapping(const Node& node, const std::string& key);
-    int read_choice(std::string_view name, const std::vector<std::string_view>& names, const Field& field);
+    int read_choice(std::string_view name, const std::vector<std::string_view>& names,
+                    const Field& field);
     std::optional<double> number(const Given& given, const Node& scalar, const Field& field);
     std::optional<Vec3> vector(const Given& given, const Field& field);
     std::optional<std::string> word(const Given& given);
@@ -117,9 +120,11 @@ class FieldReader {
 
 /// Reads a whole mapping into a struct; problems go to `diagnostics`.
 template <class Struct>
-void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics, Origins* origins = nullptr) {
+void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
+                 Origins* origins = nullptr) {
     if (mapping.kind != Node::Kind::mapping) {
-        diagnostics.error(mapping.place, "", "is not a list of keys and values", "Write one 'key: value' a line.");
+        diagnostics.error(mapping.place, "", "is not a list of keys and values",
+                          "Write one 'key: value' a line.");
         return;
     }
     FieldReader reader(mapping, diagnostics, origins);

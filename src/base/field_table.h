@@ -14,7 +14,7 @@ class FieldLister {
         : table_(table), origins_(origins), path_(std::move(path)) {}
 
     template <class Struct>
-        requires Described<Struct, FieldLister>
+    requires Described<Struct, FieldLister>
     void operator()(std::string_view name, Struct& value, Field = {}) {
         FieldLister inner(table_, origins_, join(name));
         value.visit(inner);
@@ -24,7 +24,8 @@ class FieldLister {
         FieldWriter writer;
         writer(name, value, field);
         const Node written = writer.take();
-        const std::string key = written.entries.empty() ? si_key(name, field.quantity) : written.entries.front().first;
+        const std::string key =
+            written.entries.empty() ? si_key(name, field.quantity) : written.entries.front().first;
         const auto origin = origins_.find(join(name));
         table_.rows.push_back({(path_.empty() ? "" : path_ + ".") + key,
                                written.entries.empty() ? "" : written.entries.front().second.scalar,
@@ -43,7 +44,9 @@ class FieldLister {
 template <class Struct>
 Table list_fields(Struct value, const Origins& origins) {
     Table table;
-    table.columns = {{"setting", "name and unit"}, {"value", "as used"}, {"origin", "file and line, or default"}};
+    table.columns = {{"setting", "name and unit"},
+                     {"value", "as used"},
+                     {"origin", "file and line, or default"}};
     FieldLister lister(table, origins);
     value.visit(lister);
     return table;

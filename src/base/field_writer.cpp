@@ -6,7 +6,9 @@ namespace dihaptic {
 namespace {
 
 /// The shortest text that reads back as the same number.
-Node exact(double value) { return Node::of(fmt::format("{}", value)); }
+Node exact(double value) {
+    return Node::of(fmt::format("{}", value));
+}
 
 }  // namespace
 
@@ -14,7 +16,8 @@ void FieldWriter::operator()(std::string_view name, const double& value, Field f
     mapping_.set(si_key(name, field.quantity), exact(value));
 }
 
-void FieldWriter::operator()(std::string_view name, const std::optional<double>& value, Field field) {
+void FieldWriter::operator()(std::string_view name, const std::optional<double>& value,
+                             Field field) {
     if (value) (*this)(name, *value, field);
 }
 

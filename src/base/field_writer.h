@@ -1,5 +1,5 @@
-// Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units: what
-// a session keeps of its inputs. Reading the result gives the same struct, to the bit.
+// Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units:
+// what a session keeps of its inputs. Reading the result gives the same struct, to the bit.
 #pragma once
 
 #include <optional>
@@ -29,19 +29,19 @@ class FieldWriter {
     }
 
     template <class Struct>
-        requires Described<Struct, FieldWriter>
+    requires Described<Struct, FieldWriter>
     void operator()(std::string_view name, Struct& value, Field = {}) {
         mapping_.set(std::string(name), write(value));
     }
 
     template <class Struct>
-        requires Described<Struct, FieldWriter>
+    requires Described<Struct, FieldWriter>
     void operator()(std::string_view name, std::optional<Struct>& value, Field = {}) {
         if (value) mapping_.set(std::string(name), write(*value));
     }
 
     template <class Struct>
-        requires Described<Struct, FieldWriter>
+    requires Described<Struct, FieldWriter>
     void operator()(std::string_view name, std::vector<Struct>& values, Field = {}) {
         Node list;
         list.kind = Node::Kind::sequence;

@@ -1,6 +1,6 @@
-// Vectors, rotations and poses, in the monogram notation of docs/conventions.md: X_AB is the pose of
-// frame B in frame A, p_AB the position of B's origin in A, R_AB the rotation of B in A. Adjacent
-// letters match in every product: X_AC = X_AB * X_BC, p_AC = X_AB * p_BC.
+// Vectors, rotations and poses, in the monogram notation of docs/conventions.md: X_AB is the pose
+// of frame B in frame A, p_AB the position of B's origin in A, R_AB the rotation of B in A.
+// Adjacent letters match in every product: X_AC = X_AB * X_BC, p_AC = X_AB * p_BC.
 #pragma once
 
 #include <Eigen/Dense>

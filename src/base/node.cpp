@@ -67,7 +67,8 @@ Node convert(const YAML::Node& in, const std::string& file) {
                 out.entries.emplace_back(key, std::move(value));
             }
             break;
-        default: break;
+        default:
+            break;
     }
     return out;
 }
@@ -75,8 +76,11 @@ Node convert(const YAML::Node& in, const std::string& file) {
 YAML::Node emit(const Node& node) {
     YAML::Node out;
     switch (node.kind) {
-        case Node::Kind::null: break;
-        case Node::Kind::scalar: out = node.scalar; break;
+        case Node::Kind::null:
+            break;
+        case Node::Kind::scalar:
+            out = node.scalar;
+            break;
         case Node::Kind::sequence:
             out = YAML::Node(YAML::NodeType::Sequence);
             for (const Node& item : node.items) out.push_back(emit(item));

@@ -13,7 +13,8 @@
 namespace dihaptic {
 
 std::string to_csv(const Table::Cell& cell) {
-    if (const double* number = std::get_if<double>(&cell)) return std::isnan(*number) ? "" : fmt::format("{:.9g}", *number);
+    if (const double* number = std::get_if<double>(&cell))
+        return std::isnan(*number) ? "" : fmt::format("{:.9g}", *number);
     const std::string& text = std::get<std::string>(cell);
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     std::string quoted = "\"";
@@ -33,12 +34,16 @@ std::string to_csv(const Table& table) {
         }
         out += "\n";
     };
-    line(table.columns, [](const Table::Column& column) { return to_csv(Table::Cell(column.name)); });
-    for (const auto& row : table.rows) line(row, [](const Table::Cell& cell) { return to_csv(cell); });
+    line(table.columns,
+         [](const Table::Column& column) { return to_csv(Table::Cell(column.name)); });
+    for (const auto& row : table.rows)
+        line(row, [](const Table::Cell& cell) { return to_csv(cell); });
     return out;
 }
 
-void write_csv(const Table& table, const std::string& file) { write_file(to_csv(table), file); }
+void write_csv(const Table& table, const std::string& file) {
+    write_file(to_csv(table), file);
+}
 
 std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
@@ -87,7 +92,8 @@ void write_file(const std::string& text, const std::string& file) {
     if (!out || failed) {
         const std::string why = failed ? failed.message() : std::strerror(errno);
         std::filesystem::remove(part, failed);
-        throw Error({file, 0}, "", "cannot be written: " + why, "Check the folder's permissions and the disk's space.");
+        throw Error({file, 0}, "", "cannot be written: " + why,
+                    "Check the folder's permissions and the disk's space.");
     }
 }
 

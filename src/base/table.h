@@ -9,7 +9,7 @@ namespace dihaptic {
 
 struct Table {
     struct Column {
-        std::string name;         ///< with its unit, e.g. "peak_grip_N"
+        std::string name;  ///< with its unit, e.g. "peak_grip_N"
         std::string description;
     };
     using Cell = std::variant<std::string, double>;  ///< NaN: unmeasured, an empty cell
@@ -28,7 +28,8 @@ void write_csv(const Table& table, const std::string& file);
 /// Rows of cells, the header first. Throws Error when the file cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
 
-/// Replaces a file's content so that a reader sees either the old or the new. Throws Error when it cannot.
+/// Replaces a file's content so that a reader sees either the old or the new. Throws Error when it
+/// cannot.
 void write_file(const std::string& text, const std::string& file);
 
 }  // namespace dihaptic

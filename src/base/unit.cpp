@@ -31,30 +31,51 @@ struct Kind {
 
 Kind kind(Quantity quantity) {
     switch (quantity) {
-        case Quantity::none: return {"number", {}, "1"};
-        case Quantity::length: return {"length", kLength, "m"};
-        case Quantity::angle: return {"angle", kAngle, "rad"};
-        case Quantity::mass: return {"mass", kMass, "kg"};
-        case Quantity::density: return {"density", kDensity, "kg/m^3"};
-        case Quantity::time: return {"time", kTime, "s"};
-        case Quantity::frequency: return {"frequency", kFrequency, "Hz"};
-        case Quantity::speed: return {"speed", kSpeed, "m/s"};
-        case Quantity::force: return {"force", kForce, "N"};
-        case Quantity::stiffness: return {"stiffness", kStiffness, "N/m"};
-        case Quantity::damping: return {"damping", kDamping, "N*s/m"};
-        case Quantity::torque: return {"torque", kTorque, "N*m"};
-        case Quantity::acceleration: return {"acceleration", kAcceleration, "m/s^2"};
-        case Quantity::force_rate: return {"rate of force", kForceRate, "N/s"};
-        case Quantity::stiffness_per_force: return {"stiffness per force", kStiffnessPerForce, "1/m"};
+        case Quantity::none:
+            return {"number", {}, "1"};
+        case Quantity::length:
+            return {"length", kLength, "m"};
+        case Quantity::angle:
+            return {"angle", kAngle, "rad"};
+        case Quantity::mass:
+            return {"mass", kMass, "kg"};
+        case Quantity::density:
+            return {"density", kDensity, "kg/m^3"};
+        case Quantity::time:
+            return {"time", kTime, "s"};
+        case Quantity::frequency:
+            return {"frequency", kFrequency, "Hz"};
+        case Quantity::speed:
+            return {"speed", kSpeed, "m/s"};
+        case Quantity::force:
+            return {"force", kForce, "N"};
+        case Quantity::stiffness:
+            return {"stiffness", kStiffness, "N/m"};
+        case Quantity::damping:
+            return {"damping", kDamping, "N*s/m"};
+        case Quantity::torque:
+            return {"torque", kTorque, "N*m"};
+        case Quantity::acceleration:
+            return {"acceleration", kAcceleration, "m/s^2"};
+        case Quantity::force_rate:
+            return {"rate of force", kForceRate, "N/s"};
+        case Quantity::stiffness_per_force:
+            return {"stiffness per force", kStiffnessPerForce, "1/m"};
     }
     return {"number", {}, "1"};
 }
 
 }  // namespace
 
-std::span<const Unit> units(Quantity quantity) { return kind(quantity).units; }
-std::string_view name(Quantity quantity) { return kind(quantity).name; }
-std::string_view si_symbol(Quantity quantity) { return kind(quantity).symbol; }
+std::span<const Unit> units(Quantity quantity) {
+    return kind(quantity).units;
+}
+std::string_view name(Quantity quantity) {
+    return kind(quantity).name;
+}
+std::string_view si_symbol(Quantity quantity) {
+    return kind(quantity).symbol;
+}
 
 std::string si_key(std::string_view field, Quantity quantity) {
     std::string key(field);

@@ -1,5 +1,5 @@
-// Units of values in files. Inside the program everything is SI. In a file a physical value names its
-// unit in the key: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
+// Units of values in files. Inside the program everything is SI. In a file a physical value names
+// its unit in the key: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// The record of one contact point. Contacts are found once a step, by dynamics; whoever reads contacts
-// (frames, fingers) reads these.
+// The record of one contact point. Contacts are found once a step, by dynamics; whoever reads
+// contacts (frames, fingers) reads these.
 #pragma once
 
 #include "base/geometry.h"

@@ -1,8 +1,8 @@
 // The seam to devices: all devices of one backend, read together and written together.
 //
 // Making a group configures it, which may allocate and throw an Error that names the remedy. Then
-// activate(), any number of read() and write() pairs, a pair a tick, and deactivate(). The pair neither
-// allocates nor throws; trouble shows in each reading's status.
+// activate(), any number of read() and write() pairs, a pair a tick, and deactivate(). The pair
+// neither allocates nor throws; trouble shows in each reading's status.
 #pragma once
 
 #include <cassert>
@@ -25,9 +25,10 @@ namespace dihaptic::devices {
 
 /// What can be the matter with a device in one tick.
 enum DeviceStatus : uint32_t {
-    kOutsideWorkspace = 1u << 0,  ///< beyond what the device can reach: move the hand, or the rig's device
-    kForceClamped = 1u << 1,      ///< asked for more than its peak force: soften the coupling
-    kNoMoreData = 1u << 2,        ///< a recording has ended
+    kOutsideWorkspace =
+        1u << 0,  ///< beyond what the device can reach: move the hand, or the rig's device
+    kForceClamped = 1u << 1,  ///< asked for more than its peak force: soften the coupling
+    kNoMoreData = 1u << 2,    ///< a recording has ended
 };
 
 /// State of one device, in its base frame D.
@@ -35,17 +36,18 @@ struct Reading {
     Vec3 p_DH = Vec3::Zero();  ///< endpoint [m]
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
-    uint32_t status = 0;       ///< DeviceStatus
+    uint32_t status = 0;  ///< DeviceStatus
 };
 
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
-    double peak_force = std::numeric_limits<double>::infinity();        ///< [N]
-    double continuous_force = std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
-    double damping = 0;               ///< of handle and hand together, for what stiffness the loop holds [N*s/m]
-    double delay = 0;                 ///< from write to force [s]
-    std::optional<Vec3> workspace;    ///< edges of the box around D's origin [m]
+    double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
+    double continuous_force =
+        std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
+    double damping = 0;  ///< of handle and hand together, for what stiffness the loop holds [N*s/m]
+    double delay = 0;    ///< from write to force [s]
+    std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
 };
 
 /// One device, as the rig file has it.
@@ -57,8 +59,8 @@ struct DeviceConfig {
 
 /// What some backends need of the rest of the program.
 struct Context {
-    double tick = 1e-3;                        ///< [s]
-    const hand::Driver* driver = nullptr;      ///< moves the simulated fingers; outlives the group
+    double tick = 1e-3;                    ///< [s]
+    const hand::Driver* driver = nullptr;  ///< moves the simulated fingers; outlives the group
     hand::Impedance impedance;
     hand::TremorSpec tremor;
     uint64_t seed = 0;
@@ -111,7 +113,8 @@ struct Backend {
     const char* name;
     /// Checks the options of a device, without touching hardware.
     void (*check)(const DeviceConfig& config, Diagnostics& diagnostics);
-    std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs, const Context& context);
+    std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
+                                         const Context& context);
 };
 
 /// All backends.

@@ -1,5 +1,5 @@
-// Bodies grouped by touch, step by step (union-find with path halving). What does not touch, directly
-// or through others that can move, is solved and put to sleep apart.
+// Bodies grouped by touch, step by step (union-find with path halving). What does not touch,
+// directly or through others that can move, is solved and put to sleep apart.
 #pragma once
 
 #include <numeric>

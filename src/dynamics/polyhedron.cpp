@@ -91,7 +91,8 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
             const double below = a_low - b_high;
             const double separation = std::max(above, below);
             if (separation > best.separation) {
-                best = {separation, above > below ? axis : Vec3(-axis), static_cast<int>(i), static_cast<int>(j)};
+                best = {separation, above > below ? axis : Vec3(-axis), static_cast<int>(i),
+                        static_cast<int>(j)};
             }
             if (separation > margin) return best;
         }
@@ -105,7 +106,8 @@ const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const V
     double furthest = -kInfinity;
     for (const Polyhedron::Edge& edge : p.edges) {
         if (edge.direction != direction) continue;
-        const double d = axis.dot(p.vertices[static_cast<size_t>(edge.from)] + p.vertices[static_cast<size_t>(edge.to)]);
+        const double d = axis.dot(p.vertices[static_cast<size_t>(edge.from)] +
+                                  p.vertices[static_cast<size_t>(edge.to)]);
         if (d > furthest) {
             furthest = d;
             best = &edge;
@@ -114,9 +116,10 @@ const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const V
     return *best;
 }
 
-/// Keeps four points that span the patch: the deepest, the furthest from it, and those that make the
-/// largest triangles with these two, one on each side.
-void reduce(const Polygon& points, const std::array<double, 2 * Polyhedron::kMostFaceVertices>& gaps, const Vec3& n,
+/// Keeps four points that span the patch: the deepest, the furthest from it, and those that make
+/// the largest triangles with these two, one on each side.
+void reduce(const Polygon& points,
+            const std::array<double, 2 * Polyhedron::kMostFaceVertices>& gaps, const Vec3& n,
             std::array<size_t, 4>& kept, int& count) {
     if (points.count <= 4) {
         count = static_cast<int>(points.count);
@@ -157,10 +160,10 @@ void reduce(const Polygon& points, const std::array<double, 2 * Polyhedron::kMos
     if (right != deepest) kept[static_cast<size_t>(count++)] = right;
 }
 
-/// Clips the face of `other` that looks at the reference face. The patch's points are (on reference,
-/// on other); its normal leaves the reference.
-void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other, const Pose& X_WO,
-                  double margin, ContactPatch& patch) {
+/// Clips the face of `other` that looks at the reference face. The patch's points are (on
+/// reference, on other); its normal leaves the reference.
+void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
+                  const Pose& X_WO, double margin, ContactPatch& patch) {
     const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
     const Pose X_RO = X_WR.inverse() * X_WO;
     const Vec3 n_O = X_RO.R.conjugate() * reference.normal;
@@ -174,7 +177,8 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
         }
     }
     Polygon polygon;
-    for (const int v : other.faces[incident].vertices) polygon.add(X_RO * other.vertices[static_cast<size_t>(v)]);
+    for (const int v : other.faces[incident].vertices)
+        polygon.add(X_RO * other.vertices[static_cast<size_t>(v)]);
     Polygon clipped;
     const std::vector<int>& loop = reference.vertices;
     for (size_t i = 0; i < loop.size(); ++i) {
@@ -202,10 +206,11 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
     }
 }
 
-void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB, const EdgeQuery& query,
-                  ContactPatch& patch) {
+void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB,
+                  const EdgeQuery& query, ContactPatch& patch) {
     const Polyhedron::Edge& ea = support_edge(a, query.direction_a, query.axis);
-    const Polyhedron::Edge& eb = support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
+    const Polyhedron::Edge& eb =
+        support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
     const Vec3 pa = a.vertices[static_cast<size_t>(ea.from)];
     const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
     const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
@@ -244,9 +249,12 @@ Polyhedron Polyhedron::of(const scene::Hull& hull) {
         out.faces.push_back(std::move(face));
     }
     for (Edge& edge : out.edges) {
-        const Vec3 d = (out.vertices[static_cast<size_t>(edge.to)] - out.vertices[static_cast<size_t>(edge.from)]).normalized();
-        const auto same = std::find_if(out.directions.begin(), out.directions.end(),
-                                       [&](const Vec3& known) { return known.cross(d).norm() < 1e-6; });
+        const Vec3 d = (out.vertices[static_cast<size_t>(edge.to)] -
+                        out.vertices[static_cast<size_t>(edge.from)])
+                           .normalized();
+        const auto same =
+            std::find_if(out.directions.begin(), out.directions.end(),
+                         [&](const Vec3& known) { return known.cross(d).norm() < 1e-6; });
         edge.direction = static_cast<int>(same - out.directions.begin());
         if (same == out.directions.end()) out.directions.push_back(d);
     }
@@ -256,9 +264,11 @@ Polyhedron Polyhedron::of(const scene::Hull& hull) {
 Polyhedron Polyhedron::box(const Vec3& size) {
     scene::Hull hull;
     for (int i = 0; i < 8; ++i) {
-        hull.vertices.push_back(size.cwiseProduct(Vec3(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5)));
+        hull.vertices.push_back(
+            size.cwiseProduct(Vec3(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5)));
     }
-    hull.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    hull.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     return of(hull);
 }
 
@@ -288,11 +298,13 @@ ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b,
     return patch;
 }
 
-ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB, double margin) noexcept {
+ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
+                                double margin) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
     const double offset = patch.n_W.dot(X_WA.p);
-    // the face that looks down, as a patch; a round hull's face may miss its lowest vertex, a corner's may not
+    // the face that looks down, as a patch; a round hull's face may miss its lowest vertex, a
+    // corner's may not
     Polygon near;
     std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps{};
     for (const Vec3& vertex : b.vertices) {
@@ -307,7 +319,8 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
     reduce(near, gaps, patch.n_W, kept, patch.count);
     for (int i = 0; i < patch.count; ++i) {
         const size_t k = kept[static_cast<size_t>(i)];
-        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W, near.points[k], gaps[k]};
+        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W,
+                                                near.points[k], gaps[k]};
     }
     return patch;
 }

@@ -1,9 +1,9 @@
 // Contact between convex polyhedra, and between a polyhedron and a half space.
 //
-// Separating-axis test over the faces of both and the cross products of their edge directions (Gottschalk
-// 1996; Gregorius 2013), then the incident face clipped to the reference face. Contacts are found
-// up to `margin` before they touch, so that a solver can keep bodies from ever overlapping: a gap g
-// lets them approach by g in the step, no more.
+// Separating-axis test over the faces of both and the cross products of their edge directions
+// (Gottschalk 1996; Gregorius 2013), then the incident face clipped to the reference face. Contacts
+// are found up to `margin` before they touch, so that a solver can keep bodies from ever
+// overlapping: a gap g lets them approach by g in the step, no more.
 //
 // Bullet finds box contacts only once they overlap, and allocates on the way; hence this.
 #pragma once
@@ -58,6 +58,7 @@ ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b,
                      double margin) noexcept;
 
 /// The same against the half space below the plane z = 0 of frame A.
-ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB, double margin) noexcept;
+ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
+                                double margin) noexcept;
 
 }  // namespace dihaptic::dynamics

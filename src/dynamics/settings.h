@@ -8,17 +8,21 @@
 namespace dihaptic::dynamics {
 
 enum class Solver { sequential_impulse };
-constexpr auto enum_names(Solver) { return std::array{"sequential_impulse"}; }
+constexpr auto enum_names(Solver) {
+    return std::array{"sequential_impulse"};
+}
 
 struct Settings {
     Solver solver = Solver::sequential_impulse;
-    int every = 1;             ///< one step in so many ticks of the servo
-    int iterations = 200;      ///< most iterations of a step
-    double tolerance = 1e-7;   ///< a step ends when an iteration changes no contact's velocity by more [m/s]
-    bool warm_start = true;    ///< start from the last step's contact forces
-    double penetration_recovery = 0.2;  ///< share of a penetration that one step removes (Bullet's erp2)
-    bool sleeping = true;      ///< objects at rest that nothing touches are left out of the step
-    int max_contacts = 0;      ///< contact points to reserve memory for; 0: from the number of bodies
+    int every = 1;         ///< one step in so many ticks of the servo
+    int iterations = 200;  ///< most iterations of a step
+    double tolerance =
+        1e-7;  ///< a step ends when an iteration changes no contact's velocity by more [m/s]
+    bool warm_start = true;  ///< start from the last step's contact forces
+    double penetration_recovery =
+        0.2;               ///< share of a penetration that one step removes (Bullet's erp2)
+    bool sleeping = true;  ///< objects at rest that nothing touches are left out of the step
+    int max_contacts = 0;  ///< contact points to reserve memory for; 0: from the number of bodies
 
     template <class Visitor>
     void visit(Visitor& v) {

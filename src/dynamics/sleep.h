@@ -1,6 +1,7 @@
-// When bodies sleep. A body is quiet while it hardly moves; bodies that touch each other fall asleep
-// together, once each of them has been quiet for a while and no finger touches any of them. They wake
-// together, in the step in which something awake touches one of them or a load is applied.
+// When bodies sleep. A body is quiet while it hardly moves; bodies that touch each other fall
+// asleep together, once each of them has been quiet for a while and no finger touches any of them.
+// They wake together, in the step in which something awake touches one of them or a load is
+// applied.
 //
 // The limits are far below what a person sees or feels, and a sliding block passes through them in
 // milliseconds, while sleep takes half a second: nothing that slides is ever frozen.
@@ -37,7 +38,9 @@ class SleepKeeper {
             if (quiet_[body] < kQuietTime) group_quiet_[groups.of(body)] = false;
         }
     }
-    bool may_sleep(size_t body, Groups& groups) const noexcept { return group_quiet_[groups.of(body)] != 0; }
+    bool may_sleep(size_t body, Groups& groups) const noexcept {
+        return group_quiet_[groups.of(body)] != 0;
+    }
 
   private:
     std::vector<double> quiet_;      // how long each body has been quiet [s]

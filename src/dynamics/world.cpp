@@ -40,7 +40,8 @@ Solid solid_of(const scene::Shape& shape, double mass) {
 }
 
 btVector3 factors(scene::Axes axes) {
-    return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0, contains(axes, 2) ? 1.0 : 0.0};
+    return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
+            contains(axes, 2) ? 1.0 : 0.0};
 }
 
 }  // namespace
@@ -56,8 +57,8 @@ struct Grouped {
     }
 };
 
-/// Groups without a finger are solved together up to so many pairs: fewer calls, and few that wait for
-/// another group's iterations.
+/// Groups without a finger are solved together up to so many pairs: fewer calls, and few that wait
+/// for another group's iterations.
 constexpr size_t kBatch = 32;
 
 struct World::Impl {
@@ -82,7 +83,7 @@ struct World::Impl {
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;
-    std::vector<Grouped<btCollisionObject*>> grouped_bodies;      // awake, by group
+    std::vector<Grouped<btCollisionObject*>> grouped_bodies;  // awake, by group
     std::vector<Grouped<btPersistentManifold*>> grouped_contacts;
     std::vector<btCollisionObject*> batch_bodies;
     std::vector<btPersistentManifold*> batch_contacts;
@@ -92,8 +93,9 @@ struct World::Impl {
     std::unique_ptr<SleepKeeper> sleep;
     SequentialImpulse sequential_impulse;
 
-    void add(const std::string& name, const scene::Shape& shape, double mass, double friction_coefficient,
-             const Pose& X_WB, const btVector3& linear, const btVector3& angular);
+    void add(const std::string& name, const scene::Shape& shape, double mass,
+             double friction_coefficient, const Pose& X_WB, const btVector3& linear,
+             const btVector3& angular);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
@@ -106,8 +108,9 @@ struct World::Impl {
     void let_sleep(double h, std::vector<BodyState>& states);
 };
 
-void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass, double friction_coefficient,
-                      const Pose& X_WB, const btVector3& linear, const btVector3& angular) {
+void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass,
+                      double friction_coefficient, const Pose& X_WB, const btVector3& linear,
+                      const btVector3& angular) {
     Item item;
     item.name = name;
     item.friction = friction_coefficient;
@@ -125,7 +128,8 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     item.shape = bullet_shape(shape, item.X_BM);
     item.polyhedron = polyhedron(shape, item.X_BM);
 
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, item.shape.get(), to_bullet(item.inertia));
+    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, item.shape.get(),
+                                                  to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
     item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() has it
@@ -145,7 +149,8 @@ World::World(const scene::Scene& scene, const Settings& settings)
     for (const scene::Body& body : scene.bodies) {
         const bool fixed = body.fixed;
         impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction, body.pose(),
-                   fixed ? btVector3(0, 0, 0) : factors(body.moves), fixed ? btVector3(0, 0, 0) : factors(body.turns));
+                   fixed ? btVector3(0, 0, 0) : factors(body.moves),
+                   fixed ? btVector3(0, 0, 0) : factors(body.turns));
     }
 }
 
@@ -154,8 +159,8 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
-    impl_->add(finger.name, finger.shape, finger.mass, finger.friction, {rotation_xyz(finger.rotation), p_WP},
-               btVector3(1, 1, 1), btVector3(0, 0, 0));
+    impl_->add(finger.name, finger.shape, finger.mass, finger.friction,
+               {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1), btVector3(0, 0, 0));
     impl_->items.back().is_proxy = true;
     return {size() - 1};
 }
@@ -163,9 +168,11 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
 void World::activate() {
     Impl& w = *impl_;
     const size_t count = w.items.size();
-    const int max_contacts =
-        w.settings.max_contacts > 0 ? w.settings.max_contacts : std::max(256, 48 * static_cast<int>(count));
-    w.collision = std::make_unique<Collision>(static_cast<int>(count), std::max(64, max_contacts / 2));
+    const int max_contacts = w.settings.max_contacts > 0
+                                 ? w.settings.max_contacts
+                                 : std::max(256, 48 * static_cast<int>(count));
+    w.collision =
+        std::make_unique<Collision>(static_cast<int>(count), std::max(64, max_contacts / 2));
     w.groups = std::make_unique<Groups>(count);
     w.sleep = std::make_unique<SleepKeeper>(count);
     w.sequential_impulse.reserve(static_cast<int>(count), max_contacts);
@@ -185,16 +192,22 @@ void World::activate() {
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;
         for (size_t j = 0; j < count; ++j) {
-            w.friction[i * count + j] =
-                scene::pair_friction(w.scene(), item.name, item.friction, w.items[j].name, w.items[j].friction);
+            w.friction[i * count + j] = scene::pair_friction(w.scene(), item.name, item.friction,
+                                                             w.items[j].name, w.items[j].friction);
         }
     }
     w.collect_awake(states_);
 }
 
-int World::size() const { return static_cast<int>(impl_->items.size()); }
-int World::scene_size() const { return static_cast<int>(impl_->scene_.bodies.size()); }
-const std::string& World::name(BodyIndex body) const { return impl_->items[static_cast<size_t>(body.value)].name; }
+int World::size() const {
+    return static_cast<int>(impl_->items.size());
+}
+int World::scene_size() const {
+    return static_cast<int>(impl_->scene_.bodies.size());
+}
+const std::string& World::name(BodyIndex body) const {
+    return impl_->items[static_cast<size_t>(body.value)].name;
+}
 
 BodyIndex World::find(const std::string& name) const {
     for (size_t i = 0; i < impl_->items.size(); ++i) {
@@ -204,12 +217,17 @@ BodyIndex World::find(const std::string& name) const {
 }
 
 double World::friction(BodyIndex a, BodyIndex b) const {
-    return impl_->friction[static_cast<size_t>(a.value) * impl_->items.size() + static_cast<size_t>(b.value)];
+    return impl_->friction[static_cast<size_t>(a.value) * impl_->items.size() +
+                           static_cast<size_t>(b.value)];
 }
 
-std::span<const size_t> World::stepped() const { return impl_->awake; }
+std::span<const size_t> World::stepped() const {
+    return impl_->awake;
+}
 
-double World::mass(BodyIndex body) const { return impl_->items[static_cast<size_t>(body.value)].body->getMass(); }
+double World::mass(BodyIndex body) const {
+    return impl_->items[static_cast<size_t>(body.value)].body->getMass();
+}
 
 void World::set_mass(BodyIndex body, double mass) noexcept {
     btRigidBody& b = *impl_->items[static_cast<size_t>(body.value)].body;
@@ -304,11 +322,14 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         btRigidBody& body = *item.body;
         Vec3 acceleration = item.force * body.getInvMass();
         if (!item.is_proxy) acceleration += gravity;
-        body.setLinearVelocity(body.getLinearVelocity() + h * to_bullet(acceleration) * body.getLinearFactor());
+        body.setLinearVelocity(body.getLinearVelocity() +
+                               h * to_bullet(acceleration) * body.getLinearFactor());
         const btVector3 turn = body.getInvInertiaTensorWorld() * to_bullet(item.torque);
-        const btVector3 gyroscopic = body.getAngularFactor().isZero() ? btVector3(0, 0, 0)
-                                                                      : body.computeGyroscopicImpulseImplicit_Body(h);
-        body.setAngularVelocity(body.getAngularVelocity() + (h * turn + gyroscopic) * body.getAngularFactor());
+        const btVector3 gyroscopic = body.getAngularFactor().isZero()
+                                         ? btVector3(0, 0, 0)
+                                         : body.computeGyroscopicImpulseImplicit_Body(h);
+        body.setAngularVelocity(body.getAngularVelocity() +
+                                (h * turn + gyroscopic) * body.getAngularFactor());
         item.force.setZero();
         item.torque.setZero();
         // what contacts are looked for ahead of
@@ -358,8 +379,8 @@ contact::SolveStats World::Impl::solve(double h) {
     contact::SolveStats stats;
     const auto solve_batch = [&] {
         if (batch_contacts.empty()) return;
-        const contact::SolveStats batch =
-            sequential_impulse.solve(batch_bodies, batch_contacts, settings, h, collision->dispatcher());
+        const contact::SolveStats batch = sequential_impulse.solve(
+            batch_bodies, batch_contacts, settings, h, collision->dispatcher());
         stats.iterations = std::max(stats.iterations, batch.iterations);
         stats.residual = std::max(stats.residual, batch.residual);
         batch_bodies.clear();
@@ -403,7 +424,8 @@ void World::Impl::read_state(size_t i, BodyState& state) const {
     const Item& item = items[i];
     state.X_WB = from_bullet(item.body->getWorldTransform()) * item.X_BM.inverse();
     state.w_WB = from_bullet(item.body->getAngularVelocity());
-    state.v_WB = from_bullet(item.body->getLinearVelocity()) - state.w_WB.cross(state.X_WB.R * item.X_BM.p);
+    state.v_WB =
+        from_bullet(item.body->getLinearVelocity()) - state.w_WB.cross(state.X_WB.R * item.X_BM.p);
 }
 
 void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {

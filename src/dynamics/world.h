@@ -4,9 +4,9 @@
 //     find contacts; solve for contact impulses           velocities now obey contact and friction
 //     x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
 //
-// so that the solver's friction sees all of the step's loads (applied torques too, which Bullet's own
-// order hides from it). Bodies that are at rest and touch nothing that moves sleep: they cost nothing
-// and stay exactly where they are (sleep.h).
+// so that the solver's friction sees all of the step's loads (applied torques too, which Bullet's
+// own order hides from it). Bodies that are at rest and touch nothing that moves sleep: they cost
+// nothing and stay exactly where they are (sleep.h).
 //
 // Set-up may allocate and throw; after activate() a step does neither.
 #pragma once
@@ -33,8 +33,8 @@ struct BodyState {
 /// What a step could not do as asked.
 enum class StepStatus : unsigned {
     ok = 0,
-    contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts() leaves
-                              ///< the rest out. Raise dynamics.max_contacts.
+    contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts()
+                              ///< leaves the rest out. Raise dynamics.max_contacts.
 };
 
 class World {
@@ -50,8 +50,8 @@ class World {
     /// Reserves all memory that steps need.
     void activate();
 
-    int size() const;         ///< number of bodies, proxies included
-    int scene_size() const;   ///< number of bodies of the scene: indices below this one
+    int size() const;        ///< number of bodies, proxies included
+    int scene_size() const;  ///< number of bodies of the scene: indices below this one
     BodyIndex find(const std::string& name) const;
     const std::string& name(BodyIndex body) const;
     /// Coefficient of friction between two bodies.
@@ -59,7 +59,9 @@ class World {
 
     /// States after the last step.
     std::span<const BodyState> states() const { return states_; }
-    const BodyState& state(BodyIndex body) const { return states_[static_cast<size_t>(body.value)]; }
+    const BodyState& state(BodyIndex body) const {
+        return states_[static_cast<size_t>(body.value)];
+    }
     /// Bodies that took part in the last step: all others are where they were.
     std::span<const size_t> stepped() const;
     /// Contacts of the last step, those of sleeping bodies left out.

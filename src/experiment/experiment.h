@@ -10,14 +10,17 @@
 
 namespace dihaptic::experiment {
 
-/// A recorded movement that pulls the simulated fingers, and the block that stands where they closed.
+/// A recorded movement that pulls the simulated fingers, and the block that stands where they
+/// closed.
 struct MovementSpec {
-    std::string file;                ///< CSV, relative to the experiment file; --movement replaces it
+    std::string file;  ///< CSV, relative to the experiment file; --movement replaces it
     hand::RecordingAxes axes = hand::RecordingAxes::world;
-    std::string block;               ///< a box of the scene: turned and sized to stand between the fingers
-    double squeeze = 0.006;          ///< each recorded finger goes so far beyond the block's face [m]
-    std::optional<double> width;     ///< of the block along the grasp; unset: from aperture and squeeze [m]
-    std::optional<double> grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
+    std::string block;       ///< a box of the scene: turned and sized to stand between the fingers
+    double squeeze = 0.006;  ///< each recorded finger goes so far beyond the block's face [m]
+    std::optional<double>
+        width;  ///< of the block along the grasp; unset: from aperture and squeeze [m]
+    std::optional<double>
+        grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -32,9 +35,9 @@ struct MovementSpec {
 
 struct Experiment {
     std::string title;
-    std::string scene;                     ///< file, relative to this one
-    std::string rig;                       ///< file, relative to this one; empty: ideal simulated devices
-    std::optional<hand::HandSpec> hand;    ///< in place of the scene's
+    std::string scene;  ///< file, relative to this one
+    std::string rig;    ///< file, relative to this one; empty: ideal simulated devices
+    std::optional<hand::HandSpec> hand;  ///< in place of the scene's
     std::optional<MovementSpec> movement;
     Node settings;
     Place place;

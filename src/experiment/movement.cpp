@@ -17,16 +17,17 @@ Vec3 half_extents(const scene::Shape& shape) {
     return Vec3::Constant(scene::extent(shape) / 2);
 }
 
-/// How near to the middle, along the grasp axis, a finger came while it passed the block's edge on its way
-/// to the face. `half` and `reach` are the block's half extents, without and with the finger's. `side` is
-/// -1 or +1 along the axis.
-double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& site, const Quat& R_WB, int side,
-                        const Vec3& half, const Vec3& reach) {
+/// How near to the middle, along the grasp axis, a finger came while it passed the block's edge on
+/// its way to the face. `half` and `reach` are the block's half extents, without and with the
+/// finger's. `side` is -1 or +1 along the axis.
+double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& site,
+                        const Quat& R_WB, int side, const Vec3& half, const Vec3& reach) {
     const auto at = [&](size_t i) { return Vec3(R_WB.conjugate() * (path[i] - site.centre)); };
     const auto within = [](const Vec3& p, const Vec3& extents) {
         return std::abs(p.y()) < extents.y() && std::abs(p.z()) < extents.z();
     };
-    const size_t grasp = std::min(static_cast<size_t>(site.start * hand::Path::kRate), path.size() - 1);
+    const size_t grasp =
+        std::min(static_cast<size_t>(site.start * hand::Path::kRate), path.size() - 1);
     size_t s = grasp;
     while (s > 0 && within(at(s), reach)) --s;
     double nearest = side * at(s).x();
@@ -36,15 +37,15 @@ double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& si
 
 /// Where the block's two faces are along the grasp axis, seen from the middle between the fingers.
 struct Faces {
-    double first = 0;   ///< on the first finger's side, positive outward [m]
+    double first = 0;  ///< on the first finger's side, positive outward [m]
     double second = 0;
 };
 
-/// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid to its place along the
-/// face, as the index does in a precision grip, would run into the block's edge then: on its side the
-/// face gives way to where it passed, and the other finger squeezes more instead.
-Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat& R_WB, const Vec3& block,
-                const scene::Scene& scene, double squeeze) {
+/// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid to its place
+/// along the face, as the index does in a precision grip, would run into the block's edge then: on
+/// its side the face gives way to where it passed, and the other finger squeezes more instead.
+Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat& R_WB,
+                const Vec3& block, const scene::Scene& scene, double squeeze) {
     std::array<double, 2> wanted{};
     std::array<double, 2> most{};
     for (size_t i = 0; i < 2; ++i) {
@@ -52,7 +53,8 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
         const double touch = site.aperture / 2 - half.x();
         wanted[i] = touch + squeeze;
         const Vec3 reach = block / 2 + half + Vec3::Constant(kClearance);
-        const double passing = passing_distance(path.p_WH[i], site, R_WB, i == 0 ? -1 : 1, block / 2, reach);
+        const double passing =
+            passing_distance(path.p_WH[i], site, R_WB, i == 0 ? -1 : 1, block / 2, reach);
         most[i] = std::max(touch, passing - half.x() - kClearance);
     }
     std::array<double, 2> face{};
@@ -64,31 +66,38 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
-void warn_of_wrong_units(const hand::Path& path, const std::string& file, Diagnostics& diagnostics) {
+void warn_of_wrong_units(const hand::Path& path, const std::string& file,
+                         Diagnostics& diagnostics) {
     for (const hand::Fault& fault : path.faults) {
         if (!fault.wrong_unit) continue;
-        diagnostics.warning({file, fault.line}, path.fingers[static_cast<size_t>(fault.finger)],
-                            "this line's values are a thousandth of their neighbours': in metres instead of "
-                            "millimetres? They were bridged",
-                            "Multiply them by 1000.");
+        diagnostics.warning(
+            {file, fault.line}, path.fingers[static_cast<size_t>(fault.finger)],
+            "this line's values are a thousandth of their neighbours': in metres instead of "
+            "millimetres? They were bridged",
+            "Multiply them by 1000.");
     }
 }
 
 }  // namespace
 
-std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec, const std::string& file,
-                                                   const Place& asked_at, scene::Scene& scene,
-                                                   std::optional<MovementReport>& report, Diagnostics& diagnostics) {
+std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
+                                                   const std::string& file, const Place& asked_at,
+                                                   scene::Scene& scene,
+                                                   std::optional<MovementReport>& report,
+                                                   Diagnostics& diagnostics) {
     const hand::Movement movement = hand::read_movement(file, spec.axes, diagnostics);
     const int block_index = scene.find(spec.block);
     const bool is_box =
-        block_index >= 0 && scene.bodies[static_cast<size_t>(block_index)].shape.kind == scene::ShapeKind::box;
+        block_index >= 0 &&
+        scene.bodies[static_cast<size_t>(block_index)].shape.kind == scene::ShapeKind::box;
     if (!is_box) {
-        diagnostics.error(asked_at, "movement.block", fmt::format("the scene has no box named '{}'", spec.block),
+        diagnostics.error(asked_at, "movement.block",
+                          fmt::format("the scene has no box named '{}'", spec.block),
                           "Name one of its boxes.");
     }
     if (scene.fingers.size() != 2) {
-        diagnostics.error(asked_at, "movement", fmt::format("the scene has {} fingers", scene.fingers.size()),
+        diagnostics.error(asked_at, "movement",
+                          fmt::format("the scene has {} fingers", scene.fingers.size()),
                           "A recorded grasp needs two.");
     }
     if (diagnostics.has_errors()) return nullptr;
@@ -96,8 +105,10 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec, con
     const hand::Path path = hand::repair(movement);
     const auto site = hand::find_grasp(path, spec.grasp_at);
     if (!site) {
-        diagnostics.error({file, 0}, "", "no grasp was found: the fingers never open, close and rest away from their start",
-                          "Say when they closed: movement: grasp_at_s.");
+        diagnostics.error(
+            {file, 0}, "",
+            "no grasp was found: the fingers never open, close and rest away from their start",
+            "Say when they closed: movement: grasp_at_s.");
         return nullptr;
     }
     // the block stands upright: only the grasp's direction in the horizontal plane turns it
@@ -113,16 +124,19 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec, con
     block.rotation = {0, 0, yaw};
     block.shape.size.x() = faces.first + faces.second;
     if (block.shape.size.x() < kThinnest) {
-        diagnostics.error({file, 0}, "",
-                          fmt::format("the fingers closed to {:.0f} mm, where no block fits between the proxies",
-                                      site->aperture * 1e3),
-                          "Make the proxies thinner, or give movement: width_mm.");
+        diagnostics.error(
+            {file, 0}, "",
+            fmt::format("the fingers closed to {:.0f} mm, where no block fits between the proxies",
+                        site->aperture * 1e3),
+            "Make the proxies thinner, or give movement: width_mm.");
         return nullptr;
     }
     for (scene::Finger& finger : scene.fingers) finger.rotation.z() += yaw;
     const Vec3 block_centre = site->centre + R_WB * Vec3((faces.second - faces.first) / 2, 0, 0);
 
-    report = MovementReport{file, path.faults, path.fingers, path.duration(), path.bridged_share(), *site, block.shape.size.x()};
+    report = MovementReport{
+        file,  path.faults,         path.fingers, path.duration(), path.bridged_share(),
+        *site, block.shape.size.x()};
     warn_of_wrong_units(path, file, diagnostics);
     return std::make_shared<hand::RecordedDriver>(path, *site, Vec3(block.position - block_centre),
                                                   scene::finger_names(scene));

@@ -1,5 +1,5 @@
-// Puts a recorded movement into a scene: its grasp where the block stands, and the block such that the
-// fingers come to its faces as they came to the object that they were recorded on.
+// Puts a recorded movement into a scene: its grasp where the block stands, and the block such that
+// the fingers come to its faces as they came to the object that they were recorded on.
 #pragma once
 
 #include <memory>
@@ -16,17 +16,19 @@ struct MovementReport {
     std::string file;
     std::vector<hand::Fault> faults;
     std::vector<std::string> fingers;
-    double duration = 0;       ///< [s]
+    double duration = 0;  ///< [s]
     double bridged_share = 0;
     hand::GraspSite site;
-    double block_width = 0;    ///< along the grasp [m]
+    double block_width = 0;  ///< along the grasp [m]
 };
 
-/// Reads and repairs the movement, finds its grasp, turns and sizes the block of the scene, and turns
-/// the fingers' proxies to face it. Returns the driver, or null with errors in `diagnostics`.
+/// Reads and repairs the movement, finds its grasp, turns and sizes the block of the scene, and
+/// turns the fingers' proxies to face it. Returns the driver, or null with errors in `diagnostics`.
 /// `asked_at`: the experiment file, for messages.
-std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec, const std::string& file,
-                                                   const Place& asked_at, scene::Scene& scene,
-                                                   std::optional<MovementReport>& report, Diagnostics& diagnostics);
+std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
+                                                   const std::string& file, const Place& asked_at,
+                                                   scene::Scene& scene,
+                                                   std::optional<MovementReport>& report,
+                                                   Diagnostics& diagnostics);
 
 }  // namespace dihaptic::experiment

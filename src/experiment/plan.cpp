@@ -37,11 +37,13 @@ Node setting(const std::string& text) {
 }
 
 void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
-    if (settings.kind != Node::Kind::null) read_fields(plan.settings, settings, diagnostics, &plan.origins);
+    if (settings.kind != Node::Kind::null)
+        read_fields(plan.settings, settings, diagnostics, &plan.origins);
 }
 
 /// Stiffness that the loop cannot hold calmly.
-void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
+                     Diagnostics& diagnostics) {
     const haptics::CouplingSettings& coupling = plan.settings.coupling;
     const double h = plan.settings.step();
     const auto origin = plan.origins.find("coupling.stiffness");
@@ -49,37 +51,42 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices, Diag
     for (int i = 0; i < devices.size(); ++i) {
         const devices::DeviceInfo& info = devices.info(i);
         if (info.damping <= 0) continue;
-        const double limit = model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
+        const double limit =
+            model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
         if (coupling.stiffness <= limit) continue;
         diagnostics.warning(place, "coupling.stiffness",
-                            fmt::format("{:g} N/m is more than the loop can hold calmly with {}: about {:.0f} N/m (2 b / T)",
+                            fmt::format("{:g} N/m is more than the loop can hold calmly with {}: "
+                                        "about {:.0f} N/m (2 b / T)",
                                         coupling.stiffness, info.model, limit),
                             "Lower it, or expect shaking.");
         break;
     }
-    if (coupling.kind != haptics::CouplingKind::dual_spring) return;
-    for (const scene::Finger& finger : plan.scene.fingers) {
-        const double limit = finger.mass / (h * h);
-        if (coupling.stiffness <= limit) continue;
-        diagnostics.warning(place, "coupling.stiffness",
-                            fmt::format("{:g} N/m is more than an explicit spring can hold with {}'s proxy of {:g} g: "
-                                        "about {:.0f} N/m (m / h^2)",
-                                        coupling.stiffness, finger.name, finger.mass * 1e3, limit),
-                            "Lower it, make the proxy heavier, or use coupling: kind: implicit.");
-        break;
+    const double explicit_limit = coupling.body_mass / (h * h);
+    if (coupling.kind == haptics::CouplingKind::dual_spring &&
+        coupling.stiffness > explicit_limit) {
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format(
+                "{:g} N/m is more than an explicit spring can hold with a proxy of {:g} g: about "
+                "{:.0f} N/m (m / h^2)",
+                coupling.stiffness, coupling.body_mass * 1e3, explicit_limit),
+            "Lower it, raise coupling: body_mass_g, or use coupling: kind: implicit.");
     }
 }
 
 void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     const int object = plan.scene.object_index();
     if (object < 0 || plan.scene.fingers.size() < 2) return;
-    const double weight = scene::mass(plan.scene.bodies[static_cast<size_t>(object)]) * plan.scene.gravity.norm();
+    const double weight =
+        scene::mass(plan.scene.bodies[static_cast<size_t>(object)]) * plan.scene.gravity.norm();
     double force = 0;
     for (int i = 0; i < devices.size(); ++i) force += devices.info(i).peak_force;
     if (weight <= force) return;
-    diagnostics.warning(plan.scene.bodies[static_cast<size_t>(object)].place, plan.scene.bodies[static_cast<size_t>(object)].name,
-                        fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
-                        "Make it lighter: it cannot be felt as it is.");
+    diagnostics.warning(
+        plan.scene.bodies[static_cast<size_t>(object)].place,
+        plan.scene.bodies[static_cast<size_t>(object)].name,
+        fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
+        "Make it lighter: it cannot be felt as it is.");
 }
 
 }  // namespace
@@ -118,23 +125,26 @@ Plan make_plan(const Request& request) {
     overlay(plan, experiment.settings, diagnostics);
     for (const std::string& text : request.set) overlay(plan, setting(text), diagnostics);
 
-    if (plan.scene.hand.kind != Node::Kind::null) read_fields(plan.hand, plan.scene.hand, diagnostics);
+    if (plan.scene.hand.kind != Node::Kind::null)
+        read_fields(plan.hand, plan.scene.hand, diagnostics);
     if (experiment.hand) plan.hand = *experiment.hand;
     diagnostics.throw_if_errors();
 
-    const std::string movement =
-        !request.movement.empty() ? request.movement
-        : experiment.movement && !experiment.movement->file.empty() ? beside(request.file, experiment.movement->file)
-                                                                    : "";
+    const std::string movement = !request.movement.empty() ? request.movement
+                                 : experiment.movement && !experiment.movement->file.empty()
+                                     ? beside(request.file, experiment.movement->file)
+                                     : "";
     if (!request.movement.empty() && !experiment.movement) {
         throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
     if (!movement.empty()) {
-        plan.driver = place_movement(*experiment.movement, movement, {request.file, 0}, plan.scene, plan.movement, diagnostics);
+        plan.driver = place_movement(*experiment.movement, movement, {request.file, 0}, plan.scene,
+                                     plan.movement, diagnostics);
         diagnostics.throw_if_errors();
     } else {
-        plan.driver = std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.driver =
+            std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
     }
 
     // made once to see what the devices can do; the session makes its own
@@ -154,14 +164,17 @@ std::unique_ptr<servo::Servo> make_servo(const Plan& plan) {
     context.impedance = plan.hand.impedance;
     context.tremor = plan.hand.tremor;
     context.seed = plan.seed;
-    return std::make_unique<servo::Servo>(plan.scene, plan.settings, rig::make_devices(plan.rig, fingers, context),
+    return std::make_unique<servo::Servo>(plan.scene, plan.settings,
+                                          rig::make_devices(plan.rig, fingers, context),
                                           rig::poses(plan.rig, fingers));
 }
 
 std::string check_file(const std::string& file, Diagnostics& diagnostics) {
     try {
         switch (kind_of(file)) {
-            case FileKind::rig: rig::read_rig(file, diagnostics); return "rig";
+            case FileKind::rig:
+                rig::read_rig(file, diagnostics);
+                return "rig";
             case FileKind::scene:
             case FileKind::experiment: {
                 Request request;
@@ -172,7 +185,8 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics) {
             }
             case FileKind::movement: {
                 // its axes are the experiment's business; what is wrong with it is the same in any
-                const hand::Movement movement = hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
+                const hand::Movement movement =
+                    hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
                 if (diagnostics.has_errors()) return "movement";
                 const hand::Path path = hand::repair(movement);
                 for (const hand::Fault& fault : path.faults) {
@@ -183,7 +197,8 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics) {
             }
             case FileKind::unknown:
                 diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
-                                  "A scene has 'bodies:', a rig 'devices:', an experiment 'scene:'; a movement ends in .csv.");
+                                  "A scene has 'bodies:', a rig 'devices:', an experiment "
+                                  "'scene:'; a movement ends in .csv.");
                 return "unknown";
         }
     } catch (const Error& e) {

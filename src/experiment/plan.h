@@ -1,5 +1,5 @@
-// A plan is everything that a session needs, read, resolved and checked: nothing is left to go wrong
-// for lack of a file once a person holds the devices.
+// A plan is everything that a session needs, read, resolved and checked: nothing is left to go
+// wrong for lack of a file once a person holds the devices.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@ namespace dihaptic::experiment {
 
 /// What the user asked for.
 struct Request {
-    std::string file;                 ///< a scene or an experiment
-    std::string rig;                  ///< in place of the experiment's
-    std::string movement;             ///< in place of the experiment's
-    std::vector<std::string> set;     ///< "coupling.stiffness_N_m=600": settings from the command line
+    std::string file;              ///< a scene or an experiment
+    std::string rig;               ///< in place of the experiment's
+    std::string movement;          ///< in place of the experiment's
+    std::vector<std::string> set;  ///< "coupling.stiffness_N_m=600": settings from the command line
     uint64_t seed = 1;
 };
 

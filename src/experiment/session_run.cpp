@@ -16,14 +16,19 @@ namespace {
 namespace fs = std::filesystem;
 using Wall = std::chrono::steady_clock;
 
-double since(Wall::time_point begin) { return std::chrono::duration<double>(Wall::now() - begin).count(); }
+double since(Wall::time_point begin) {
+    return std::chrono::duration<double>(Wall::now() - begin).count();
+}
 
-/// Phases by time, from the driver or from a recorded session: the director of every session so far.
+/// Phases by time, from the driver or from a recorded session: the director of every session so
+/// far.
 class PhaseDirector {
   public:
-    PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick) : phases_(std::move(phases)), tick_(tick) {}
+    PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick)
+        : phases_(std::move(phases)), tick_(tick) {}
 
-    void operator()(const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) noexcept {
+    void operator()(const servo::Frame& last, std::span<const haptics::Handle>,
+                    servo::Commands& commands) noexcept {
         const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
         while (phase_ + 1 < phases_.size() && now >= phases_[phase_].end - tick_ / 2) ++phase_;
         commands.trial = 1;
@@ -38,16 +43,19 @@ class PhaseDirector {
 
 std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     std::vector<recording::PhaseInfo> out;
-    for (const hand::Driver::Phase& phase : driver.phases()) out.push_back({phase.name, phase.start, phase.end});
+    for (const hand::Driver::Phase& phase : driver.phases())
+        out.push_back({phase.name, phase.start, phase.end});
     return out;
 }
 
 /// The session keeps its own copies of the meshes: the scene that it froze names them.
-void freeze_meshes(scene::Scene& scene, const std::string& from, const recording::SessionFolder& folder) {
+void freeze_meshes(scene::Scene& scene, const std::string& from,
+                   const recording::SessionFolder& folder) {
     int count = 0;
     const auto freeze = [&](scene::Shape& shape) {
         if (shape.kind != scene::ShapeKind::mesh) return;
-        const std::string name = fmt::format("mesh-{}-{}", ++count, fs::path(shape.file).filename().string());
+        const std::string name =
+            fmt::format("mesh-{}-{}", ++count, fs::path(shape.file).filename().string());
         fs::copy_file(fs::path(from) / shape.file, folder.file(name));
         shape.file = name;
     };
@@ -75,12 +83,18 @@ void freeze_inputs(const Plan& plan, const recording::SessionFolder& folder) {
     if (!plan.movement) return;
     fs::copy_file(plan.movement->file, folder.file("movement.csv"));
     Table faults;
-    faults.columns = {{"start_s", "last good frame before"}, {"end_s", "first good frame after"}, {"finger", "empty: all"},
-                      {"fault", "what the tracker lost"}, {"line", "of movement.csv"}, {"distance_mm", "between the good frames"}};
+    faults.columns = {{"start_s", "last good frame before"},
+                      {"end_s", "first good frame after"},
+                      {"finger", "empty: all"},
+                      {"fault", "what the tracker lost"},
+                      {"line", "of movement.csv"},
+                      {"distance_mm", "between the good frames"}};
     for (const hand::Fault& fault : plan.movement->faults) {
-        faults.rows.push_back({fault.start, fault.end,
-                               fault.finger < 0 ? "" : plan.movement->fingers[static_cast<size_t>(fault.finger)],
-                               std::string(enum_name(fault.kind)), static_cast<double>(fault.line), fault.distance * 1e3});
+        faults.rows.push_back(
+            {fault.start, fault.end,
+             fault.finger < 0 ? "" : plan.movement->fingers[static_cast<size_t>(fault.finger)],
+             std::string(enum_name(fault.kind)), static_cast<double>(fault.line),
+             fault.distance * 1e3});
     }
     write_csv(faults, folder.file("movement-faults.csv"));
 }
@@ -102,8 +116,9 @@ class Watcher {
             std::unique_lock lock(mutex_);
             while (!done_) {
                 condition_.wait_for(lock, std::chrono::milliseconds(100));
-                progress(std::min(1.0, static_cast<double>(reached.load(std::memory_order_relaxed)) /
-                                           static_cast<double>(std::max<int64_t>(1, whole.count()))));
+                progress(
+                    std::min(1.0, static_cast<double>(reached.load(std::memory_order_relaxed)) /
+                                      static_cast<double>(std::max<int64_t>(1, whole.count()))));
             }
         });
     }
@@ -125,7 +140,8 @@ class Watcher {
 
 }  // namespace
 
-RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop, const Progress& progress) {
+RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+                      const Progress& progress) {
     const bool real = options.clock == Clock::real;
     const std::string name = fs::path(plan.file).stem().string();
     const auto folder = recording::SessionFolder::create(
@@ -146,20 +162,23 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const auto servo = make_servo(plan);
     for (int i = 0; i < servo->devices().size(); ++i) {
         const devices::DeviceInfo& device = servo->devices().info(i);
-        info.devices.push_back({plan.scene.fingers[static_cast<size_t>(i)].name, device.model, device.peak_force});
+        info.devices.push_back(
+            {plan.scene.fingers[static_cast<size_t>(i)].name, device.model, device.peak_force});
     }
     info.phases = phases_of(*plan.driver);
     for (const Problem& warning : plan.warnings) info.notes.push_back(warning.text());
     if (plan.movement) {
-        info.notes.push_back(fmt::format("{:.1f} % of the movement was bridged", 100 * plan.movement->bridged_share));
+        info.notes.push_back(fmt::format("{:.1f} % of the movement was bridged",
+                                         100 * plan.movement->bridged_share));
     }
     freeze_inputs(plan, folder);
     folder.write_info(info);
 
     RunResult result;
     result.folder = folder.path();
-    recording::Recorder recorder(folder.raw_log(), log_head(plan.scene, plan.settings),
-                                 real ? recording::Writing::in_thread : recording::Writing::in_place);
+    recording::Recorder recorder(
+        folder.raw_log(), log_head(plan.scene, plan.settings),
+        real ? recording::Writing::in_thread : recording::Writing::in_place);
     servo->activate();
     const Time whole = from_seconds(plan.driver->duration());
     result.tick_times.reserve(static_cast<size_t>(whole / servo->period()) + 2);
@@ -169,7 +188,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         reached.store(frame.time.count(), std::memory_order_relaxed);
     };
     PhaseDirector phases(info.phases, plan.settings.tick());
-    const servo::Director director = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+    const servo::Director director = [&](const servo::Frame& last,
+                                         std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
         phases(last, handles, commands);
         commands.stop = recorder.failed();
@@ -178,7 +198,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     {
         const Watcher watcher(reached, whole, progress);
         if (real) {
-            result.overruns = servo::run_real(*servo, director, sink, whole, stop, result.tick_times, reached).overruns;
+            result.overruns =
+                servo::run_real(*servo, director, sink, whole, stop, result.tick_times, reached)
+                    .overruns;
         } else {
             servo::run_virtual(*servo, director, sink, whole, stop, &result.tick_times);
         }
@@ -191,13 +213,16 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.dropped = recorder.dropped();
     result.interrupted = stop.load();
 
-    info.state = result.interrupted ? recording::SessionState::interrupted : recording::SessionState::complete;
-    info.finished = fmt::format("{} ticks, {} overruns, {} frames not recorded", result.ticks, result.overruns, result.dropped);
+    info.state = result.interrupted ? recording::SessionState::interrupted
+                                    : recording::SessionState::complete;
+    info.finished = fmt::format("{} ticks, {} overruns, {} frames not recorded", result.ticks,
+                                result.overruns, result.dropped);
     folder.write_info(info);
     return result;
 }
 
-ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop, const Progress& progress) {
+ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
+                            const Progress& progress) {
     const auto folder = recording::SessionFolder::open(path);
     const recording::SessionInfo info = folder.read_info();
     Diagnostics diagnostics;
@@ -226,7 +251,8 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         configs.push_back({device.finger, {}, options});
     }
     auto group = devices::find_backend("replay")->make(configs, context);
-    servo::Servo servo(scene, settings, std::move(group), rig::poses(rig, scene::finger_names(scene)));
+    servo::Servo servo(scene, settings, std::move(group),
+                       rig::poses(rig, scene::finger_names(scene)));
     servo.activate();
 
     ReplayResult result;
@@ -244,13 +270,15 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                    std::memcmp(a.p_WP.data(), b.p_WP.data(), sizeof(Vec3)) == 0;
         }
         for (size_t i = 0; i < frame.bodies.size(); ++i) {
-            same = same && std::memcmp(frame.bodies[i].X_WB.p.data(), recorded->bodies[i].X_WB.p.data(), sizeof(Vec3)) == 0;
+            same = same && std::memcmp(frame.bodies[i].X_WB.p.data(),
+                                       recorded->bodies[i].X_WB.p.data(), sizeof(Vec3)) == 0;
         }
         if (!same) {
             if (result.different_ticks++ == 0) result.first_difference = seconds(recorded->time);
         }
         ++result.ticks;
-        if (progress && result.ticks % 2000 == 0) progress(std::min(0.99, static_cast<double>(result.ticks) * 1000 / size));
+        if (progress && result.ticks % 2000 == 0)
+            progress(std::min(0.99, static_cast<double>(result.ticks) * 1000 / size));
         recorded = log.next();
     }
     servo.deactivate();

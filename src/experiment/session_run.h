@@ -14,18 +14,18 @@ enum class Clock { virtual_clock, real };
 
 struct RunOptions {
     Clock clock = Clock::virtual_clock;
-    std::string out = "sessions";       ///< folder that session folders are made in
-    std::string command;                ///< as typed, for the record
+    std::string out = "sessions";  ///< folder that session folders are made in
+    std::string command;           ///< as typed, for the record
     recording::Participant participant;
 };
 
 struct RunResult {
     std::string folder;
     bool interrupted = false;
-    double simulated = 0;   ///< session time reached [s]
-    double elapsed = 0;     ///< wall time of the ticks [s]
+    double simulated = 0;  ///< session time reached [s]
+    double elapsed = 0;    ///< wall time of the ticks [s]
     int64_t ticks = 0;
-    int64_t dropped = 0;    ///< frames that the recorder could not take
+    int64_t dropped = 0;  ///< frames that the recorder could not take
     int64_t overruns = 0;
     servo::TickTimes tick_times;
 };
@@ -33,9 +33,10 @@ struct RunResult {
 /// Share of the session done, from 0 to 1; called about ten times a second of wall time.
 using Progress = std::function<void(double share)>;
 
-/// Runs to the end of the driver's movement, or until `stop`. Throws Error when the disk gives up; what
-/// was written stays and can be recovered.
-RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop, const Progress& progress);
+/// Runs to the end of the driver's movement, or until `stop`. Throws Error when the disk gives up;
+/// what was written stays and can be recovered.
+RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+                      const Progress& progress);
 
 /// A replay, compared tick by tick with what was recorded.
 struct ReplayResult {
@@ -45,6 +46,7 @@ struct ReplayResult {
     double elapsed = 0;
 };
 /// Re-runs a session from the device input in its raw log. Throws Error when it cannot.
-ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop, const Progress& progress);
+ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
+                            const Progress& progress);
 
 }  // namespace dihaptic::experiment

@@ -1,5 +1,5 @@
-// What moves the simulated fingers: the seam between the hand's mechanics and whoever decides where its
-// fingers want to be (a script, a recorded movement).
+// What moves the simulated fingers: the seam between the hand's mechanics and whoever decides where
+// its fingers want to be (a script, a recorded movement).
 #pragma once
 
 #include <string>

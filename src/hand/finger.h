@@ -2,8 +2,8 @@
 //
 //     f = (k + k_f |f_felt|) (x_target - x) + c (v_target - v)
 //
-// with x the handle that the finger holds. |f_felt| follows the device's force with a time constant of
-// kFeelTime, as muscle does, so that stiffening by itself adds no fast loop.
+// with x the handle that the finger holds. |f_felt| follows the device's force with a time constant
+// of kFeelTime, as muscle does, so that stiffening by itself adds no fast loop.
 #pragma once
 
 #include <vector>
@@ -18,9 +18,10 @@ class Finger {
   public:
     explicit Finger(const Impedance& impedance) : impedance_(impedance) {}
 
-    /// Force of the finger on the handle [N], for h seconds during which the device pushes with f_device.
-    Vec3 pull(const FingerTarget& target, const Vec3& p_WH, const Vec3& v_WH, const Vec3& f_device_W,
-              double h) noexcept {
+    /// Force of the finger on the handle [N], for h seconds during which the device pushes with
+    /// f_device.
+    Vec3 pull(const FingerTarget& target, const Vec3& p_WH, const Vec3& v_WH,
+              const Vec3& f_device_W, double h) noexcept {
         felt_ += (f_device_W.norm() - felt_) * h / kFeelTime;
         const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
         return k * (target.p_WT - p_WH) + impedance_.damping * (target.v_WT - v_WH);

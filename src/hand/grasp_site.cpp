@@ -5,10 +5,11 @@
 namespace dihaptic::hand {
 namespace {
 
-constexpr size_t kStretch = 300;          // samples of 1 ms
-constexpr double kFarShare = 0.93;        // of the largest distance from the start
-constexpr double kBridgedPenalty = 0.02;  // a stretch that was not seen counts as this much movement [m]
-constexpr double kOpening = 0.01;         // the fingers must have closed by this much before [m]
+constexpr size_t kStretch = 300;    // samples of 1 ms
+constexpr double kFarShare = 0.93;  // of the largest distance from the start
+constexpr double kBridgedPenalty =
+    0.02;                          // a stretch that was not seen counts as this much movement [m]
+constexpr double kOpening = 0.01;  // the fingers must have closed by this much before [m]
 
 GraspSite site_at(const Path& path, size_t first) {
     const std::vector<Vec3>& thumb = path.p_WH[0];
@@ -29,7 +30,8 @@ GraspSite site_at(const Path& path, size_t first) {
     site.centre = (t + i) / 2;
     site.aperture = (i - t).norm();
     site.axis = (i - t).normalized();
-    for (size_t s = 0; s < first; ++s) site.peak_aperture = std::max(site.peak_aperture, (index[s] - thumb[s]).norm());
+    for (size_t s = 0; s < first; ++s)
+        site.peak_aperture = std::max(site.peak_aperture, (index[s] - thumb[s]).norm());
     return site;
 }
 
@@ -38,7 +40,8 @@ GraspSite site_at(const Path& path, size_t first) {
 std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at) {
     if (path.p_WH.size() < 2 || path.size() <= kStretch) return std::nullopt;
     if (at) {
-        const double first = std::clamp((*at) * Path::kRate - kStretch / 2.0, 0.0, static_cast<double>(path.size() - kStretch));
+        const double first = std::clamp((*at) * Path::kRate - kStretch / 2.0, 0.0,
+                                        static_cast<double>(path.size() - kStretch));
         return site_at(path, static_cast<size_t>(first));
     }
     const std::vector<Vec3>& thumb = path.p_WH[0];
@@ -54,7 +57,8 @@ std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at) 
         opened[s] = (index[s] - thumb[s]).norm();
         if (s == 0) continue;
         opened[s] = std::max(opened[s], opened[s - 1]);
-        moved[s] = moved[s - 1] + (thumb[s] - thumb[s - 1]).norm() + (index[s] - index[s - 1]).norm();
+        moved[s] =
+            moved[s - 1] + (thumb[s] - thumb[s - 1]).norm() + (index[s] - index[s - 1]).norm();
         unseen[s] = unseen[s - 1] + path.bridged[s];
     }
     std::optional<size_t> best;
@@ -64,7 +68,8 @@ std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at) 
         const bool far = std::min(distance[s], distance[e]) >= kFarShare * furthest;
         const bool closed = opened[s] - (index[s] - thumb[s]).norm() >= kOpening;
         if (!far || !closed) continue;
-        const double cost = moved[e] - moved[s] + kBridgedPenalty * (unseen[e] - unseen[s]) / kStretch;
+        const double cost =
+            moved[e] - moved[s] + kBridgedPenalty * (unseen[e] - unseen[s]) / kStretch;
         if (!best || cost < least) {
             best = s;
             least = cost;

@@ -32,7 +32,8 @@ std::vector<std::string> split(const std::string& line) {
 
 bool is_missing(const std::string& cell) {
     std::string lower;
-    for (const char c : cell) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const char c : cell)
+        lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return lower.empty() || lower == "nan" || lower == "na";
 }
 
@@ -66,10 +67,12 @@ std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
     return std::nullopt;
 }
 
-Columns read_header(const std::string& file, const std::vector<std::string>& cells, Diagnostics& diagnostics) {
+Columns read_header(const std::string& file, const std::vector<std::string>& cells,
+                    Diagnostics& diagnostics) {
     const Place place{file, 1};
     const std::string remedy =
-        "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same for each "
+        "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the "
+        "same for each "
         "other finger, and occluded if the tracker tells.";
     Columns columns;
     columns.count = cells.size();
@@ -82,12 +85,13 @@ Columns read_header(const std::string& file, const std::vector<std::string>& cel
         const std::string stem = last == std::string::npos ? cell : cell.substr(0, last);
         if (cell == "occluded") {
             columns.occluded = at;
-        } else if (const auto time_unit = unit_of(unit, Quantity::time); stem == "time" && time_unit) {
+        } else if (const auto time_unit = unit_of(unit, Quantity::time);
+                   stem == "time" && time_unit) {
             columns.time = at;
             columns.time_unit = *time_unit;
         } else if (const auto length_unit = unit_of(unit, Quantity::length);
-                   length_unit && stem.size() > 2 && stem[stem.size() - 2] == '_' && stem.back() >= 'x' &&
-                   stem.back() <= 'z') {
+                   length_unit && stem.size() > 2 && stem[stem.size() - 2] == '_' &&
+                   stem.back() >= 'x' && stem.back() <= 'z') {
             const std::string finger = stem.substr(0, stem.size() - 2);
             if (!index_of.contains(finger)) {
                 index_of[finger] = columns.names.size();
@@ -95,18 +99,22 @@ Columns read_header(const std::string& file, const std::vector<std::string>& cel
                 columns.fingers.emplace_back().unit = *length_unit;
             }
             Columns::Finger& f = columns.fingers[index_of[finger]];
-            if (f.unit != *length_unit) diagnostics.error(place, cell, "has another unit than the finger's other axes", "Use one unit.");
+            if (f.unit != *length_unit)
+                diagnostics.error(place, cell, "has another unit than the finger's other axes",
+                                  "Use one unit.");
             f.axis[static_cast<size_t>(stem.back() - 'x')] = at;
         } else {
             diagnostics.error(place, cell, "is not a column of a movement", remedy);
         }
     }
     if (columns.time < 0) diagnostics.error(place, "time_ms", "this column is missing", remedy);
-    if (columns.fingers.empty()) diagnostics.error(place, "thumb_x_mm", "there is no column of a finger", remedy);
+    if (columns.fingers.empty())
+        diagnostics.error(place, "thumb_x_mm", "there is no column of a finger", remedy);
     for (size_t f = 0; f < columns.fingers.size(); ++f) {
         for (size_t axis = 0; axis < 3; ++axis) {
             if (columns.fingers[f].axis[axis] >= 0) continue;
-            diagnostics.error(place, fmt::format("{}_{}_mm", columns.names[f], "xyz"[axis]), "this column is missing", remedy);
+            diagnostics.error(place, fmt::format("{}_{}_mm", columns.names[f], "xyz"[axis]),
+                              "this column is missing", remedy);
         }
     }
     return columns;
@@ -130,7 +138,8 @@ void check_extent(const Movement& movement, Diagnostics& diagnostics) {
     const double extent = (high - low).maxCoeff();
     const Place place{movement.file, 1};
     if (extent < 0.005) {
-        diagnostics.error(place, "", fmt::format("the fingers move by only {:.3g} mm in all", extent * 1e3),
+        diagnostics.error(place, "",
+                          fmt::format("the fingers move by only {:.3g} mm in all", extent * 1e3),
                           "If the values are in metres, name the columns so: thumb_x_m.");
     } else if (extent > 5) {
         diagnostics.error(place, "", fmt::format("the fingers move by {:.3g} m", extent),
@@ -150,22 +159,28 @@ Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics&
         return movement;
     }
     if (!std::getline(in, line) || line.empty()) {
-        diagnostics.error({file, 1}, "", "is empty", "A movement starts with a line of column names, then a line a frame.");
+        diagnostics.error({file, 1}, "", "is empty",
+                          "A movement starts with a line of column names, then a line a frame.");
         return movement;
     }
     Diagnostics problems;
     const Columns columns = read_header(file, split(line), problems);
     movement.fingers = columns.names;
+    if (problems.has_errors()) {
+        diagnostics.add(problems.problems());
+        return movement;
+    }
 
     int line_number = 1;
-    while (!problems.has_errors() || problems.problems().size() < kMostErrors) {
-        if (columns.time < 0 || columns.fingers.empty() || !std::getline(in, line)) break;
+    while (problems.problems().size() < kMostErrors && std::getline(in, line)) {
         ++line_number;
         if (line.empty() || line == "\r") continue;
         const Place place{file, line_number};
         const std::vector<std::string> cells = split(line);
         if (cells.size() != columns.count) {
-            problems.error(place, "", fmt::format("has {} values where the first line names {} columns", cells.size(), columns.count),
+            problems.error(place, "",
+                           fmt::format("has {} values where the first line names {} columns",
+                                       cells.size(), columns.count),
                            "Complete the line, or delete it: missing frames are bridged.");
             continue;
         }
@@ -187,25 +202,29 @@ Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics&
             Vec3 p;
             for (size_t axis = 0; axis < 3; ++axis) {
                 const std::string name = fmt::format("{}_{}", columns.names[f], "xyz"[axis]);
-                p[static_cast<int>(axis)] = cell(columns.fingers[f].axis[axis], name) * columns.fingers[f].unit;
+                p[static_cast<int>(axis)] =
+                    cell(columns.fingers[f].axis[axis], name) * columns.fingers[f].unit;
             }
             frame.p_WH.push_back(to_world(p, axes));
         }
         if (!readable) continue;
         if (std::isnan(frame.time)) {
-            problems.error(place, "time", "has no time", "Correct it, or delete the line: missing frames are bridged.");
+            problems.error(place, "time", "has no time",
+                           "Correct it, or delete the line: missing frames are bridged.");
             continue;
         }
         if (!movement.frames.empty() && frame.time <= movement.frames.back().time) {
             problems.error(place, "time",
-                           fmt::format("time goes from {:.6g} s back to {:.6g} s", movement.frames.back().time, frame.time),
+                           fmt::format("time goes from {:.6g} s back to {:.6g} s",
+                                       movement.frames.back().time, frame.time),
                            "Correct it, or delete the line: missing frames are bridged.");
             continue;
         }
         movement.frames.push_back(std::move(frame));
     }
     if (!problems.has_errors() && movement.frames.size() < 10) {
-        problems.error({file, line_number}, "", fmt::format("has only {} frames", movement.frames.size()),
+        problems.error({file, line_number}, "",
+                       fmt::format("has only {} frames", movement.frames.size()),
                        "A movement needs at least 10.");
     }
     if (!problems.has_errors()) check_extent(movement, problems);

@@ -15,22 +15,24 @@ enum class RecordingAxes {
     world,  ///< x right, y away from the person, z up, as everywhere here
     y_up,   ///< x right, y up, z toward the person, as motion trackers often have it
 };
-constexpr auto enum_names(RecordingAxes) { return std::array{"world", "y_up"}; }
+constexpr auto enum_names(RecordingAxes) {
+    return std::array{"world", "y_up"};
+}
 
 struct Movement {
     std::string file;
     std::vector<std::string> fingers;
     struct Frame {
-        double time = 0;          ///< as in the file [s]
-        int line = 0;             ///< of the file
-        bool occluded = false;    ///< the tracker said that it had lost a marker
-        std::vector<Vec3> p_WH;   ///< by finger, world axes; NaN where the file has none [m]
+        double time = 0;         ///< as in the file [s]
+        int line = 0;            ///< of the file
+        bool occluded = false;   ///< the tracker said that it had lost a marker
+        std::vector<Vec3> p_WH;  ///< by finger, world axes; NaN where the file has none [m]
     };
     std::vector<Frame> frames;
 };
 
-/// Reads a recording. Lines that no reader could make sense of are errors in `diagnostics`, each with
-/// its line and remedy; cells without a number are kept as NaN, for repair.
+/// Reads a recording. Lines that no reader could make sense of are errors in `diagnostics`, each
+/// with its line and remedy; cells without a number are kept as NaN, for repair.
 Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::hand

@@ -13,13 +13,15 @@ constexpr double kAround = 0.4;  // [s]
 
 }  // namespace
 
-RecordedDriver::RecordedDriver(Path path, const GraspSite& site, const Vec3& shift, const std::vector<std::string>& fingers)
+RecordedDriver::RecordedDriver(Path path, const GraspSite& site, const Vec3& shift,
+                               const std::vector<std::string>& fingers)
     : path_(std::move(path)), shift_(shift) {
     for (const std::string& finger : fingers) {
         const auto found = std::find(path_.fingers.begin(), path_.fingers.end(), finger);
         if (found == path_.fingers.end()) {
             throw Error(fmt::format("the movement has no finger '{}'", finger),
-                        fmt::format("It has {}: name the scene's fingers so.", fmt::join(path_.fingers, ", ")));
+                        fmt::format("It has {}: name the scene's fingers so.",
+                                    fmt::join(path_.fingers, ", ")));
         }
         column_.push_back(static_cast<size_t>(found - path_.fingers.begin()));
     }
@@ -34,7 +36,8 @@ FingerTarget RecordedDriver::do_target(int finger, double t) const noexcept {
     const auto i = static_cast<size_t>(at);
     const Vec3 step = p[i + 1] - p[i];
     const bool inside = t > 0 && t < path_.duration();
-    return {p[i] + (at - static_cast<double>(i)) * step + shift_, inside ? Vec3(step * Path::kRate) : Vec3::Zero()};
+    return {p[i] + (at - static_cast<double>(i)) * step + shift_,
+            inside ? Vec3(step * Path::kRate) : Vec3::Zero()};
 }
 
 }  // namespace dihaptic::hand

@@ -8,9 +8,10 @@ namespace dihaptic::hand {
 
 class RecordedDriver final : public Driver {
   public:
-    /// `shift` is added to every position [m]; `fingers` are the scene's, in order. Phases are reach,
-    /// grasp and return. Throws Error when the movement lacks one of the fingers.
-    RecordedDriver(Path path, const GraspSite& site, const Vec3& shift, const std::vector<std::string>& fingers);
+    /// `shift` is added to every position [m]; `fingers` are the scene's, in order. Phases are
+    /// reach, grasp and return. Throws Error when the movement lacks one of the fingers.
+    RecordedDriver(Path path, const GraspSite& site, const Vec3& shift,
+                   const std::vector<std::string>& fingers);
 
     double duration() const override { return path_.duration(); }
     const std::vector<Phase>& phases() const override { return phases_; }

@@ -11,15 +11,17 @@
 namespace dihaptic::hand {
 namespace {
 
-constexpr double kGap = 1.75;          // frames further apart than this many frame times: some are missing
+constexpr double kGap = 1.75;  // frames further apart than this many frame times: some are missing
 constexpr size_t kFrozenRun = 5;       // as many equal positions in a row, and then a step: frozen
 constexpr double kFrozenStep = 0.003;  // [m]
 constexpr size_t kWildRun = 5;         // a wild position may last so many frames
 
 double frame_time(const Movement& movement) {
     std::vector<double> steps;
-    for (size_t i = 1; i < movement.frames.size(); ++i) steps.push_back(movement.frames[i].time - movement.frames[i - 1].time);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    for (size_t i = 1; i < movement.frames.size(); ++i)
+        steps.push_back(movement.frames[i].time - movement.frames[i - 1].time);
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                     steps.end());
     return steps[steps.size() / 2];
 }
 
@@ -27,7 +29,10 @@ double frame_time(const Movement& movement) {
 class FingerRepair {
   public:
     FingerRepair(const Movement& movement, int finger, double frame)
-        : movement_(movement), finger_(finger), frame_(frame), valid_(movement.frames.size(), true) {}
+        : movement_(movement),
+          finger_(finger),
+          frame_(frame),
+          valid_(movement.frames.size(), true) {}
 
     void run(std::vector<Fault>& faults) {
         drop_missing(faults);
@@ -38,7 +43,9 @@ class FingerRepair {
     const std::vector<char>& valid() const { return valid_; }
 
   private:
-    const Vec3& at(size_t i) const { return movement_.frames[i].p_WH[static_cast<size_t>(finger_)]; }
+    const Vec3& at(size_t i) const {
+        return movement_.frames[i].p_WH[static_cast<size_t>(finger_)];
+    }
     double time(size_t i) const { return movement_.frames[i].time; }
     bool plausible(size_t a, size_t b) const {
         return (at(b) - at(a)).norm() <= kMaxSpeed * (time(b) - time(a) + frame_);
@@ -55,7 +62,8 @@ class FingerRepair {
         }
         return i;
     }
-    void report(std::vector<Fault>& faults, FaultKind kind, size_t first, size_t end, bool wrong_unit = false) const {
+    void report(std::vector<Fault>& faults, FaultKind kind, size_t first, size_t end,
+                bool wrong_unit = false) const {
         Fault fault;
         fault.kind = kind;
         fault.finger = finger_;
@@ -87,7 +95,8 @@ class FingerRepair {
                 if (movement_.frames[end].occluded) told = true;
             }
             const size_t run = end - i;
-            const bool steps_after = end < valid_.size() && valid_[end] && (at(end) - at(i)).norm() > kFrozenStep;
+            const bool steps_after =
+                end < valid_.size() && valid_[end] && (at(end) - at(i)).norm() > kFrozenStep;
             if (run > 1 && (told || (run >= kFrozenRun && steps_after))) {
                 for (size_t j = i + 1; j < end; ++j) valid_[j] = false;
                 report(faults, FaultKind::frozen_marker, i + 1, end);
@@ -101,13 +110,17 @@ class FingerRepair {
         for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
             const size_t before = last_valid(i);
             if (before == i || plausible(before, i)) continue;
-            size_t back = i;
-            for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
+            size_t wild = i;
+            size_t back = next_valid(i);
+            for (size_t n = 1; n < kWildRun && back < valid_.size() && plausible(wild, back); ++n) {
+                wild = back;
                 back = next_valid(back);
-                if (back < valid_.size() && plausible(before, back)) break;
             }
-            if (back >= valid_.size() || !plausible(before, back)) continue;
-            const bool thousandth = at(i).norm() < 2e-3 * at(before).norm() && at(i).norm() > 0.5e-3 * at(before).norm();
+            // it must jump back too: what goes on from the new place is a jump
+            if (back >= valid_.size() || plausible(wild, back) || !plausible(before, back))
+                continue;
+            const bool thousandth = at(i).norm() < 2e-3 * at(before).norm() &&
+                                    at(i).norm() > 0.5e-3 * at(before).norm();
             for (size_t j = i; j < back; ++j) valid_[j] = false;
             report(faults, FaultKind::wild_position, i, back, thousandth);
         }
@@ -147,7 +160,8 @@ class FingerRepair {
 /// Monotone cubic interpolation (Fritsch and Carlson 1980): never overshoots its samples.
 class MonotoneCubic {
   public:
-    MonotoneCubic(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0) {
+    MonotoneCubic(std::vector<double> x, std::vector<double> y)
+        : x_(std::move(x)), y_(std::move(y)), slope_(x_.size(), 0) {
         const size_t n = x_.size();
         std::vector<double> h(n - 1), d(n - 1);
         for (size_t i = 0; i + 1 < n; ++i) {
@@ -164,13 +178,14 @@ class MonotoneCubic {
     double operator()(double x) const {
         if (x <= x_.front()) return y_.front();
         if (x >= x_.back()) return y_.back();
-        const auto i = static_cast<size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
+        const auto i =
+            static_cast<size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
         const double h = x_[i + 1] - x_[i];
         const double s = (x - x_[i]) / h;
         const double s2 = s * s;
         const double s3 = s2 * s;
-        return (2 * s3 - 3 * s2 + 1) * y_[i] + (s3 - 2 * s2 + s) * h * slope_[i] + (3 * s2 - 2 * s3) * y_[i + 1] +
-               (s3 - s2) * h * slope_[i + 1];
+        return (2 * s3 - 3 * s2 + 1) * y_[i] + (s3 - 2 * s2 + s) * h * slope_[i] +
+               (3 * s2 - 2 * s3) * y_[i + 1] + (s3 - s2) * h * slope_[i + 1];
     }
 
   private:
@@ -199,7 +214,8 @@ void find_gaps(const Movement& movement, double frame, std::vector<Fault>& fault
 
 double Path::bridged_share() const {
     if (bridged.empty()) return 0;
-    return static_cast<double>(std::count(bridged.begin(), bridged.end(), char{1})) / static_cast<double>(bridged.size());
+    return static_cast<double>(std::count(bridged.begin(), bridged.end(), char{1})) /
+           static_cast<double>(bridged.size());
 }
 
 Path repair(const Movement& movement) {
@@ -220,16 +236,18 @@ Path repair(const Movement& movement) {
         for (size_t i = 0; i < movement.frames.size(); ++i) {
             if (!finger.valid()[i]) continue;
             times.push_back(movement.frames[i].time - t0);
-            for (size_t axis = 0; axis < 3; ++axis) values[axis].push_back(movement.frames[i].p_WH[f][static_cast<int>(axis)]);
+            for (size_t axis = 0; axis < 3; ++axis)
+                values[axis].push_back(movement.frames[i].p_WH[f][static_cast<int>(axis)]);
         }
         if (times.size() < 4) {
-            throw Error({movement.file, 0}, movement.fingers[f], "fewer than four frames are usable",
-                        "Record this movement again.");
+            throw Error({movement.file, 0}, movement.fingers[f],
+                        "fewer than four frames are usable", "Record this movement again.");
         }
         // what lies between frames that are too far apart is bridged, at the ends too
         const auto mark = [&](double from, double to) {
             const auto first = static_cast<size_t>(std::max(0.0, std::ceil(from * Path::kRate)));
-            for (size_t s = first; s < samples && static_cast<double>(s) / Path::kRate < to; ++s) path.bridged[s] = 1;
+            for (size_t s = first; s < samples && static_cast<double>(s) / Path::kRate < to; ++s)
+                path.bridged[s] = 1;
         };
         if (times.front() > 0) mark(0, times.front());
         for (size_t i = 1; i < times.size(); ++i) {
@@ -241,7 +259,8 @@ Path repair(const Movement& movement) {
         for (size_t axis = 0; axis < 3; ++axis) {
             const MonotoneCubic curve(times, values[axis]);
             std::vector<double> sampled(samples);
-            for (size_t s = 0; s < samples; ++s) sampled[s] = curve(static_cast<double>(s) / Path::kRate);
+            for (size_t s = 0; s < samples; ++s)
+                sampled[s] = curve(static_cast<double>(s) / Path::kRate);
             sampled = model::low_pass(sampled, kSmoothing, Path::kRate);
             for (size_t s = 0; s < samples; ++s) out[s][static_cast<int>(axis)] = sampled[s];
         }
@@ -252,11 +271,13 @@ Path repair(const Movement& movement) {
 }
 
 std::string describe(const Fault& fault, const std::vector<std::string>& fingers) {
-    const std::string who = fault.finger < 0 ? "" : fingers[static_cast<size_t>(fault.finger)] + ": ";
-    std::string text = fmt::format("{:.3f} to {:.3f} s (line {}): {}{}, {:.0f} ms, {:.1f} mm apart", fault.start,
-                                   fault.end, fault.line, who, enum_name(fault.kind), (fault.end - fault.start) * 1e3,
-                                   fault.distance * 1e3);
-    if (fault.wrong_unit) text += "; its values are a thousandth of their neighbours': metres? multiply them by 1000";
+    const std::string who =
+        fault.finger < 0 ? "" : fingers[static_cast<size_t>(fault.finger)] + ": ";
+    std::string text = fmt::format("{:.3f} to {:.3f} s (line {}): {}{}, {:.0f} ms, {:.1f} mm apart",
+                                   fault.start, fault.end, fault.line, who, enum_name(fault.kind),
+                                   (fault.end - fault.start) * 1e3, fault.distance * 1e3);
+    if (fault.wrong_unit)
+        text += "; its values are a thousandth of their neighbours': metres? multiply them by 1000";
     return text;
 }
 

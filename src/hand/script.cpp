@@ -30,8 +30,9 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
         const auto found = std::find_if(fingers_.begin(), fingers_.end(),
                                         [&](const FingerPlace& f) { return f.name == place.name; });
         if (found == fingers_.end()) {
-            throw Error(fmt::format("the hand's finger '{}' is not among the scene's fingers", place.name),
-                        fmt::format("Known: {}.", fmt::join(fingers, ", ")));
+            throw Error(
+                fmt::format("the hand's finger '{}' is not among the scene's fingers", place.name),
+                fmt::format("Known: {}.", fmt::join(fingers, ", ")));
         }
         *found = place;
         if (found->side.norm() > 0) found->side.normalize();
@@ -72,7 +73,8 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     const double s = (t - segment->start) / segment->duration;
     const bool inside = s > 0 && s < 1;
     const model::MinimumJerk step =
-        segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), inside ? 1.0 : 0.0} : model::minimum_jerk(s);
+        segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), inside ? 1.0 : 0.0}
+                        : model::minimum_jerk(s);
     const double per_second = step.rate / segment->duration;
 
     const FingerPlace& place = fingers_[static_cast<size_t>(finger)];

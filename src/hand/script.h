@@ -8,7 +8,8 @@ namespace dihaptic::hand {
 
 class ScriptDriver final : public Driver {
   public:
-    /// `fingers` names the fingers that there are, in order. Throws Error when the script names others.
+    /// `fingers` names the fingers that there are, in order. Throws Error when the script names
+    /// others.
     ScriptDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
     double duration() const override { return phases_.empty() ? 0 : phases_.back().end; }

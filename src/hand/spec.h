@@ -8,20 +8,21 @@
 
 namespace dihaptic::hand {
 
-/// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The spring
-/// stiffens with the force that the finger feels, as muscle does.
+/// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The
+/// spring stiffens with the force that the finger feels, as muscle does.
 struct Impedance {
-    double mass = 0;                ///< added to the device's [kg]
-    double stiffness = 300;         ///< [N/m]
-    double damping = 3;             ///< [N*s/m]
-    double stiffness_per_force = 0; ///< rise of the stiffness per newton of force felt [1/m]
+    double mass = 0;                 ///< added to the device's [kg]
+    double stiffness = 300;          ///< [N/m]
+    double damping = 3;              ///< [N*s/m]
+    double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("mass", mass, Field::of(Quantity::mass).at_least(0));
         v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
-        v("stiffness_per_force", stiffness_per_force, Field::of(Quantity::stiffness_per_force).at_least(0));
+        v("stiffness_per_force", stiffness_per_force,
+          Field::of(Quantity::stiffness_per_force).at_least(0));
     }
 };
 
@@ -57,10 +58,11 @@ struct FingerPlace {
 /// One step of a script: the hand goes from where the last step left it, by minimum jerk.
 struct ScriptStep {
     std::string name;
-    double duration = 0;             ///< [s]
-    std::optional<double> aperture;  ///< at the end: twice each finger's distance from the centre [m]
-    Vec3 move = Vec3::Zero();        ///< of the centre [m]
-    bool steady = false;             ///< constant speed instead of minimum jerk
+    double duration = 0;  ///< [s]
+    std::optional<double>
+        aperture;              ///< at the end: twice each finger's distance from the centre [m]
+    Vec3 move = Vec3::Zero();  ///< of the centre [m]
+    bool steady = false;       ///< constant speed instead of minimum jerk
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -75,8 +77,8 @@ struct ScriptStep {
 struct HandSpec {
     Impedance impedance;
     TremorSpec tremor;
-    Vec3 centre = Vec3::Zero();  ///< at the start [m]
-    double aperture = 0.1;       ///< at the start [m]
+    Vec3 centre = Vec3::Zero();        ///< at the start [m]
+    double aperture = 0.1;             ///< at the start [m]
     std::vector<FingerPlace> fingers;  ///< empty: thumb at -x and index at +x
     std::vector<ScriptStep> script;
 

@@ -9,11 +9,12 @@ double damping(const CouplingSettings& settings, double h) {
 }
 
 Coupling make_coupling(const CouplingSettings& settings, double mass) {
-    if (settings.kind == CouplingKind::dual_spring) return DualSpring(settings, mass);
+    if (settings.kind == CouplingKind::dual_spring) return DualSpring(settings);
     return ImplicitCoupling(settings, mass);
 }
 
-void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle, double h) noexcept {
+void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,
+                                   double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     const double k = settings_.stiffness;
     const double c = damping(settings_, h);
@@ -21,8 +22,9 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
     handle_ = handle;
     const double folded_mass = mass_ + h * c + h * h * k;
     world.set_mass(proxy, folded_mass);
-    world.set_velocity(proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
-                                  folded_mass);
+    world.set_velocity(
+        proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
+                   folded_mass);
 }
 
 Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
@@ -41,34 +43,36 @@ Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTou
     return normal * touch.n_W + tangential;
 }
 
-void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h, bool was_touching) noexcept {
+void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+                             bool was_touching) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
-    h_ = h;
     double k = settings_.stiffness;
     if (!was_touching) {
         // no stiffer than what takes the proxy to the handle in a step or two: beyond, the explicit
         // spring diverges
-        k = std::max(k, std::min(settings_.free_stiffening * k, 0.5 * mass_ / (h * h)));
+        k = std::max(k,
+                     std::min(settings_.free_stiffening * k, 0.5 * settings_.body_mass / (h * h)));
     }
     const Vec3 stretch = handle.p_WH - state.X_WB.p;
     const Vec3 speed = handle.v_WH - state.v_WB;
     const Vec3 line = stretch.norm() > 0 ? Vec3(stretch.normalized()) : Vec3::Zero();
     const Vec3 along = speed.dot(line) * line;
     const Vec3 across = speed - along;
-    world.set_mass(proxy, mass_);
-    world.apply(proxy,
-                k * stretch + settings_.body_damping_along * along + settings_.body_damping_across * across,
-                Vec3::Zero());
+    world.set_mass(proxy, settings_.body_mass);
+    world.apply(
+        proxy,
+        k * stretch + settings_.body_damping_along * along + settings_.body_damping_across * across,
+        Vec3::Zero());
 }
 
-Vec3 DualSpring::force(const World& world, BodyIndex proxy, const Handle& handle) noexcept {
+void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handle,
+                        double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     const Vec3 stretch = state.X_WB.p - handle.p_WH;
     const Vec3 line = stretch.norm() > 0 ? Vec3(stretch.normalized()) : Vec3::Zero();
     const Vec3 along = (state.v_WB - handle.v_WH).dot(line) * line;
-    const Vec3 raw = settings_.stiffness * stretch + damping(settings_, h_) * along;
+    const Vec3 raw = settings_.stiffness * stretch + damping(settings_, h) * along;
     f_H_W_ = settings_.smoothing * raw + (1 - settings_.smoothing) * f_H_W_;
-    return f_H_W_;
 }
 
 }  // namespace dihaptic::haptics

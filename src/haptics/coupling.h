@@ -19,25 +19,28 @@ struct Handle {
 
 /// All contacts of a proxy in the last step, taken together.
 struct ProxyTouch {
-    bool touching = false;         ///< something pressed against it
-    Vec3 n_W = Vec3::Zero();       ///< direction of the summed normal force on the proxy; unit, or zero
-    double normal_force = 0;       ///< magnitude of that sum [N]
-    double friction = 0;           ///< coefficient, weighted by normal force
-    Vec3 f_P_W = Vec3::Zero();     ///< whole contact force on the proxy [N]
+    bool touching = false;    ///< something pressed against it
+    Vec3 n_W = Vec3::Zero();  ///< direction of the summed normal force on the proxy; unit, or zero
+    double normal_force = 0;  ///< magnitude of that sum [N]
+    double friction = 0;      ///< coefficient, weighted by normal force
+    Vec3 f_P_W = Vec3::Zero();  ///< whole contact force on the proxy [N]
 };
 
 /// The spring holds at the end of the step; any contact solver does the rest.
 class ImplicitCoupling {
   public:
     /// `mass`: the proxy's own [kg].
-    ImplicitCoupling(const CouplingSettings& settings, double mass) : settings_(settings), mass_(mass) {}
+    ImplicitCoupling(const CouplingSettings& settings, double mass)
+        : settings_(settings), mass_(mass) {}
 
-    /// Folds spring and damper into the proxy's mass and velocity. `h`: the coming step of the world [s].
+    /// Folds spring and damper into the proxy's mass and velocity. `h`: the coming step of the
+    /// world [s].
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
-    /// Force on the handle now: the spring's at the end of the step while the proxy touches something, and
-    /// none in free space. Between steps of the world the handle moves on: the spring then stays within
-    /// the friction cone of the step's contact.
-    Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch, const Handle& handle) const noexcept;
+    /// Force on the handle now: the spring's at the end of the step while the proxy touches
+    /// something, and none in free space. Between steps of the world the handle moves on: the
+    /// spring then stays within the friction cone of the step's contact.
+    Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+               const Handle& handle) const noexcept;
 
   private:
     CouplingSettings settings_;
@@ -47,18 +50,20 @@ class ImplicitCoupling {
 };
 
 /// Springs and dampers as explicit forces on both sides, smoothed toward the hand: the 2012 system.
+/// Both forces follow from where proxy and handle are at the tick, before the world steps on.
 class DualSpring {
   public:
-    DualSpring(const CouplingSettings& settings, double mass) : settings_(settings), mass_(mass) {}
+    explicit DualSpring(const CouplingSettings& settings) : settings_(settings) {}
 
-    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h, bool was_touching) noexcept;
-    Vec3 force(const World& world, BodyIndex proxy, const Handle& handle) noexcept;
+    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+                     bool was_touching) noexcept;
+    /// Every tick, before the world steps if it does: takes up the tick's force.
+    void sample(const World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
+    Vec3 force() const noexcept { return f_H_W_; }
 
   private:
     CouplingSettings settings_;
-    double mass_;
-    double h_ = 1e-3;
-    Vec3 f_H_W_ = Vec3::Zero();  // last force [N]
+    Vec3 f_H_W_ = Vec3::Zero();  // smoothed [N]
 };
 
 using Coupling = std::variant<ImplicitCoupling, DualSpring>;

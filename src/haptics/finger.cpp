@@ -2,15 +2,21 @@
 
 namespace dihaptic::haptics {
 
-Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling, double max_force,
-               double max_force_rate)
-    : proxy_(proxy), coupling_(make_coupling(coupling, finger.mass)), limiter_(max_force, max_force_rate) {}
+Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
+               double max_force, double max_force_rate)
+    : proxy_(proxy),
+      coupling_(make_coupling(coupling, finger.mass)),
+      limiter_(max_force, max_force_rate) {}
 
-void Finger::before_step(World& world, const Handle& handle, double h) noexcept {
+void Finger::begin_tick(const World& world, const Handle& handle, double step) noexcept {
+    if (auto* dual = std::get_if<DualSpring>(&coupling_)) dual->sample(world, proxy_, handle, step);
+}
+
+void Finger::before_step(World& world, const Handle& handle, double step) noexcept {
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
-        implicit->before_step(world, proxy_, handle, h);
+        implicit->before_step(world, proxy_, handle, step);
     } else {
-        std::get<DualSpring>(coupling_).before_step(world, proxy_, handle, h, touch_.touching);
+        std::get<DualSpring>(coupling_).before_step(world, proxy_, handle, step, touch_.touching);
     }
 }
 
@@ -34,14 +40,14 @@ void Finger::after_step(const World& world) noexcept {
     touch_.friction = weighted_friction / pressed;
 }
 
-Finger::Output Finger::force(const World& world, const Handle& handle, double h) noexcept {
+Finger::Output Finger::force(const World& world, const Handle& handle, double tick) noexcept {
     Output out;
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
         out.f_asked_W = implicit->force(world, proxy_, touch_, handle);
     } else {
-        out.f_asked_W = std::get<DualSpring>(coupling_).force(world, proxy_, handle);
+        out.f_asked_W = std::get<DualSpring>(coupling_).force();
     }
-    out.f_H_W = limiter_.limit(out.f_asked_W, h, out.flags);
+    out.f_H_W = limiter_.limit(out.f_asked_W, tick, out.flags);
     return out;
 }
 

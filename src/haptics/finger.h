@@ -1,5 +1,5 @@
-// One finger in the world: its proxy, the coupling that ties the proxy to the handle, and the limiter
-// that every force passes on its way to the device.
+// One finger in the world: its proxy, the coupling that ties the proxy to the handle, and the
+// limiter that every force passes on its way to the device.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -10,15 +10,16 @@ namespace dihaptic::haptics {
 class Finger {
   public:
     /// `finger`'s proxy is body `proxy` of the world. `max_force`: the magnitude limit [N].
-    Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling, double max_force,
-           double max_force_rate);
+    Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
+           double max_force, double max_force_rate);
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
 
-    /// Before a step of the world by h [s].
-    void before_step(World& world, const Handle& handle, double h) noexcept;
-    /// After it.
+    /// First in every tick; `step` is the world's [s].
+    void begin_tick(const World& world, const Handle& handle, double step) noexcept;
+    /// In ticks in which the world steps: before it does, and after.
+    void before_step(World& world, const Handle& handle, double step) noexcept;
     void after_step(const World& world) noexcept;
 
     struct Output {
@@ -26,8 +27,8 @@ class Finger {
         Vec3 f_H_W = Vec3::Zero();      ///< what the device is told [N]
         unsigned flags = 0;             ///< LimitFlags
     };
-    /// Every tick: force for the handle as it is now. `h`: the tick [s].
-    Output force(const World& world, const Handle& handle, double h) noexcept;
+    /// Last in every tick: force for the handle as it is now. `tick`: its length [s].
+    Output force(const World& world, const Handle& handle, double tick) noexcept;
 
   private:
     BodyIndex proxy_;

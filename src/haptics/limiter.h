@@ -8,9 +8,11 @@ namespace dihaptic::haptics {
 
 /// What the limiter had to do.
 enum LimitFlags : unsigned {
-    kForceLimited = 1u << 0,  ///< the magnitude was cut: a softer coupling, or a gentler hand, avoids it
-    kRateLimited = 1u << 1,   ///< the change was cut: contact was fast or the coupling is stiff
-    kNotFinite = 1u << 2,     ///< NaN or infinity was asked for: no more force until the session restarts
+    kForceLimited =
+        1u << 0,  ///< the magnitude was cut: a softer coupling, or a gentler hand, avoids it
+    kRateLimited = 1u << 1,  ///< the change was cut: contact was fast or the coupling is stiff
+    kNotFinite =
+        1u << 2,  ///< NaN or infinity was asked for: no more force until the session restarts
 };
 
 class Limiter {

@@ -9,7 +9,9 @@
 namespace dihaptic::haptics {
 
 enum class CouplingKind { implicit, dual_spring };
-constexpr auto enum_names(CouplingKind) { return std::array{"implicit", "dual_spring"}; }
+constexpr auto enum_names(CouplingKind) {
+    return std::array{"implicit", "dual_spring"};
+}
 
 /// How a handle and its proxy pull at each other; equations in README.md.
 struct CouplingSettings {
@@ -18,16 +20,19 @@ struct CouplingSettings {
     std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
 
     // dual spring only
-    double body_damping_along = 0.5;   ///< c_b,par: along the line from handle to proxy [N*s/m]
-    double body_damping_across = 0.5;  ///< c_b,perp: across it [N*s/m]
-    double free_stiffening = 10;       ///< k_b over k while the proxy touches nothing
-    double smoothing = 0.2;            ///< alpha: share of the new force in the force sent; 1: no smoothing
+    double body_mass = 0.02;  ///< of the proxy, in place of its own: an explicit spring diverges
+                              ///< above about m / h^2 [kg]
+    double body_damping_along = 2;   ///< c_b,par: along the line from handle to proxy [N*s/m]
+    double body_damping_across = 2;  ///< c_b,perp: across it [N*s/m]
+    double free_stiffening = 10;     ///< k_b over k while the proxy touches nothing
+    double smoothing = 0.2;  ///< alpha: share of the new force in the force sent; 1: no smoothing
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind);
         v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("body_mass", body_mass, Field::of(Quantity::mass).positive());
         v("body_damping_along", body_damping_along, Field::of(Quantity::damping).at_least(0));
         v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
         v("free_stiffening", free_stiffening, Field::number().at_least(1));

@@ -21,7 +21,8 @@ scene::Body box(const std::string& name, const Vec3& size, const Pose& X_WB, dou
     body.position = X_WB.p;
     // body.rotation is about the fixed axes x, y, z: read it back from the matrix Rz Ry Rx
     const Mat3 R = X_WB.R.toRotationMatrix();
-    body.rotation = {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
+    body.rotation = {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
+                     std::atan2(R(1, 0), R(0, 0))};
     body.friction = friction;
     return body;
 }
@@ -60,7 +61,8 @@ std::optional<double> standing(double drift) {
     return drift < kFallen ? std::optional(drift * 1e3) : std::nullopt;
 }
 
-/// Slides for a second on a slope from rest; displacement along the slope, and angle off the fall line.
+/// Slides for a second on a slope from rest; displacement along the slope, and angle off the fall
+/// line.
 struct Slide {
     double acceleration = 0;
     double off_fall_line = 0;
@@ -74,20 +76,25 @@ Slide slide(double slope, double turn, const dynamics::Settings& settings) {
     const Vec3 way = world.states()[1].X_WB.p - start;
     // semi-implicit Euler from rest: x_n = a h^2 n (n + 1) / 2
     const double covered = kStep * kStep * steps * (steps + 1) / 2;
-    const Vec3 fall = Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * Vec3(std::cos(slope), 0, -std::sin(slope));
+    const Vec3 fall =
+        Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * Vec3(std::cos(slope), 0, -std::sin(slope));
     return {way.dot(fall) / covered, std::atan2(way.cross(fall).norm(), way.dot(fall))};
 }
 
 }  // namespace
 
 scene::Scene incline_scene(double slope, double turn, double friction) {
-    // the fall line is turned about the vertical; the block's edges keep to the world's, so that nothing is aligned
-    const Quat R_table(Eigen::AngleAxisd(turn, Vec3::UnitZ()) * Eigen::AngleAxisd(slope, Vec3::UnitY()));
+    // the fall line is turned about the vertical; the block's edges keep to the world's, so that
+    // nothing is aligned
+    const Quat R_table(Eigen::AngleAxisd(turn, Vec3::UnitZ()) *
+                       Eigen::AngleAxisd(slope, Vec3::UnitY()));
     const Quat R_block(R_table * Quat(Eigen::AngleAxisd(-turn, Vec3::UnitZ())));
     scene::Scene scene;
-    scene::Body plane = box("slope", {20, 20, 0.1}, {R_table, R_table * Vec3(0, 0, -0.05)}, friction);
+    scene::Body plane =
+        box("slope", {20, 20, 0.1}, {R_table, R_table * Vec3(0, 0, -0.05)}, friction);
     plane.fixed = true;
-    scene::Body block = box("block", Vec3::Constant(kBlockSize), {R_block, R_table * Vec3(0, 0, kBlockSize / 2)}, friction);
+    scene::Body block = box("block", Vec3::Constant(kBlockSize),
+                            {R_block, R_table * Vec3(0, 0, kBlockSize / 2)}, friction);
     block.mass = 0.1;
     scene.bodies = {plane, block};
     return scene;
@@ -108,8 +115,8 @@ scene::Scene stack_scene(int blocks) {
 scene::Scene cards_scene(int storeys) {
     const double length = 0.08, width = 0.05, thick = 0.002, friction = 0.7;
     const double lean = 20 * kDegree;
-    // a card's half extents along and across, and the corners of its cross-section that touch: the inner
-    // top corners of a pair meet in the middle, the lowest corner stands on z = 0
+    // a card's half extents along and across, and the corners of its cross-section that touch: the
+    // inner top corners of a pair meet in the middle, the lowest corner stands on z = 0
     const double u = length / 2, n = thick / 2;
     const double centre_x = u * std::sin(lean) + n * std::cos(lean);
     const double centre_z = u * std::cos(lean) + n * std::sin(lean);
@@ -119,8 +126,9 @@ scene::Scene cards_scene(int storeys) {
     scene::Scene scene;
     scene.bodies = {table(friction)};
     const auto card = [&](const Vec3& position, double angle) {
-        scene::Body body = box("card " + std::to_string(scene.bodies.size()), {thick, width, length},
-                               {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
+        scene::Body body =
+            box("card " + std::to_string(scene.bodies.size()), {thick, width, length},
+                {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
         body.mass = 0.008;
         scene.bodies.push_back(body);
     };
@@ -133,7 +141,8 @@ scene::Scene cards_scene(int storeys) {
             card({x + centre_x, 0, z + centre_z}, -lean);
         }
         for (int i = 0; i + 1 < pairs; ++i) {
-            card({(i - 0.5 * (pairs - 2)) * pitch, 0, z + height + thick / 2}, std::numbers::pi / 2);
+            card({(i - 0.5 * (pairs - 2)) * pitch, 0, z + height + thick / 2},
+                 std::numbers::pi / 2);
         }
     }
     return scene;
@@ -148,7 +157,8 @@ scene::Scene arch_scene(int voussoirs) {
         stone.name = "voussoir " + std::to_string(i);
         stone.shape.kind = scene::ShapeKind::mesh;
         std::vector<Vec3> points;
-        for (const double angle : {std::numbers::pi * i / voussoirs, std::numbers::pi * (i + 1) / voussoirs}) {
+        for (const double angle :
+             {std::numbers::pi * i / voussoirs, std::numbers::pi * (i + 1) / voussoirs}) {
             for (const double radius : {inner, outer}) {
                 for (const double y : {-depth / 2, depth / 2}) {
                     points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
@@ -174,11 +184,14 @@ FrictionFigures bench_friction(const dynamics::Settings& settings, const Progres
     out.drift_mm = drift(incline_scene(26 * kDegree, 0, 0.5), settings, 5) * 1e3;
     say("incline, released");
     const double slope = 27 * kDegree;
-    out.accel_error = slide(slope, 0, settings).acceleration / (kGravity * (std::sin(slope) - 0.5 * std::cos(slope))) - 1;
+    out.accel_error = slide(slope, 0, settings).acceleration /
+                          (kGravity * (std::sin(slope) - 0.5 * std::cos(slope))) -
+                      1;
     say("incline, turned");
     for (int i = 0; i <= 12; ++i) {
         out.direction_error_deg =
-            std::max(out.direction_error_deg, slide(30 * kDegree, i * 7.5 * kDegree, settings).off_fall_line / kDegree);
+            std::max(out.direction_error_deg,
+                     slide(30 * kDegree, i * 7.5 * kDegree, settings).off_fall_line / kDegree);
     }
     say("stack");
     out.stack_drift_mm = drift(stack_scene(10), settings, 10) * 1e3;
@@ -187,7 +200,7 @@ FrictionFigures bench_friction(const dynamics::Settings& settings, const Progres
     say("arch");
     out.arch_drift_mm = standing(drift(arch_scene(9), settings, 10));
     say("creep of a held block");
-    Setup setup;
+    BenchSetup setup;
     setup.settings.dynamics = settings;
     setup.settings.coupling.stiffness = 1000;
     setup.hold_time = 60;
@@ -197,29 +210,39 @@ FrictionFigures bench_friction(const dynamics::Settings& settings, const Progres
 
 namespace {
 
-nlohmann::json or_null(const std::optional<double>& value) { return value ? nlohmann::json(*value) : nlohmann::json(nullptr); }
-std::string or_fell(const std::optional<double>& value) { return value ? fmt::format("{:.5f}", *value) : "fell"; }
+nlohmann::json or_null(const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+std::string or_fell(const std::optional<double>& value) {
+    return value ? fmt::format("{:.5f}", *value) : "fell";
+}
 
 }  // namespace
 
 std::string to_json(const std::vector<FrictionFigures>& figures) {
     nlohmann::ordered_json out;
     for (const FrictionFigures& f : figures) {
-        out["solvers"].push_back({{"solver", enum_name(f.solver)}, {"drift_mm", f.drift_mm}, {"accel_error", f.accel_error},
-                                  {"direction_error_deg", f.direction_error_deg}, {"stack_drift_mm", f.stack_drift_mm},
-                                  {"cards_drift_mm", or_null(f.cards_drift_mm)}, {"arch_drift_mm", or_null(f.arch_drift_mm)},
+        out["solvers"].push_back({{"solver", enum_name(f.solver)},
+                                  {"drift_mm", f.drift_mm},
+                                  {"accel_error", f.accel_error},
+                                  {"direction_error_deg", f.direction_error_deg},
+                                  {"stack_drift_mm", f.stack_drift_mm},
+                                  {"cards_drift_mm", or_null(f.cards_drift_mm)},
+                                  {"arch_drift_mm", or_null(f.arch_drift_mm)},
                                   {"creep_mm", f.creep_mm}});
     }
     return out.dump(2) + "\n";
 }
 
 std::string to_table(const std::vector<FrictionFigures>& figures) {
-    std::string out = fmt::format("{:20s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s}\n", "solver", "26 deg mm",
-                                  "accel err", "dir deg", "stack mm", "cards mm", "arch mm", "creep mm");
+    std::string out = fmt::format(
+        "{:20s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s}\n", "solver", "26 deg mm",
+        "accel err", "dir deg", "stack mm", "cards mm", "arch mm", "creep mm");
     for (const FrictionFigures& f : figures) {
-        out += fmt::format("{:20s} {:10.5f} {:10.5f} {:10.4f} {:10.5f} {:>10s} {:>10s} {:10.6f}\n", enum_name(f.solver),
-                           f.drift_mm, f.accel_error, f.direction_error_deg, f.stack_drift_mm, or_fell(f.cards_drift_mm),
-                           or_fell(f.arch_drift_mm), f.creep_mm);
+        out += fmt::format("{:20s} {:10.5f} {:10.5f} {:10.4f} {:10.5f} {:>10s} {:>10s} {:10.6f}\n",
+                           enum_name(f.solver), f.drift_mm, f.accel_error, f.direction_error_deg,
+                           f.stack_drift_mm, or_fell(f.cards_drift_mm), or_fell(f.arch_drift_mm),
+                           f.creep_mm);
     }
     return out;
 }

@@ -12,20 +12,25 @@
 namespace dihaptic::measure {
 namespace {
 
-constexpr std::array kCalmList{100, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 3000, 4000, 5000, 6000, 8000};
+constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
+                               1500, 2000, 3000, 4000, 5000, 6000, 8000};
 constexpr double kLastSeconds = 3;  // of the hold: what is judged there has settled
 constexpr double kGravity = 9.81;
 
-double degrees(double rad) { return rad * 180 / std::numbers::pi; }
+double degrees(double rad) {
+    return rad * 180 / std::numbers::pi;
+}
 
-Setup with(Setup setup, double k, Fingering fingering = Fingering::ideal, Row row = Row::ideal) {
+BenchSetup with(BenchSetup setup, double k, Fingering fingering = Fingering::ideal,
+                Row row = Row::ideal) {
     setup.settings.coupling.stiffness = k;
     setup.fingering = fingering;
     setup.row = row;
     return setup;
 }
 
-/// A spring of the same K that pushes at every instant, sampled by nothing: the best that the kick can be.
+/// A spring of the same K that pushes at every instant, sampled by nothing: the best that the kick
+/// can be.
 double perfect_peak(double k, double speed) {
     const double h = 1e-6;
     const double mass = 0.075;
@@ -37,7 +42,8 @@ double perfect_peak(double k, double speed) {
         const double target = -kStartGap + std::min(speed * t, end);
         const double push = x > 0 ? k * x : 0;
         peak = std::max(peak, push);
-        v += h / mass * (kHandStiffness * (target - x) + damping * ((running ? speed : 0) - v) - push);
+        v += h / mass *
+             (kHandStiffness * (target - x) + damping * ((running ? speed : 0) - v) - push);
         x += h * v;
     }
     return peak;
@@ -45,7 +51,7 @@ double perfect_peak(double k, double speed) {
 
 }  // namespace
 
-HoldFigures measure_hold(const Setup& setup) {
+HoldFigures measure_hold(const BenchSetup& setup) {
     Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
     analysis::GraspTrace trace(1, setup.settings.tick());
     bench.run([&](const servo::Frame& frame) { trace.add(frame); });
@@ -61,7 +67,8 @@ HoldFigures measure_hold(const Setup& setup) {
     out.fingering = setup.fingering;
     const size_t lift_off = trace.lift_off();
     const double risen = trace.samples()[hold.first].X_WB.p.z() - kBlockSize / 2;
-    out.held = trace.all_touching({lift_off, hold.last}) && risen >= 0.09 && trace.sag(hold) > -0.001;
+    out.held =
+        trace.all_touching({lift_off, hold.last}) && risen >= 0.09 && trace.sag(hold) > -0.001;
     out.lift_slip_mm = trace.slip(lift) * 1e3;
     out.slip_mm = trace.slip(hold) * 1e3;
     out.z_rms_um = trace.height_rms(settled) * 1e6;
@@ -70,7 +77,8 @@ HoldFigures measure_hold(const Setup& setup) {
     out.turn_deg = degrees(trace.turn(hold));
     out.hf_force_n = trace.force_above_5_hz(settled);
     out.weight_ratio = trace.weight_felt(settled) / (setup.mass * kGravity);
-    out.grip_ratio = trace.mean_grip(settled) / model::series_spring_force(kSqueeze, kHandStiffness, k);
+    out.grip_ratio =
+        trace.mean_grip(settled) / model::series_spring_force(kSqueeze, kHandStiffness, k);
     return out;
 }
 
@@ -79,7 +87,7 @@ bool calm_grasp(const HoldFigures& hold) {
            std::abs(hold.grip_ratio - 1) < 0.02;
 }
 
-bool calm_wall(const Setup& setup) {
+bool calm_wall(const BenchSetup& setup) {
     Bench bench(wall_scene(setup), wall_hand(setup), setup);
     analysis::GraspTrace trace(-1, setup.settings.tick());
     bench.run([&](const servo::Frame& frame) { trace.add(frame); });
@@ -87,10 +95,11 @@ bool calm_wall(const Setup& setup) {
     const analysis::Range settled = trace.between(end - kLastSeconds, end);
     const double expected =
         model::series_spring_force(kSqueeze, kHandStiffness, setup.settings.coupling.stiffness);
-    return trace.force_above_5_hz(settled) < 0.02 && std::abs(trace.mean_force(settled) / expected - 1) < 0.02;
+    return trace.force_above_5_hz(settled) < 0.02 &&
+           std::abs(trace.mean_force(settled) / expected - 1) < 0.02;
 }
 
-KickFigures measure_kick(Setup setup, double speed) {
+KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
     const double way = kStartGap + kSqueeze;
     hand.script = {{"press", way / speed, {}, {way, 0, 0}, true},
@@ -117,7 +126,8 @@ KickFigures measure_kick(Setup setup, double speed) {
                 first_force = push;
                 first_depth = depth;
             } else if (ticks_since_touch == 1) {
-                first_depth = std::max(first_depth, depth);  // reached while the first force was held
+                first_depth =
+                    std::max(first_depth, depth);  // reached while the first force was held
             }
         } else {
             out.leave_pull_n = std::max(out.leave_pull_n, -push);
@@ -128,7 +138,7 @@ KickFigures measure_kick(Setup setup, double speed) {
     return out;
 }
 
-double measure_drag(const Setup& setup) {
+double measure_drag(const BenchSetup& setup) {
     scene::Scene scene = wall_scene(setup);
     scene.bodies[0].position.x() += 10;
     const double way = 0.2;
@@ -137,27 +147,31 @@ double measure_drag(const Setup& setup) {
                    {"rest", 0.2, {}, Vec3::Zero(), false}};
     Bench bench(scene, hand, setup);
     double peak = 0;
-    bench.run([&](const servo::Frame& frame) { peak = std::max(peak, frame.fingers[0].f_sent_W.norm()); });
+    bench.run([&](const servo::Frame& frame) {
+        peak = std::max(peak, frame.fingers[0].f_sent_W.norm());
+    });
     return peak;
 }
 
-std::pair<double, double> measure_torque(const Setup& setup) {
+std::pair<double, double> measure_torque(const BenchSetup& setup) {
     Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
     analysis::GraspTrace trace(1, setup.settings.tick());
     const double begin = bench.driver().phases()[kHold].start + 2;
     const double tick = setup.settings.tick();
     const dynamics::BodyIndex block{1};
-    bench.run([&](const servo::Frame& frame) { trace.add(frame); },
-              [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
-                  const double now = static_cast<double>(last.sequence + 1) * tick;
-                  if (now >= begin - tick / 2 && now < begin + 0.2 - tick / 2) {
-                      commands.load({block, Vec3::Zero(), Vec3(0.02, 0, 0)});
-                  }
-              });
+    bench.run(
+        [&](const servo::Frame& frame) { trace.add(frame); },
+        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+            const double now = static_cast<double>(last.sequence + 1) * tick;
+            if (now >= begin - tick / 2 && now < begin + 0.2 - tick / 2) {
+                commands.load({block, Vec3::Zero(), Vec3(0.02, 0, 0)});
+            }
+        });
     const size_t start = trace.between(begin, begin).first - 1;
     const size_t end = trace.between(begin + 0.2, begin).first - 1;
     const size_t after = trace.between(begin + 1.2, begin).first - 1;
-    return {degrees(std::abs(trace.turn_at(start, end))), degrees(std::abs(trace.turn_at(start, after)))};
+    return {degrees(std::abs(trace.turn_at(start, end))),
+            degrees(std::abs(trace.turn_at(start, after)))};
 }
 
 double highest_calm(const std::function<bool(double k)>& calm) {
@@ -169,7 +183,7 @@ double highest_calm(const std::function<bool(double k)>& calm) {
     return highest;
 }
 
-GraspFigures bench_grasp(const Setup& base, const Progress& progress) {
+GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
     GraspFigures out;
     out.damping_per_k = haptics::damping(with(base, 1).settings.coupling, base.settings.step());
     constexpr std::array kHoldK{300.0, 600.0, 1000.0, 2000.0, 4000.0};
@@ -186,18 +200,21 @@ GraspFigures bench_grasp(const Setup& base, const Progress& progress) {
     }
     for (const double k : {300.0, 600.0, 1000.0, 2000.0}) {
         say(fmt::format("slow dynamics, K {}", k));
-        Setup slow = with(base, k);
+        BenchSetup slow = with(base, k);
         slow.settings.dynamics.every = 10;
         const HoldFigures hold = measure_hold(slow);
         out.slow_dynamics.push_back({k, hold.held, hold.slip_mm, hold.hf_force_n});
     }
     const auto calm = [&](Row row) {
         say("calm stiffness of a held block");
-        return highest_calm([&](double k) { return calm_grasp(measure_hold(with(base, k, Fingering::offset, row))); });
+        return highest_calm([&](double k) {
+            return calm_grasp(measure_hold(with(base, k, Fingering::offset, row)));
+        });
     };
     const auto wall = [&](Row row) {
         say("calm stiffness of a wall");
-        return highest_calm([&](double k) { return calm_wall(with(base, k, Fingering::ideal, row)); });
+        return highest_calm(
+            [&](double k) { return calm_wall(with(base, k, Fingering::ideal, row)); });
     };
     out.calm_k = calm(Row::ideal);
     out.calm_k_delay = calm(Row::delay);
@@ -218,21 +235,29 @@ GraspFigures bench_grasp(const Setup& base, const Progress& progress) {
     return out;
 }
 
-std::string to_json(const GraspFigures& figures, const Setup& setup) {
+std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
     nlohmann::ordered_json out;
     out["coupling"] = enum_name(setup.settings.coupling.kind);
     out["solver"] = enum_name(setup.settings.dynamics.solver);
     out["proxy"] = "rigid";
     out["damping"] = fmt::format("{:g} s * K", figures.damping_per_k);
     for (const HoldFigures& h : figures.hold) {
-        out["hold"].push_back({{"k", h.k}, {"fingering", enum_name(h.fingering)}, {"held", h.held},
-                               {"lift_slip_mm", h.lift_slip_mm}, {"slip_mm", h.slip_mm}, {"z_rms_um", h.z_rms_um},
-                               {"z_pp_um", h.z_pp_um}, {"tilt_rms_deg", h.tilt_rms_deg}, {"turn_deg", h.turn_deg},
-                               {"hf_force_n", h.hf_force_n}, {"weight_ratio", h.weight_ratio},
+        out["hold"].push_back({{"k", h.k},
+                               {"fingering", enum_name(h.fingering)},
+                               {"held", h.held},
+                               {"lift_slip_mm", h.lift_slip_mm},
+                               {"slip_mm", h.slip_mm},
+                               {"z_rms_um", h.z_rms_um},
+                               {"z_pp_um", h.z_pp_um},
+                               {"tilt_rms_deg", h.tilt_rms_deg},
+                               {"turn_deg", h.turn_deg},
+                               {"hf_force_n", h.hf_force_n},
+                               {"weight_ratio", h.weight_ratio},
                                {"grip_ratio", h.grip_ratio}});
     }
     for (const SlowFigures& s : figures.slow_dynamics) {
-        out["slow_dynamics"].push_back({{"k", s.k}, {"held", s.held}, {"slip_mm", s.slip_mm}, {"hf_force_n", s.hf_force_n}});
+        out["slow_dynamics"].push_back(
+            {{"k", s.k}, {"held", s.held}, {"slip_mm", s.slip_mm}, {"hf_force_n", s.hf_force_n}});
     }
     out["calm_k"] = figures.calm_k;
     out["calm_k_delay"] = figures.calm_k_delay;
@@ -244,39 +269,72 @@ std::string to_json(const GraspFigures& figures, const Setup& setup) {
     out["torque_turn_after_deg"] = figures.torque_turn_after_deg;
     out["torsion_limit_ratio"] = nullptr;  // rigid pads have no soft-finger torsion
     for (const KickFigures& kick : figures.kick) {
-        out["kick"].push_back({{"k", kick.k}, {"speed_m_s", kick.speed}, {"kick_ratio", kick.kick_ratio},
-                               {"touch_step_n", kick.touch_step_n}, {"leave_pull_n", kick.leave_pull_n}});
+        out["kick"].push_back({{"k", kick.k},
+                               {"speed_m_s", kick.speed},
+                               {"kick_ratio", kick.kick_ratio},
+                               {"touch_step_n", kick.touch_step_n},
+                               {"leave_pull_n", kick.leave_pull_n}});
     }
     out["drag_n"] = figures.drag_n;
     return out.dump(2) + "\n";
 }
 
-std::string to_table(const GraspFigures& figures, const Setup& setup) {
-    std::string out = fmt::format("coupling {}, solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n\n",
-                                  enum_name(setup.settings.coupling.kind), enum_name(setup.settings.dynamics.solver),
-                                  figures.damping_per_k, setup.mass * 1e3, setup.friction, setup.settings.rate);
-    out += "     K  fingering   held  lift slip    slip   z RMS    z p-p  tilt RMS    turn   >5 Hz  weight    grip\n"
-           "   N/m                          mm      mm      um       um       deg     deg       N   ratio   ratio\n";
-    for (const HoldFigures& h : figures.hold) {
-        out += fmt::format("{:6.0f}  {:10s}  {:4s}  {:9.5f} {:7.5f} {:7.3f} {:8.3f}  {:8.5f} {:7.4f} {:7.4f} {:7.4f} {:7.4f}\n",
-                           h.k, enum_name(h.fingering), h.held ? "yes" : "NO", h.lift_slip_mm, h.slip_mm, h.z_rms_um,
-                           h.z_pp_um, h.tilt_rms_deg, h.turn_deg, h.hf_force_n, h.weight_ratio, h.grip_ratio);
+std::string to_table(const std::vector<GraspResult>& results) {
+    const auto coupling = [](const GraspResult& result) {
+        return enum_name(result.setup.settings.coupling.kind);
+    };
+    const BenchSetup& setup = results.front().setup;
+    std::string out = fmt::format(
+        "solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n\n",
+        enum_name(setup.settings.dynamics.solver), results.front().figures.damping_per_k,
+        setup.mass * 1e3, setup.friction, setup.settings.rate);
+    out +=
+        "coupling          K  fingering   held  lift slip      slip     z RMS     z p-p  tilt RMS  "
+        "   turn   >5 Hz  weight    grip\n"
+        "                N/m                          mm        mm        um        um       deg   "
+        "   deg       N   ratio   ratio\n";
+    for (const GraspResult& result : results) {
+        for (const HoldFigures& h : result.figures.hold) {
+            out += fmt::format(
+                "{:12s} {:6.0f}  {:10s}  {:4s}  {:9.5f} {:9.5f} {:9.3f} {:9.3f}  {:8.5f} {:8.4f} "
+                "{:7.4f} {:7.4f} {:7.4f}\n",
+                coupling(result), h.k, enum_name(h.fingering), h.held ? "yes" : "NO",
+                h.lift_slip_mm, h.slip_mm, h.z_rms_um, h.z_pp_um, h.tilt_rms_deg, h.turn_deg,
+                h.hf_force_n, h.weight_ratio, h.grip_ratio);
+        }
     }
-    out += "\ndynamics every 10 ticks\n     K  held     slip mm   >5 Hz N\n";
-    for (const SlowFigures& s : figures.slow_dynamics) {
-        out += fmt::format("{:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", s.k, s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
+    out += "\ndynamics every 10 ticks\ncoupling          K  held    slip mm   >5 Hz N\n";
+    for (const GraspResult& result : results) {
+        for (const SlowFigures& s : result.figures.slow_dynamics) {
+            out += fmt::format("{:12s} {:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", coupling(result), s.k,
+                               s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
+        }
     }
-    out += fmt::format("\nhighest calm K [N/m]     ideal   delay  premium\n  held block           {:7.0f} {:7.0f}  {:7.0f}\n"
-                       "  fixed wall           {:7.0f} {:7.0f}  {:7.0f}\n",
-                       figures.calm_k, figures.calm_k_delay, figures.calm_k_premium, figures.wall_k,
-                       figures.wall_k_delay, figures.wall_k_premium);
-    out += "\ntouching and leaving a wall\n     K   speed  kick ratio  touch step  leave pull\n   N/m     m/s                       N           N\n";
-    for (const KickFigures& kick : figures.kick) {
-        out += fmt::format("{:6.0f} {:7.1f} {:11.4f} {:11.5f} {:11.5f}\n", kick.k, kick.speed, kick.kick_ratio,
-                           kick.touch_step_n, kick.leave_pull_n);
+    out +=
+        "\nhighest calm K, N/m    held block                  fixed wall\n"
+        "coupling          ideal   delay  premium     ideal   delay  premium\n";
+    for (const GraspResult& result : results) {
+        const GraspFigures& f = result.figures;
+        out += fmt::format("{:12s}    {:7.0f} {:7.0f}  {:7.0f}   {:7.0f} {:7.0f}  {:7.0f}\n",
+                           coupling(result), f.calm_k, f.calm_k_delay, f.calm_k_premium, f.wall_k,
+                           f.wall_k_delay, f.wall_k_premium);
     }
-    out += fmt::format("\ndrag in free motion {:.5f} N\nturn by 0.02 N*m for 0.2 s: {:.5f} deg, 1 s later {:.5f} deg\n",
-                       figures.drag_n, figures.torque_turn_deg, figures.torque_turn_after_deg);
+    out +=
+        "\ntouching and leaving a wall\ncoupling          K   speed  kick ratio  touch step N  "
+        "leave pull N\n";
+    for (const GraspResult& result : results) {
+        for (const KickFigures& kick : result.figures.kick) {
+            out += fmt::format("{:12s} {:6.0f} {:7.1f} {:11.4f} {:13.5f} {:13.5f}\n",
+                               coupling(result), kick.k, kick.speed, kick.kick_ratio,
+                               kick.touch_step_n, kick.leave_pull_n);
+        }
+    }
+    out += "\ncoupling     drag in free motion N   turn by 0.02 N*m for 0.2 s, deg   1 s later\n";
+    for (const GraspResult& result : results) {
+        const GraspFigures& f = result.figures;
+        out += fmt::format("{:12s} {:21.5f}   {:31.5f}   {:9.5f}\n", coupling(result), f.drag_n,
+                           f.torque_turn_deg, f.torque_turn_after_deg);
+    }
     return out;
 }
 

@@ -53,25 +53,30 @@ struct GraspFigures {
 };
 
 /// One lift and hold, with setup.settings.coupling.stiffness.
-HoldFigures measure_hold(const Setup& setup);
+HoldFigures measure_hold(const BenchSetup& setup);
 bool calm_grasp(const HoldFigures& hold);
 /// One finger pressed 15 mm into a fixed wall: whether it is calm.
-bool calm_wall(const Setup& setup);
+bool calm_wall(const BenchSetup& setup);
 /// Touching a wall at a speed, and leaving it.
-KickFigures measure_kick(Setup setup, double speed);
+KickFigures measure_kick(BenchSetup setup, double speed);
 /// Peak handle force on a free minimum-jerk path of 20 cm with a peak of 0.5 m/s [N].
-double measure_drag(const Setup& setup);
+double measure_drag(const BenchSetup& setup);
 /// Turn by a torque of 0.02 N*m for 0.2 s in the hold: at its end, and 1 s later [deg].
-std::pair<double, double> measure_torque(const Setup& setup);
+std::pair<double, double> measure_torque(const BenchSetup& setup);
 
 /// Highest K of the list up to which every K is calm; 0 when none is.
 double highest_calm(const std::function<bool(double k)>& calm);
 
 using Progress = std::function<void(const std::string& what, double share)>;
 /// All figures. `setup` gives solver, coupling, mass, friction and rate.
-GraspFigures bench_grasp(const Setup& setup, const Progress& progress);
+GraspFigures bench_grasp(const BenchSetup& setup, const Progress& progress);
 
-std::string to_json(const GraspFigures& figures, const Setup& setup);
-std::string to_table(const GraspFigures& figures, const Setup& setup);
+std::string to_json(const GraspFigures& figures, const BenchSetup& setup);
+/// One table, with the couplings that were measured beside each other.
+struct GraspResult {
+    BenchSetup setup;
+    GraspFigures figures;
+};
+std::string to_table(const std::vector<GraspResult>& results);
 
 }  // namespace dihaptic::measure

@@ -27,14 +27,15 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
         const double pitch = 0.05;
         const int column = i % 32;
         const int row = i / 32;
-        scene::Body block = body("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
-                                 {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
+        scene::Body block =
+            body("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
+                 {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
         block.mass = 0.1;
         scene.bodies.push_back(block);
     }
 }
 
-Node device_options(const Setup& setup) {
+Node device_options(const BenchSetup& setup) {
     Node options = Node::mapping();
     if (setup.row == Row::delay) options.set("delay_ticks", Node::of("1"));
     if (setup.row == Row::premium) {
@@ -46,11 +47,12 @@ Node device_options(const Setup& setup) {
 
 }  // namespace
 
-scene::Scene grasp_scene(const Setup& setup) {
+scene::Scene grasp_scene(const BenchSetup& setup) {
     scene::Scene scene;
     scene::Body table = body("table", {2.0, 4.0, 0.1}, {0, 1.5, -0.05}, setup.friction);
     table.fixed = true;
-    scene::Body block = body("block", Vec3::Constant(kBlockSize), {0, 0, kBlockSize / 2}, setup.friction);
+    scene::Body block =
+        body("block", Vec3::Constant(kBlockSize), {0, 0, kBlockSize / 2}, setup.friction);
     block.mass = setup.mass;
     scene.bodies = {table, block};
     scene.object = "block";
@@ -59,7 +61,7 @@ scene::Scene grasp_scene(const Setup& setup) {
     return scene;
 }
 
-hand::HandSpec grasp_hand(const Setup& setup) {
+hand::HandSpec grasp_hand(const BenchSetup& setup) {
     hand::HandSpec hand;
     const double contact = kBlockSize + kPadThickness;
     hand.centre = {0, 0, kBlockSize / 2};
@@ -73,7 +75,8 @@ hand::HandSpec grasp_hand(const Setup& setup) {
     hand::FingerPlace thumb{"thumb", {-1, 0, 0}, Vec3::Zero()};
     hand::FingerPlace index{"index", {1, 0, 0}, Vec3::Zero()};
     switch (setup.fingering) {
-        case Fingering::ideal: break;
+        case Fingering::ideal:
+            break;
         case Fingering::real:
             hand.tremor = {0.1e-3, 8, 9};
             [[fallthrough]];
@@ -89,7 +92,7 @@ hand::HandSpec grasp_hand(const Setup& setup) {
     return hand;
 }
 
-scene::Scene wall_scene(const Setup& setup) {
+scene::Scene wall_scene(const BenchSetup& setup) {
     scene::Scene scene;
     scene::Body wall = body("wall", {0.2, 0.5, 0.5}, {0.1, 0, 0}, setup.friction);
     wall.fixed = true;
@@ -98,14 +101,15 @@ scene::Scene wall_scene(const Setup& setup) {
     return scene;
 }
 
-hand::HandSpec wall_hand(const Setup&) {
+hand::HandSpec wall_hand(const BenchSetup&) {
     hand::HandSpec hand;
     hand.centre = {-kPadThickness / 2 - kStartGap, 0, 0};
-    hand.script = {{"close", 1, {}, {kStartGap + kSqueeze, 0, 0}, false}, {"hold", 5, {}, Vec3::Zero(), false}};
+    hand.script = {{"close", 1, {}, {kStartGap + kSqueeze, 0, 0}, false},
+                   {"hold", 5, {}, Vec3::Zero(), false}};
     return hand;
 }
 
-Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const Setup& setup) {
+Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const BenchSetup& setup) {
     const std::vector<std::string> fingers = scene::finger_names(scene);
     driver_ = std::make_unique<hand::ScriptDriver>(hand, fingers);
     rig::Rig rig = rig::simulated_rig(fingers);
@@ -116,20 +120,24 @@ Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const Setup&
     context.impedance = hand.impedance;
     context.tremor = hand.tremor;
     context.seed = 1;
-    servo_ = std::make_unique<servo::Servo>(scene, setup.settings, rig::make_devices(rig, fingers, context),
-                                            rig::poses(rig, fingers));
+    servo_ = std::make_unique<servo::Servo>(
+        scene, setup.settings, rig::make_devices(rig, fingers, context), rig::poses(rig, fingers));
     servo_->activate();
 }
 
-void Bench::run(const servo::FrameSink& sink, const servo::Director& extra, servo::TickTimes* times) {
+void Bench::run(const servo::FrameSink& sink, const servo::Director& extra,
+                servo::TickTimes* times) {
     const auto& phases = driver_->phases();
     int32_t phase = 0;
     double now = 0;
     const double tick = servo_->settings().tick();
-    const servo::Director director = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+    const servo::Director director = [&](const servo::Frame& last,
+                                         std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
         now = static_cast<double>(last.sequence + 1) * tick;
-        while (phase + 1 < static_cast<int32_t>(phases.size()) && now >= phases[static_cast<size_t>(phase)].end - tick / 2) ++phase;
+        while (phase + 1 < static_cast<int32_t>(phases.size()) &&
+               now >= phases[static_cast<size_t>(phase)].end - tick / 2)
+            ++phase;
         commands.phase = phase;
         if (extra) extra(last, handles, commands);
     };

@@ -1,5 +1,6 @@
 // The plant that every figure is measured on: two simulated fingers of 75 g, pulled by 300 N/m and
-// 3 N*s/m, and a block of 4 cm and 100 g on a table. One definition for all benches and their tests.
+// 3 N*s/m, and a block of 4 cm and 100 g on a table. One definition for all benches and their
+// tests.
 #pragma once
 
 #include <memory>
@@ -12,25 +13,28 @@ namespace dihaptic::measure {
 
 /// How the fingers hold the block.
 enum class Fingering {
-    ideal,       ///< centred
-    real,        ///< 2 mm off, opposite ways, along the face in both directions; tremor of 0.1 mm at 8-9 Hz
+    ideal,  ///< centred
+    real,   ///< 2 mm off, opposite ways, along the face in both directions; tremor of 0.1 mm at 8-9
+            ///< Hz
     off_centre,  ///< both 5 mm above the block's centre
     offset,      ///< as real, without tremor
 };
-constexpr auto enum_names(Fingering) { return std::array{"ideal", "real", "off-centre", "offset"}; }
+constexpr auto enum_names(Fingering) {
+    return std::array{"ideal", "real", "off-centre", "offset"};
+}
 
 /// What a device does to the ideal plant.
 enum class Row { ideal, delay, premium };
 
 /// A bench's knobs: those that `dihaptic bench` offers, and those that its rows vary.
-struct Setup {
+struct BenchSetup {
     servo::Settings settings;
-    double mass = 0.1;      ///< of the block [kg]
+    double mass = 0.1;  ///< of the block [kg]
     double friction = 0.8;
     Fingering fingering = Fingering::ideal;
     Row row = Row::ideal;
-    double hold_time = 5;   ///< [s]
-    int extra_blocks = 0;   ///< on the table, behind the work
+    double hold_time = 5;  ///< [s]
+    int extra_blocks = 0;  ///< on the table, behind the work
 };
 
 constexpr double kBlockSize = 0.04;      // [m]
@@ -40,24 +44,25 @@ constexpr double kStartGap = 0.03;       // fingers start so far off the faces [
 constexpr double kLift = 0.1;            // [m]
 constexpr double kHandStiffness = 300;   // [N/m]
 
-scene::Scene grasp_scene(const Setup& setup);
+scene::Scene grasp_scene(const BenchSetup& setup);
 /// Close 1 s, wait 1 s, rise 1 s, hold 5 s, open 1 s.
-hand::HandSpec grasp_hand(const Setup& setup);
+hand::HandSpec grasp_hand(const BenchSetup& setup);
 enum GraspPhase { kClose, kWait, kRise, kHold, kOpen };
 
 /// One finger and a fixed wall at x = 0, its face looking toward -x.
-scene::Scene wall_scene(const Setup& setup);
-hand::HandSpec wall_hand(const Setup& setup);
+scene::Scene wall_scene(const BenchSetup& setup);
+hand::HandSpec wall_hand(const BenchSetup& setup);
 
 /// A servo on simulated devices in the scripted hand.
 class Bench {
   public:
-    Bench(const scene::Scene& scene, const hand::HandSpec& hand, const Setup& setup);
+    Bench(const scene::Scene& scene, const hand::HandSpec& hand, const BenchSetup& setup);
 
     servo::Servo& servo() { return *servo_; }
     const hand::Driver& driver() const { return *driver_; }
     /// Runs the whole script; `extra` may add loads to each tick, `sink` sees each frame.
-    void run(const servo::FrameSink& sink, const servo::Director& extra = {}, servo::TickTimes* times = nullptr);
+    void run(const servo::FrameSink& sink, const servo::Director& extra = {},
+             servo::TickTimes* times = nullptr);
 
   private:
     std::unique_ptr<hand::ScriptDriver> driver_;

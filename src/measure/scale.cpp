@@ -19,8 +19,10 @@ using HandleTrace = std::vector<std::vector<haptics::Handle>>;
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "dihaptic-bench-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw Error("no temporary folder can be made", "Free some space in /tmp.");
+        std::string name =
+            (std::filesystem::temp_directory_path() / "dihaptic-bench-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Error("no temporary folder can be made", "Free some space in /tmp.");
         path_ = name;
     }
     ~TemporaryFolder() {
@@ -33,7 +35,7 @@ class TemporaryFolder {
     std::string path_;
 };
 
-Cost measure_ticks(const Setup& setup, HandleTrace* trace) {
+Cost measure_ticks(const BenchSetup& setup, HandleTrace* trace) {
     const scene::Scene scene = grasp_scene(setup);
     Bench bench(scene, grasp_hand(setup), setup);
     recording::LogHead head;
@@ -49,14 +51,15 @@ Cost measure_ticks(const Setup& setup, HandleTrace* trace) {
             recorder.record(frame);
             if (trace == nullptr) return;
             auto& handles = trace->emplace_back();
-            for (const servo::FingerFrame& finger : frame.fingers) handles.push_back({finger.p_WH, finger.v_WH});
+            for (const servo::FingerFrame& finger : frame.fingers)
+                handles.push_back({finger.p_WH, finger.v_WH});
         },
         {}, &times);
     return {times.quantile(0.5), times.quantile(0.99), times.quantile(1)};
 }
 
 /// Median step of a plain Bullet world with the same bodies, settings and finger movements.
-double measure_bullet(const Setup& setup, const HandleTrace& trace) {
+double measure_bullet(const BenchSetup& setup, const HandleTrace& trace) {
     const scene::Scene scene = grasp_scene(setup);
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher(&configuration);
@@ -74,7 +77,8 @@ double measure_bullet(const Setup& setup, const HandleTrace& trace) {
 
     std::vector<std::unique_ptr<btBoxShape>> shapes;
     std::vector<std::unique_ptr<btRigidBody>> bodies;
-    const auto add = [&](const Vec3& size, const Vec3& position, double mass, double friction) -> btRigidBody& {
+    const auto add = [&](const Vec3& size, const Vec3& position, double mass,
+                         double friction) -> btRigidBody& {
         shapes.push_back(std::make_unique<btBoxShape>(vector(size / 2)));
         btVector3 inertia(0, 0, 0);
         if (mass > 0) shapes.back()->calculateLocalInertia(mass, inertia);
@@ -86,14 +90,16 @@ double measure_bullet(const Setup& setup, const HandleTrace& trace) {
         world.addRigidBody(bodies.back().get());
         return *bodies.back();
     };
-    for (const scene::Body& body : scene.bodies) add(body.shape.size, body.position, body.fixed ? 0 : scene::mass(body), body.friction);
+    for (const scene::Body& body : scene.bodies)
+        add(body.shape.size, body.position, body.fixed ? 0 : scene::mass(body), body.friction);
     std::vector<btRigidBody*> proxies;
     const double h = setup.settings.step();
     const double k = setup.settings.coupling.stiffness;
     const double c = haptics::damping(setup.settings.coupling, h);
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
         const scene::Finger& finger = scene.fingers[i];
-        btRigidBody& proxy = add(finger.shape.size, trace.front()[i].p_WH, finger.mass, finger.friction);
+        btRigidBody& proxy =
+            add(finger.shape.size, trace.front()[i].p_WH, finger.mass, finger.friction);
         proxy.setGravity({0, 0, 0});
         proxy.setAngularFactor(0);
         proxy.setMassProps(finger.mass + h * c + h * h * k, {0, 0, 0});
@@ -104,9 +110,11 @@ double measure_bullet(const Setup& setup, const HandleTrace& trace) {
     for (const auto& handles : trace) {
         for (size_t i = 0; i < proxies.size(); ++i) {
             btRigidBody& proxy = *proxies[i];
-            const btVector3 stretch = vector(handles[i].p_WH) - proxy.getWorldTransform().getOrigin();
-            proxy.setLinearVelocity((proxy.getLinearVelocity() * scene.fingers[i].mass + stretch * h * k +
-                                     vector(handles[i].v_WH) * h * c) * proxy.getInvMass());
+            const btVector3 stretch =
+                vector(handles[i].p_WH) - proxy.getWorldTransform().getOrigin();
+            proxy.setLinearVelocity((proxy.getLinearVelocity() * scene.fingers[i].mass +
+                                     stretch * h * k + vector(handles[i].v_WH) * h * c) *
+                                    proxy.getInvMass());
         }
         const auto begin = std::chrono::steady_clock::now();
         world.stepSimulation(h, 0, h);
@@ -118,7 +126,8 @@ double measure_bullet(const Setup& setup, const HandleTrace& trace) {
 
 }  // namespace
 
-std::vector<ScaleFigures> bench_scale(const Setup& base, const std::vector<int>& extras, const Progress& progress) {
+std::vector<ScaleFigures> bench_scale(const BenchSetup& base, const std::vector<int>& extras,
+                                      const Progress& progress) {
     std::vector<ScaleFigures> out;
     double done = 0;
     const auto say = [&](const std::string& what) {
@@ -127,7 +136,7 @@ std::vector<ScaleFigures> bench_scale(const Setup& base, const std::vector<int>&
     for (const int extra : extras) {
         ScaleFigures figures;
         figures.extra = extra;
-        Setup setup = base;
+        BenchSetup setup = base;
         setup.extra_blocks = extra;
         HandleTrace trace;
         say(fmt::format("{} extra blocks, awake", extra));
@@ -145,22 +154,28 @@ std::vector<ScaleFigures> bench_scale(const Setup& base, const std::vector<int>&
 
 std::string to_json(const std::vector<ScaleFigures>& figures) {
     const auto cost = [](const Cost& c) {
-        return nlohmann::ordered_json{{"median_us", c.median_us}, {"p99_us", c.p99_us}, {"max_us", c.max_us}};
+        return nlohmann::ordered_json{
+            {"median_us", c.median_us}, {"p99_us", c.p99_us}, {"max_us", c.max_us}};
     };
     nlohmann::ordered_json out;
     for (const ScaleFigures& f : figures) {
-        out["tick"].push_back({{"extra", f.extra}, {"awake", cost(f.awake)}, {"asleep", cost(f.asleep)}, {"bullet_us", f.bullet_us}});
+        out["tick"].push_back({{"extra", f.extra},
+                               {"awake", cost(f.awake)},
+                               {"asleep", cost(f.asleep)},
+                               {"bullet_us", f.bullet_us}});
     }
     return out.dump(2) + "\n";
 }
 
 std::string to_table(const std::vector<ScaleFigures>& figures) {
-    std::string out = "extra        awake, us               asleep, us          bare Bullet\n"
-                      "blocks  median    p99     max   median    p99     max   median, us   awake/bare\n";
+    std::string out =
+        "extra        awake, us               asleep, us          bare Bullet\n"
+        "blocks  median    p99     max   median    p99     max   median, us   awake/bare\n";
     for (const ScaleFigures& f : figures) {
-        out += fmt::format("{:6d} {:7.1f} {:7.1f} {:7.0f}  {:7.1f} {:7.1f} {:7.0f} {:11.1f} {:12.2f}\n", f.extra, f.awake.median_us,
-                           f.awake.p99_us, f.awake.max_us, f.asleep.median_us, f.asleep.p99_us, f.asleep.max_us,
-                           f.bullet_us, f.awake.median_us / f.bullet_us);
+        out += fmt::format(
+            "{:6d} {:7.1f} {:7.1f} {:7.0f}  {:7.1f} {:7.1f} {:7.0f} {:11.1f} {:12.2f}\n", f.extra,
+            f.awake.median_us, f.awake.p99_us, f.awake.max_us, f.asleep.median_us, f.asleep.p99_us,
+            f.asleep.max_us, f.bullet_us, f.awake.median_us / f.bullet_us);
     }
     return out;
 }

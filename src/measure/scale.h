@@ -22,7 +22,8 @@ struct ScaleFigures {
 };
 
 /// The whole tick, recording included, over the script of `bench grasp`.
-std::vector<ScaleFigures> bench_scale(const Setup& setup, const std::vector<int>& extras, const Progress& progress);
+std::vector<ScaleFigures> bench_scale(const BenchSetup& setup, const std::vector<int>& extras,
+                                      const Progress& progress);
 
 std::string to_json(const std::vector<ScaleFigures>& figures);
 std::string to_table(const std::vector<ScaleFigures>& figures);

@@ -10,7 +10,8 @@ namespace {
 struct Biquad {
     double b0, b1, b2, a1, a2;
 
-    /// One pass, from the state of rest at the first sample's value (`gain` is the filter's at 0 Hz).
+    /// One pass, from the state of rest at the first sample's value (`gain` is the filter's at 0
+    /// Hz).
     void run(std::vector<double>& x, double gain) const {
         double x1 = x.front(), x2 = x.front();
         double y1 = gain * x.front(), y2 = y1;
@@ -27,22 +28,27 @@ struct Biquad {
 
 /// Extends a signal at both ends by its point reflection, so that the filter has settled where the
 /// signal begins; then both passes.
-std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain, size_t pad) {
+std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain,
+                              size_t pad) {
     if (signal.size() < 2) return signal;
     pad = std::min(pad, signal.size() - 1);
     std::vector<double> x;
     x.reserve(signal.size() + 2 * pad);
     for (size_t i = pad; i > 0; --i) x.push_back(2 * signal.front() - signal[i]);
     x.insert(x.end(), signal.begin(), signal.end());
-    for (size_t i = 1; i <= pad; ++i) x.push_back(2 * signal.back() - signal[signal.size() - 1 - i]);
+    for (size_t i = 1; i <= pad; ++i)
+        x.push_back(2 * signal.back() - signal[signal.size() - 1 - i]);
     filter.run(x, gain);
     std::reverse(x.begin(), x.end());
     filter.run(x, gain);
     std::reverse(x.begin(), x.end());
-    return {x.begin() + static_cast<std::ptrdiff_t>(pad), x.end() - static_cast<std::ptrdiff_t>(pad)};
+    return {x.begin() + static_cast<std::ptrdiff_t>(pad),
+            x.end() - static_cast<std::ptrdiff_t>(pad)};
 }
 
-size_t settling(double cutoff, double rate) { return static_cast<size_t>(std::ceil(2 * rate / cutoff)); }
+size_t settling(double cutoff, double rate) {
+    return static_cast<size_t>(std::ceil(2 * rate / cutoff));
+}
 
 }  // namespace
 
@@ -50,16 +56,18 @@ std::vector<double> low_pass(const std::vector<double>& signal, double cutoff, d
     const double k = std::tan(std::numbers::pi * cutoff / rate);
     const double norm = 1 / (1 + std::numbers::sqrt2 * k + k * k);
     const double b = k * k * norm;
-    return both_ways(signal, {b, 2 * b, b, 2 * (k * k - 1) * norm, (1 - std::numbers::sqrt2 * k + k * k) * norm}, 1,
-                     settling(cutoff, rate));
+    return both_ways(
+        signal, {b, 2 * b, b, 2 * (k * k - 1) * norm, (1 - std::numbers::sqrt2 * k + k * k) * norm},
+        1, settling(cutoff, rate));
 }
 
 std::vector<double> high_pass(const std::vector<double>& signal, double cutoff, double rate) {
     const double k = std::tan(std::numbers::pi * cutoff / rate);
     const double norm = 1 / (1 + std::numbers::sqrt2 * k + k * k);
     return both_ways(signal,
-                     {norm, -2 * norm, norm, 2 * (k * k - 1) * norm, (1 - std::numbers::sqrt2 * k + k * k) * norm}, 0,
-                     settling(cutoff, rate));
+                     {norm, -2 * norm, norm, 2 * (k * k - 1) * norm,
+                      (1 - std::numbers::sqrt2 * k + k * k) * norm},
+                     0, settling(cutoff, rate));
 }
 
 }  // namespace dihaptic::model

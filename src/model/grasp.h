@@ -3,15 +3,23 @@
 
 namespace dihaptic::model {
 
-/// Force of two springs in series stretched together by `x` [m]: the hand's k_hand and the coupling's
-/// k [N/m]. A finger whose target lies x beyond a surface presses it with this force [N].
-constexpr double series_spring_force(double x, double k_hand, double k) { return x * k_hand * k / (k_hand + k); }
+/// Force of two springs in series stretched together by `x` [m]: the hand's k_hand and the
+/// coupling's k [N/m]. A finger whose target lies x beyond a surface presses it with this force
+/// [N].
+constexpr double series_spring_force(double x, double k_hand, double k) {
+    return x * k_hand * k / (k_hand + k);
+}
 
 /// Smallest grip force that holds a load with two digits: load / (2 mu) [N].
-constexpr double minimum_grip(double load, double friction) { return load / (2 * friction); }
+constexpr double minimum_grip(double load, double friction) {
+    return load / (2 * friction);
+}
 
 /// Highest stiffness that a spring sampled every h and held for h renders against a handle with
-/// damping b without giving out energy: 2 b / h (Colgate and Schenkel 1997, no virtual damping) [N/m].
-constexpr double passive_stiffness(double b, double h) { return 2 * b / h; }
+/// damping b without giving out energy: 2 b / h (Colgate and Schenkel 1997, no virtual damping)
+/// [N/m].
+constexpr double passive_stiffness(double b, double h) {
+    return 2 * b / h;
+}
 
 }  // namespace dihaptic::model

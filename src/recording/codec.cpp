@@ -13,7 +13,8 @@ static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
 
 /// What a field takes in the log.
 template <class T>
-constexpr bool kIsField = std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quat>;
+constexpr bool kIsField =
+    std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quat>;
 
 class Writer {
   public:
@@ -143,7 +144,8 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.bodies.resize(layout.bodies);
     for (size_t i = 0; i < layout.bodies; ++i) frame.changed.push_back(static_cast<uint16_t>(i));
     frame.contacts.resize(contacts);
-    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.bodies + 256 * contacts);
+    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.bodies +
+                                 256 * contacts);
     return encode(frame, bytes);
 }
 

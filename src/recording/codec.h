@@ -1,5 +1,5 @@
-// Frames as bytes, field by field in the order of Frame::visit(), little-endian. Bodies are written when
-// they changed: decoding onto the frame before fills in those that did not.
+// Frames as bytes, field by field in the order of Frame::visit(), little-endian. Bodies are written
+// when they changed: decoding onto the frame before fills in those that did not.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ struct Layout {
 /// Bytes of the largest frame with so many contacts.
 size_t most_bytes(const Layout& layout, size_t contacts);
 
-/// Writes the frame into `out` and returns how many bytes it took, or 0 when it does not fit. Allocates
-/// nothing.
+/// Writes the frame into `out` and returns how many bytes it took, or 0 when it does not fit.
+/// Allocates nothing.
 size_t encode(const servo::Frame& frame, std::span<std::byte> out) noexcept;
 
 /// Reads a frame onto the one before it; false when the bytes are no frame of this layout.

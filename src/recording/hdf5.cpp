@@ -10,7 +10,8 @@ constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much tim
 
 void check(herr_t status) {
     if (status < 0) {
-        throw Error("session.nwb cannot be written", "Free some space, then run 'dihaptic recover' on the session's folder.");
+        throw Error("session.nwb cannot be written",
+                    "Free some space, then run 'dihaptic recover' on the session's folder.");
     }
 }
 
@@ -27,7 +28,9 @@ std::vector<const char*> pointers(const std::vector<std::string>& values) {
     return out;
 }
 
-Id scalar() { return Id(H5Screate(H5S_SCALAR)); }
+Id scalar() {
+    return Id(H5Screate(H5S_SCALAR));
+}
 
 Id list(size_t size) {
     const hsize_t extent = size;
@@ -47,7 +50,9 @@ Id dataset(hid_t parent, const std::string& name, hid_t type, hid_t space, const
 
 }  // namespace
 
-Id::Id(hid_t id) : id_(id) { check(id < 0 ? -1 : 0); }
+Id::Id(hid_t id) : id_(id) {
+    check(id < 0 ? -1 : 0);
+}
 
 Id::~Id() {
     if (id_ >= 0) H5Idec_ref(id_);
@@ -72,7 +77,8 @@ void write_attribute(hid_t object, const std::string& name, const std::string& v
     attribute(object, name, string_type(), scalar(), &text);
 }
 
-void write_attribute(hid_t object, const std::string& name, const std::vector<std::string>& values) {
+void write_attribute(hid_t object, const std::string& name,
+                     const std::vector<std::string>& values) {
     attribute(object, name, string_type(), list(values.size()), pointers(values).data());
 }
 
@@ -119,7 +125,8 @@ Rows::Rows(hid_t parent, const std::string& name, size_t columns) : columns_(col
     check(H5Pset_chunk(create, rank, chunk));
     check(H5Pset_shuffle(create));
     check(H5Pset_deflate(create, kDeflate));
-    dataset_ = Id(H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, create, H5P_DEFAULT));
+    dataset_ = Id(H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, create,
+                             H5P_DEFAULT));
     buffer_.reserve(kChunkRows * columns);
 }
 
@@ -139,7 +146,8 @@ void Rows::flush() {
     const Id file_space(H5Dget_space(dataset_));
     check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
     const Id memory_space(H5Screate_simple(rank, count, nullptr));
-    check(H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, memory_space, file_space, H5P_DEFAULT, buffer_.data()));
+    check(H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, memory_space, file_space, H5P_DEFAULT,
+                   buffer_.data()));
     written_ += rows;
     buffer_.clear();
 }

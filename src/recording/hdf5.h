@@ -16,7 +16,9 @@ class Id {
     ~Id();
     Id(Id&& other) noexcept : id_(other.id_) { other.id_ = -1; }
     Id& operator=(Id&& other) noexcept;
-    operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): it stands for the id
+    operator hid_t() const {
+        return id_;
+    }  // NOLINT(google-explicit-constructor): it stands for the id
 
   private:
     hid_t id_ = -1;

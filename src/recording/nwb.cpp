@@ -25,8 +25,8 @@ std::string new_uuid() {
     static std::mt19937_64 engine{std::random_device{}()};
     const uint64_t a = (engine() & ~0xF000ULL) | 0x4000ULL;
     const uint64_t b = (engine() & ~(3ULL << 62)) | (2ULL << 62);
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", a >> 32, (a >> 16) & 0xFFFF, a & 0xFFFF, b >> 48,
-                       b & 0xFFFFFFFFFFFFULL);
+    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", a >> 32, (a >> 16) & 0xFFFF,
+                       a & 0xFFFF, b >> 48, b & 0xFFFFFFFFFFFFULL);
 }
 
 void mark(hid_t object, const std::string& type, const std::string& space = "core") {
@@ -38,7 +38,9 @@ void mark(hid_t object, const std::string& type, const std::string& space = "cor
 /// NWB's words for SI units; the same as here for the rest.
 std::string nwb_unit(const std::string& unit) {
     static const std::map<std::string, std::string> kWords{
-        {"m", "meters"}, {"m/s", "meters/second"}, {"N", "newtons"}, {"rad/s", "radians/second"}, {"s", "seconds"}, {"1", "n/a"}};
+        {"m", "meters"},  {"m/s", "meters/second"},
+        {"N", "newtons"}, {"rad/s", "radians/second"},
+        {"s", "seconds"}, {"1", "n/a"}};
     const auto found = kWords.find(unit);
     return found == kWords.end() ? unit : found->second;
 }
@@ -80,15 +82,18 @@ class Series {
     hdf5::Rows rows_;
 };
 
-/// Turns frames into series, one for each field that Frame::visit() names. The first frame creates them.
+/// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
+/// them.
 class FrameExporter {
   public:
-    FrameExporter(hid_t acquisition, const LogHead& head) : acquisition_(acquisition), head_(head) {}
+    FrameExporter(hid_t acquisition, const LogHead& head)
+        : acquisition_(acquisition), head_(head) {}
 
     void add(const servo::Frame& frame) {
         next_ = 0;
         times_.push_back(seconds(frame.time));
-        regular_ = regular_ && std::abs(times_.back() - static_cast<double>(times_.size() - 1) * head_.tick) < 1e-12;
+        regular_ = regular_ && std::abs(times_.back() - static_cast<double>(times_.size() - 1) *
+                                                            head_.tick) < 1e-12;
         servo::Frame::visit(frame, *this);
     }
     void close() {
@@ -116,7 +121,8 @@ class FrameExporter {
         }
         prefix_.clear();
     }
-    void changed(const char*, const std::vector<servo::BodyFrame>& bodies, const std::vector<uint16_t>&) {
+    void changed(const char*, const std::vector<servo::BodyFrame>& bodies,
+                 const std::vector<uint16_t>&) {
         for (size_t i = 0; i < bodies.size(); ++i) {
             prefix_ = head_.bodies[i] + "_";
             servo::BodyFrame::visit(bodies[i], *this);
@@ -125,13 +131,26 @@ class FrameExporter {
     }
     void each(const char*, const std::vector<servo::ContactFrame>& contacts) {
         for (const servo::ContactFrame& c : contacts) {
-            const double row[14] = {static_cast<double>(c.a), static_cast<double>(c.b), static_cast<double>(c.points),
-                                    c.p_WC.x(), c.p_WC.y(), c.p_WC.z(), c.n_W.x(), c.n_W.y(), c.n_W.z(), c.gap,
-                                    c.normal_force, c.f_B_W.x(), c.f_B_W.y(), c.f_B_W.z()};
+            const double row[14] = {static_cast<double>(c.a),
+                                    static_cast<double>(c.b),
+                                    static_cast<double>(c.points),
+                                    c.p_WC.x(),
+                                    c.p_WC.y(),
+                                    c.p_WC.z(),
+                                    c.n_W.x(),
+                                    c.n_W.y(),
+                                    c.n_W.z(),
+                                    c.gap,
+                                    c.normal_force,
+                                    c.f_B_W.x(),
+                                    c.f_B_W.y(),
+                                    c.f_B_W.z()};
             if (!contacts_) {
                 contacts_.emplace(acquisition_, "contacts", 14, "n/a",
-                                  "A row a contact: body a, body b (0 up: the scene's bodies in order, then the fingers), "
-                                  "points, centre of pressure x y z [m], normal x y z from a to b, smallest gap [m], "
+                                  "A row a contact: body a, body b (0 up: the scene's bodies in "
+                                  "order, then the fingers), "
+                                  "points, centre of pressure x y z [m], normal x y z from a to b, "
+                                  "smallest gap [m], "
                                   "normal force [N], force on b x y z [N].",
                                   false);
             }
@@ -146,7 +165,8 @@ class FrameExporter {
             const std::string full = prefix_ + name;
             const bool spatial = columns == 3 && name.ends_with("position");
             const std::string order = columns == 4 ? " Columns: w, x, y, z." : "";
-            series_.emplace_back(acquisition_, full, columns, unit, describe(name) + order, spatial);
+            series_.emplace_back(acquisition_, full, columns, unit, describe(name) + order,
+                                 spatial);
         }
         series_[next_++].add(value);
     }
@@ -168,8 +188,9 @@ class FrameExporter {
 };
 
 /// A DynamicTable (or TimeIntervals) from a table; columns whose cells are all numbers are numeric.
-void write_dynamic_table(hid_t parent, const std::string& name, const Table& table, const std::string& type,
-                         const std::string& space, const std::string& description) {
+void write_dynamic_table(hid_t parent, const std::string& name, const Table& table,
+                         const std::string& type, const std::string& space,
+                         const std::string& description) {
     const Id group = create_group(parent, name);
     mark(group, type, space);
     write_attribute(group, "description", description);
@@ -187,8 +208,9 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
             if (const double* number = std::get_if<double>(&row[c])) numbers.push_back(*number);
             texts.push_back(to_csv(row[c]));
         }
-        const Id column = numbers.size() == table.rows.size() ? write_dataset(group, names[c], numbers)
-                                                              : write_dataset(group, names[c], texts);
+        const Id column = numbers.size() == table.rows.size()
+                              ? write_dataset(group, names[c], numbers)
+                              : write_dataset(group, names[c], texts);
         mark(column, "VectorData", "hdmf-common");
         write_attribute(column, "description", table.columns[c].description);
     }
@@ -205,7 +227,8 @@ void write_general(hid_t file, const SessionInfo& info) {
     }
     const Id subject = create_group(general, "subject");
     mark(subject, "Subject");
-    write_dataset(subject, "subject_id", info.participant.id.empty() ? "unknown" : info.participant.id);
+    write_dataset(subject, "subject_id",
+                  info.participant.id.empty() ? "unknown" : info.participant.id);
     write_dataset(subject, "species", "Homo sapiens");
     write_dataset(subject, "sex", info.participant.sex.empty() ? "U" : info.participant.sex);
     if (!info.participant.age.empty()) {
@@ -224,7 +247,8 @@ void write_head(hid_t file, const SessionInfo& info) {
     mark(file, "NWBFile");
     write_attribute(file, "nwb_version", "2.7.0");
     write_dataset(file, "identifier", new_uuid());
-    write_dataset(file, "session_description", info.title.empty() ? "Dihaptic session" : info.title);
+    write_dataset(file, "session_description",
+                  info.title.empty() ? "Dihaptic session" : info.title);
     write_dataset(file, "session_start_time", info.started);
     write_dataset(file, "timestamps_reference_time", info.started);
     write_dataset(file, "file_create_date", std::vector<std::string>{iso_now()});
@@ -232,7 +256,8 @@ void write_head(hid_t file, const SessionInfo& info) {
 
 }  // namespace
 
-void write_nwb(const SessionFolder& folder, const NwbContent& content, const std::function<void(double)>& progress) {
+void write_nwb(const SessionFolder& folder, const NwbContent& content,
+               const std::function<void(double)>& progress) {
     RawLogReader log(folder.raw_log());
     const auto size = static_cast<double>(std::filesystem::file_size(folder.raw_log()));
     const std::string part = folder.nwb() + ".part";
@@ -256,8 +281,10 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content, const std
         exporter.close();
 
         const Id intervals = create_group(file, "intervals");
-        write_dynamic_table(intervals, "trials", content.trials, "TimeIntervals", "core", "The trials, in order.");
-        write_dynamic_table(intervals, "phases", content.phases, "TimeIntervals", "core", "What each trial is made of.");
+        write_dynamic_table(intervals, "trials", content.trials, "TimeIntervals", "core",
+                            "The trials, in order.");
+        write_dynamic_table(intervals, "phases", content.phases, "TimeIntervals", "core",
+                            "What each trial is made of.");
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
                             "Every setting of the session, and where it came from.");

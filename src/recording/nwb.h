@@ -1,12 +1,12 @@
 // session.nwb: the session as an NWB 2 file (Neurodata Without Borders, HDF5), which h5py, MATLAB's
 // h5read and NWB tools open without this program. Made from raw.log, which stays as it is.
 //
-//   acquisition/<finger>_handle_position, _proxy_position            SpatialSeries [time, 3], meters
-//   acquisition/<finger>_force_sent, _force_asked, _contact_force    TimeSeries [time, 3], newtons
-//   acquisition/<body>_position, <body>_orientation, ...             TimeSeries
+//   acquisition/<finger>_handle_position, _proxy_position            SpatialSeries [time, 3],
+//   meters acquisition/<finger>_force_sent, _force_asked, _contact_force    TimeSeries [time, 3],
+//   newtons acquisition/<body>_position, <body>_orientation, ...             TimeSeries
 //   acquisition/grip_force, load_force, status, phase, solver_...    TimeSeries [time]
-//   acquisition/contacts                                             TimeSeries [contact, 14], a row a contact
-//   intervals/trials, intervals/phases                               TimeIntervals
+//   acquisition/contacts                                             TimeSeries [contact, 14], a
+//   row a contact intervals/trials, intervals/phases                               TimeIntervals
 //   general/subject, general/devices; scratch/settings               settings with their origins
 #pragma once
 
@@ -25,8 +25,9 @@ struct NwbContent {
     Table settings;  ///< name, value, origin
 };
 
-/// Writes the file from the folder's raw.log, replacing it only when it is whole. `progress` gets the
-/// share done. Throws Error when it cannot be written.
-void write_nwb(const SessionFolder& folder, const NwbContent& content, const std::function<void(double)>& progress);
+/// Writes the file from the folder's raw.log, replacing it only when it is whole. `progress` gets
+/// the share done. Throws Error when it cannot be written.
+void write_nwb(const SessionFolder& folder, const NwbContent& content,
+               const std::function<void(double)>& progress);
 
 }  // namespace dihaptic::recording

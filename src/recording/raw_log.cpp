@@ -31,7 +31,8 @@ uint32_t checksum(uint32_t kind, std::span<const std::byte> payload) {
     const auto size = static_cast<uint32_t>(payload.size());
     uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(&kind), sizeof(kind));
     crc = crc32_z(crc, reinterpret_cast<const Bytef*>(&size), sizeof(size));
-    return static_cast<uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(payload.data()), payload.size()));
+    return static_cast<uint32_t>(
+        crc32_z(crc, reinterpret_cast<const Bytef*>(payload.data()), payload.size()));
 }
 
 void write_all(int descriptor, const void* data, size_t size, const std::string& file) {
@@ -41,7 +42,8 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                        "What was written before is kept: free some space, then run 'dihaptic recover' on the "
+                        "What was written before is kept: free some space, then run 'dihaptic "
+                        "recover' on the "
                         "session's folder.");
         }
         at += n;
@@ -110,12 +112,16 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std
     in_.seekg(0);
     char magic[kMagicSize] = {};
     in_.read(magic, kMagicSize);
-    if (!in_ || std::memcmp(magic, kMagic, kMagicSize) != 0) throw Error({file, 0}, "", "is not a log of Dihaptic", remedy);
-    if (!read_chunk() || kind_ != kHead) throw Error({file, 0}, "", "has no readable head", "Nothing of it can be recovered.");
-    const Node text = parse_yaml({reinterpret_cast<const char*>(chunk_.data()), chunk_.size()}, file);
+    if (!in_ || std::memcmp(magic, kMagic, kMagicSize) != 0)
+        throw Error({file, 0}, "", "is not a log of Dihaptic", remedy);
+    if (!read_chunk() || kind_ != kHead)
+        throw Error({file, 0}, "", "has no readable head", "Nothing of it can be recovered.");
+    const Node text =
+        parse_yaml({reinterpret_cast<const char*>(chunk_.data()), chunk_.size()}, file);
     const Node* recorded = text.find("schema");
     if (recorded == nullptr || recorded->scalar != schema()) {
-        throw Error({file, 0}, "", "was written by another version of Dihaptic, whose frames differ",
+        throw Error({file, 0}, "",
+                    "was written by another version of Dihaptic, whose frames differ",
                     "Read it with that version; session.yaml names it.");
     }
     Node fields = text;
@@ -157,7 +163,8 @@ const servo::Frame* RawLogReader::next() {
     if (rest.size() >= sizeof(length)) std::memcpy(&length, rest.data(), sizeof(length));
     const bool fits = rest.size() >= sizeof(length) + length;
     if (!fits || !decode(rest.subspan(sizeof(length), length), head_.layout(), frame_)) {
-        throw Error({file_, 0}, "", "holds a record that is no frame, in a chunk whose checksum is right",
+        throw Error({file_, 0}, "",
+                    "holds a record that is no frame, in a chunk whose checksum is right",
                     "It was written by a faulty program: report it.");
     }
     at_ += sizeof(length) + length;

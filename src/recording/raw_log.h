@@ -1,5 +1,5 @@
-// raw.log: what is written while a session runs. Append-only, in chunks that each carry a checksum, so
-// that whatever was written before a crash can be read after it.
+// raw.log: what is written while a session runs. Append-only, in chunks that each carry a checksum,
+// so that whatever was written before a crash can be read after it.
 //
 //   "DIHAPTIC LOG 1\n", then chunks:
 //   chunk   u32 kind, u32 bytes of payload, u32 CRC-32 of kind, bytes and payload, payload

@@ -6,7 +6,9 @@ namespace dihaptic::recording {
 namespace {
 
 /// Contacts that a frame may have at most, for the size of its buffer.
-size_t most_contacts(const LogHead& head) { return 64 + 8 * (head.fingers.size() + head.bodies.size()); }
+size_t most_contacts(const LogHead& head) {
+    return 64 + 8 * (head.fingers.size() + head.bodies.size());
+}
 
 /// A second of frames, even while the disk is busy.
 constexpr size_t kRingFrames = 1024;

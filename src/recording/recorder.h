@@ -1,5 +1,5 @@
-// From the servo's frames to raw.log. On the real clock the servo pushes into a ring and a thread of
-// the recorder's writes; on the virtual clock frames are written where they arise.
+// From the servo's frames to raw.log. On the real clock the servo pushes into a ring and a thread
+// of the recorder's writes; on the virtual clock frames are written where they arise.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,8 @@ namespace dihaptic::recording {
 
 enum class Writing { in_place, in_thread };
 
-/// A chunk is handed to the operating system at least this often: more than that a crash cannot lose.
+/// A chunk is handed to the operating system at least this often: more than that a crash cannot
+/// lose.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 
 class Recorder {
@@ -22,8 +23,8 @@ class Recorder {
     Recorder(const std::string& file, const LogHead& head, Writing writing);
     ~Recorder();
 
-    /// Records a frame. In a thread: neither waits nor allocates; a frame that finds the ring full is
-    /// dropped and counted. In place: throws Error when the disk is full.
+    /// Records a frame. In a thread: neither waits nor allocates; a frame that finds the ring full
+    /// is dropped and counted. In place: throws Error when the disk is full.
     void record(const servo::Frame& frame);
     /// True once writing has failed: stop the session, then finish() says why.
     bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }

@@ -14,7 +14,8 @@ namespace dihaptic::recording {
 namespace fs = std::filesystem;
 
 SessionFolder SessionFolder::open(const std::string& path) {
-    const fs::path folder = fs::is_regular_file(path) ? fs::path(path).parent_path() : fs::path(path);
+    const fs::path folder =
+        fs::is_regular_file(path) ? fs::path(path).parent_path() : fs::path(path);
     SessionFolder session(folder.empty() ? "." : folder.string());
     if (!fs::exists(session.raw_log())) {
         throw Error({path, 0}, "", "is not a session: there is no raw.log",
@@ -28,7 +29,8 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
     std::tm local{};
     localtime_r(&now, &local);
     std::string tidy;
-    for (const char c : name) tidy += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '-';
+    for (const char c : name)
+        tidy += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '-';
     const std::string stem = fmt::format("{}/{:%Y-%m-%d_%H%M%S}_{}", parent, local, tidy);
     try {
         fs::create_directories(parent);
@@ -41,7 +43,8 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
         throw Error({parent, 0}, "", "no session folder can be made here: " + e.code().message(),
                     "Choose another folder with --out.");
     }
-    throw Error({parent, 0}, "", "too many sessions of this second", "Choose another folder with --out.");
+    throw Error({parent, 0}, "", "too many sessions of this second",
+                "Choose another folder with --out.");
 }
 
 SessionInfo SessionFolder::read_info() const {
@@ -65,6 +68,8 @@ std::string iso_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
 }
 
-std::string program_version() { return "dihaptic " DIHAPTIC_VERSION; }
+std::string program_version() {
+    return "dihaptic " DIHAPTIC_VERSION;
+}
 
 }  // namespace dihaptic::recording

@@ -1,8 +1,8 @@
 // A session is a folder. While it runs:
 //
 //   session.yaml                       who, when, with what; state: running
-//   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved, every setting with its origin
-//   raw.log                            every tick
+//   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved, every setting with
+//   its origin raw.log                            every tick
 //
 // and at its end (or by `dihaptic recover`) session.nwb, trials.csv and events.csv.
 #pragma once
@@ -15,7 +15,9 @@
 namespace dihaptic::recording {
 
 enum class SessionState { running, complete, interrupted, recovered };
-constexpr auto enum_names(SessionState) { return std::array{"running", "complete", "interrupted", "recovered"}; }
+constexpr auto enum_names(SessionState) {
+    return std::array{"running", "complete", "interrupted", "recovered"};
+}
 
 struct Participant {
     std::string id;
@@ -70,11 +72,11 @@ struct SessionInfo {
     std::string clock;       ///< virtual or real
     std::string seed;        ///< of everything random
     Participant participant;
-    std::string object;             ///< the body that summaries are about
+    std::string object;  ///< the body that summaries are about
     std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;  ///< of every trial
-    std::vector<std::string> notes; ///< warnings given at the start
-    std::string finished;           ///< what became of it, in words
+    std::vector<PhaseInfo> phases;   ///< of every trial
+    std::vector<std::string> notes;  ///< warnings given at the start
+    std::string finished;            ///< what became of it, in words
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -100,7 +102,8 @@ class SessionFolder {
   public:
     /// An existing folder (or a file in it). Throws Error when it is no session.
     static SessionFolder open(const std::string& path);
-    /// Makes a new folder in `parent`, named for the time and what is given. Throws Error when it cannot.
+    /// Makes a new folder in `parent`, named for the time and what is given. Throws Error when it
+    /// cannot.
     static SessionFolder create(const std::string& parent, const std::string& name);
 
     const std::string& path() const { return path_; }

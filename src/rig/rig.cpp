@@ -19,13 +19,15 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     std::set<std::string> fingers;
     for (const Device& device : rig.devices) {
         if (!device.finger.empty() && !fingers.insert(device.finger).second) {
-            diagnostics.error(device.place, "finger", fmt::format("'{}' holds two devices", device.finger),
+            diagnostics.error(device.place, "finger",
+                              fmt::format("'{}' holds two devices", device.finger),
                               "Give each device a finger of its own.");
         }
         const devices::Backend* backend = devices::find_backend(device.backend);
         if (backend == nullptr) {
             if (!device.backend.empty()) {
-                diagnostics.error(device.place, "backend", fmt::format("'{}' is not known", device.backend),
+                diagnostics.error(device.place, "backend",
+                                  fmt::format("'{}' is not known", device.backend),
                                   fmt::format("Known: {}.", fmt::join(backend_names(), ", ")));
             }
             continue;
@@ -36,17 +38,20 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
                               "All devices of a rig are of one backend.");
         }
     }
-    if (rig.devices.empty()) diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
+    if (rig.devices.empty())
+        diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
 }
 
 const Device& device_of(const Rig& rig, const std::string& finger) {
-    const auto found =
-        std::find_if(rig.devices.begin(), rig.devices.end(), [&](const Device& d) { return d.finger == finger; });
+    const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
+                                    [&](const Device& d) { return d.finger == finger; });
     if (found != rig.devices.end()) return *found;
     std::vector<std::string> held;
     for (const Device& device : rig.devices) held.push_back(device.finger);
-    throw Error(rig.place, "devices", fmt::format("no device is held by the scene's finger '{}'", finger),
-                fmt::format("The rig has devices for {}: add one, or choose another rig.", fmt::join(held, ", ")));
+    throw Error(rig.place, "devices",
+                fmt::format("no device is held by the scene's finger '{}'", finger),
+                fmt::format("The rig has devices for {}: add one, or choose another rig.",
+                            fmt::join(held, ", ")));
 }
 
 }  // namespace
@@ -75,7 +80,8 @@ Rig simulated_rig(const std::vector<std::string>& fingers) {
     return rig;
 }
 
-std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig, const std::vector<std::string>& fingers,
+std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
+                                                   const std::vector<std::string>& fingers,
                                                    const devices::Context& context) {
     std::vector<devices::DeviceConfig> configs;
     const devices::Backend* backend = nullptr;
@@ -84,7 +90,8 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig, const std::ve
         backend = devices::find_backend(device.backend);
         configs.push_back({finger, device.X_WD(), device.options});
     }
-    if (backend == nullptr) throw Error(rig.place, "devices", "there are none", "List at least one device.");
+    if (backend == nullptr)
+        throw Error(rig.place, "devices", "there are none", "List at least one device.");
     return backend->make(configs, context);
 }
 

@@ -48,7 +48,8 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics);
 Rig simulated_rig(const std::vector<std::string>& fingers);
 
 /// The devices for the scene's fingers, in the fingers' order. Throws Error when a finger has none.
-std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig, const std::vector<std::string>& fingers,
+std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
+                                                   const std::vector<std::string>& fingers,
                                                    const devices::Context& context);
 /// X_WD by finger.
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers);

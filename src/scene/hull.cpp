@@ -9,9 +9,9 @@ Hull convex_hull(std::span<const Vec3> points) {
     if (points.size() < 4) return hull;
     btConvexHullComputer computer;
     computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
+    // the computer rounds coordinates; the points themselves are exact
     for (int i = 0; i < computer.vertices.size(); ++i) {
-        const btVector3& v = computer.vertices[i];
-        hull.vertices.emplace_back(v.x(), v.y(), v.z());
+        hull.vertices.push_back(points[static_cast<size_t>(computer.original_vertex_index[i])]);
     }
     for (int f = 0; f < computer.faces.size(); ++f) {
         std::vector<int> face;
@@ -30,7 +30,9 @@ Hull convex_hull(std::span<const Vec3> points) {
         high = high.cwiseMax(v);
     }
     const double extent = (high - low).norm();
-    if (hull.faces.size() < 4 || integrate(hull.vertices, hull.faces).volume < 1e-6 * std::pow(extent, 3)) return {};
+    if (hull.faces.size() < 4 ||
+        integrate(hull.vertices, hull.faces).volume < 1e-6 * std::pow(extent, 3))
+        return {};
     return hull;
 }
 
@@ -47,8 +49,9 @@ VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::v
             const Vec3 sum = a + b + c;
             volume += six_volumes / 6;
             first += six_volumes / 24 * sum;
-            second += six_volumes / 120 *
-                      (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+            second +=
+                six_volumes / 120 *
+                (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
         }
     }
     VolumeIntegrals out;

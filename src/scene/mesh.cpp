@@ -14,10 +14,12 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
                     "Give its path relative to the scene file, or put the mesh there.");
     }
     Assimp::Importer importer;
-    const aiScene* in = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                                                    aiProcess_PreTransformVertices);
+    const aiScene* in =
+        importer.ReadFile(file, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                    aiProcess_PreTransformVertices);
     if (in == nullptr) {
-        throw Error(asked_at, "file", "the mesh " + file + " cannot be read: " + importer.GetErrorString(),
+        throw Error(asked_at, "file",
+                    "the mesh " + file + " cannot be read: " + importer.GetErrorString(),
                     "Export it again as OBJ, STL or PLY.");
     }
     Mesh mesh;
@@ -31,12 +33,14 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
         for (unsigned i = 0; i < part.mNumFaces; ++i) {
             const aiFace& face = part.mFaces[i];
             if (face.mNumIndices != 3) continue;  // points and lines bound no volume
-            mesh.faces.push_back({offset + static_cast<int>(face.mIndices[0]), offset + static_cast<int>(face.mIndices[1]),
+            mesh.faces.push_back({offset + static_cast<int>(face.mIndices[0]),
+                                  offset + static_cast<int>(face.mIndices[1]),
                                   offset + static_cast<int>(face.mIndices[2])});
         }
     }
     if (mesh.faces.empty()) {
-        throw Error(asked_at, "file", "the mesh " + file + " has no triangles", "Export it again with its surface.");
+        throw Error(asked_at, "file", "the mesh " + file + " has no triangles",
+                    "Export it again with its surface.");
     }
     return mesh;
 }

@@ -17,9 +17,12 @@ constexpr double kImplausibleMass = 20.0;  // [kg]
 
 double metres(MeshUnit unit) {
     switch (unit) {
-        case MeshUnit::m: return 1;
-        case MeshUnit::cm: return 1e-2;
-        case MeshUnit::mm: return 1e-3;
+        case MeshUnit::m:
+            return 1;
+        case MeshUnit::cm:
+            return 1e-2;
+        case MeshUnit::mm:
+            return 1e-3;
     }
     return 1;
 }
@@ -34,9 +37,11 @@ std::vector<Finger> default_fingers() {
     return {thumb, index};
 }
 
-void load_mesh(Shape& shape, const std::string& folder, const Place& place, Diagnostics& diagnostics) {
+void load_mesh(Shape& shape, const std::string& folder, const Place& place,
+               Diagnostics& diagnostics) {
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
-    const std::string file = (std::filesystem::path(folder) / shape.file).lexically_normal().string();
+    const std::string file =
+        (std::filesystem::path(folder) / shape.file).lexically_normal().string();
     try {
         const Mesh mesh = read_mesh(file, metres(shape.unit), place);
         shape.hull = convex_hull(mesh.vertices);
@@ -48,11 +53,12 @@ void load_mesh(Shape& shape, const std::string& folder, const Place& place, Diag
         const double solid = integrate(mesh.vertices, mesh.faces).volume;
         const double hull = integrate(shape.hull.vertices, shape.hull.faces).volume;
         if (solid > 0 && solid < 0.98 * hull) {
-            diagnostics.warning(place, "file",
-                                fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
-                                            "stands in for it",
-                                            file, 100 * (hull / solid - 1)),
-                                "Fingers will feel the hull.");
+            diagnostics.warning(
+                place, "file",
+                fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
+                            "stands in for it",
+                            file, 100 * (hull / solid - 1)),
+                "Fingers will feel the hull.");
         }
     } catch (const Error& e) {
         diagnostics.add(e.problems());
@@ -69,10 +75,12 @@ void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagno
 void check_body(const Body& body, Diagnostics& diagnostics) {
     check_plausible(body.shape, body.place, diagnostics);
     if (body.shape.kind == ShapeKind::plane && body.moves_at_all()) {
-        diagnostics.error(body.place, "fixed", "a plane is infinite and cannot move", "Add fixed: yes.");
+        diagnostics.error(body.place, "fixed", "a plane is infinite and cannot move",
+                          "Add fixed: yes.");
     }
     if (body.mass && body.density) {
-        diagnostics.error(body.place, "density", "both mass and density are given", "Keep one of the two.");
+        diagnostics.error(body.place, "density", "both mass and density are given",
+                          "Keep one of the two.");
     }
     if (body.fixed) return;
     if (!body.mass && !body.density) {
@@ -84,7 +92,8 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
         diagnostics.warning(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
                             "Check the unit of its mass or density.");
     }
-    const bool two_axes = body.turns == Axes::xy || body.turns == Axes::xz || body.turns == Axes::yz;
+    const bool two_axes =
+        body.turns == Axes::xy || body.turns == Axes::xz || body.turns == Axes::yz;
     if (two_axes) {
         diagnostics.error(body.place, "turns", "a body cannot be held to turn about two axes",
                           "Use none, x, y, z or xyz.");
@@ -95,7 +104,8 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
     std::set<std::string> names;
     const auto check = [&](const std::string& name, const Place& place) {
         if (!name.empty() && !names.insert(name).second) {
-            diagnostics.error(place, "name", fmt::format("'{}' is used twice", name), "Give each body and finger a name of its own.");
+            diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),
+                              "Give each body and finger a name of its own.");
         }
     };
     for (const Body& body : scene.bodies) check(body.name, body.place);
@@ -110,11 +120,13 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
     };
     for (const PairFriction& pair : scene.pairs) {
         if (pair.between.size() != 2) {
-            diagnostics.error(pair.place, "between", "must be two names", "Write between: [block, thumb].");
+            diagnostics.error(pair.place, "between", "must be two names",
+                              "Write between: [block, thumb].");
         }
         for (const std::string& name : pair.between) must_exist(name, "between", pair.place);
     }
-    if (!scene.object.empty() && scene.find(scene.object) < 0) must_exist(scene.object, "object", {});
+    if (!scene.object.empty() && scene.find(scene.object) < 0)
+        must_exist(scene.object, "object", {});
 }
 
 }  // namespace
@@ -140,8 +152,8 @@ std::vector<std::string> finger_names(const Scene& scene) {
     return names;
 }
 
-double pair_friction(const Scene& scene, const std::string& a, double friction_a, const std::string& b,
-                     double friction_b) {
+double pair_friction(const Scene& scene, const std::string& a, double friction_a,
+                     const std::string& b, double friction_b) {
     for (const PairFriction& pair : scene.pairs) {
         if (pair.between.size() != 2) continue;
         const std::string& first = pair.between[0];
@@ -165,7 +177,8 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics)
         load_mesh(finger.shape, folder, finger.place, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {
-            diagnostics.error(finger.place, "shape", "a finger cannot be a plane", "Use a box, a sphere or a mesh.");
+            diagnostics.error(finger.place, "shape", "a finger cannot be a plane",
+                              "Use a box, a sphere or a mesh.");
         }
     }
     check_names(scene, diagnostics);

@@ -16,7 +16,9 @@ enum class Axes { none, x, y, xy, z, xz, yz, xyz };
 constexpr auto enum_names(Axes) {
     return std::array{"none", "x", "y", "xy", "z", "xz", "yz", "xyz"};
 }
-constexpr bool contains(Axes axes, int axis) { return (static_cast<int>(axes) >> axis & 1) != 0; }
+constexpr bool contains(Axes axes, int axis) {
+    return (static_cast<int>(axes) >> axis & 1) != 0;
+}
 
 struct Body {
     std::string name;
@@ -27,10 +29,11 @@ struct Body {
     Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
-    Axes moves = Axes::xyz;         ///< world axes that it may move along: z is a bead on an upright string
-    Axes turns = Axes::xyz;         ///< world axes that it may turn about: none, one, or xyz
-    std::string colour;             ///< "#rrggbb"; empty: the view chooses
-    Place place;                    ///< in the scene file
+    Axes moves =
+        Axes::xyz;  ///< world axes that it may move along: z is a bead on an upright string
+    Axes turns = Axes::xyz;  ///< world axes that it may turn about: none, one, or xyz
+    std::string colour;      ///< "#rrggbb"; empty: the view chooses
+    Place place;             ///< in the scene file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -57,9 +60,10 @@ struct Body {
 struct Finger {
     std::string name;
     Shape shape;
-    double mass = 0.001;           ///< [kg]
-    double friction = 0.8;         ///< see pair_friction()
-    Vec3 rotation = Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
+    double mass = 0.001;    ///< [kg]
+    double friction = 0.8;  ///< see pair_friction()
+    Vec3 rotation =
+        Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
     Place place;
 
     template <class Visitor>
@@ -93,9 +97,9 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<PairFriction> pairs;
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
-    std::string object;           ///< the body that the summary is about; empty: the first that can move
-    Node settings;                ///< settings that this scene asks for (servo::Settings)
-    Node hand;                    ///< how the simulated hand tries the scene out (hand::HandSpec)
+    std::string object;  ///< the body that the summary is about; empty: the first that can move
+    Node settings;       ///< settings that this scene asks for (servo::Settings)
+    Node hand;           ///< how the simulated hand tries the scene out (hand::HandSpec)
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -118,19 +122,20 @@ struct Scene {
 /// Names of the fingers, in order.
 std::vector<std::string> finger_names(const Scene& scene);
 
-/// Coefficient of friction between two things: what the file says of the pair, or else the geometric
-/// mean of their own: two of 0.8 give 0.8.
-double pair_friction(const Scene& scene, const std::string& a, double friction_a, const std::string& b,
-                     double friction_b);
+/// Coefficient of friction between two things: what the file says of the pair, or else the
+/// geometric mean of their own: two of 0.8 give 0.8.
+double pair_friction(const Scene& scene, const std::string& a, double friction_a,
+                     const std::string& b, double friction_b);
 
 /// Mass of a body that is not fixed, from its mass or its density [kg].
 double mass(const Body& body);
 
-/// Reads a scene file with its meshes. Every problem goes to `diagnostics`; what could be read is returned.
+/// Reads a scene file with its meshes. Every problem goes to `diagnostics`; what could be read is
+/// returned.
 Scene read_scene(const std::string& file, Diagnostics& diagnostics);
 
-/// Fills in the default fingers, loads meshes, and checks the scene as a whole. `folder` is what mesh
-/// files are relative to.
+/// Fills in the default fingers, loads meshes, and checks the scene as a whole. `folder` is what
+/// mesh files are relative to.
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

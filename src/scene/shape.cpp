@@ -37,7 +37,8 @@ VolumeIntegrals integrate(const Shape& shape) {
         case ShapeKind::box: {
             const Vec3 sq = shape.size.cwiseAbs2();
             const double volume = shape.size.prod();
-            return symmetric(volume, volume / 12 * Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y()));
+            return symmetric(volume,
+                             volume / 12 * Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y()));
         }
         case ShapeKind::sphere: {
             const double volume = 4.0 / 3.0 * kPi * r * r * r;
@@ -49,27 +50,35 @@ VolumeIntegrals integrate(const Shape& shape) {
             return symmetric(volume, {across, across, volume * r * r / 2});
         }
         case ShapeKind::capsule: {
-            // the cylinder between the caps, and two half spheres, each with its centre of volume 3/8 r
-            // beyond the cylinder's end
+            // the cylinder between the caps, and two half spheres, each with its centre of volume
+            // 3/8 r beyond the cylinder's end
             const double cylinder = kPi * r * r * l;
             const double caps = 4.0 / 3.0 * kPi * r * r * r;
             const double across = cylinder * (3 * r * r + l * l) / 12 +
                                   caps * (0.4 * r * r + l * l / 4 + 3.0 / 8.0 * l * r);
-            return symmetric(cylinder + caps, {across, across, cylinder * r * r / 2 + 0.4 * caps * r * r});
+            return symmetric(cylinder + caps,
+                             {across, across, cylinder * r * r / 2 + 0.4 * caps * r * r});
         }
-        case ShapeKind::plane: return {};
-        case ShapeKind::mesh: return integrate(shape.hull.vertices, shape.hull.faces);
+        case ShapeKind::plane:
+            return {};
+        case ShapeKind::mesh:
+            return integrate(shape.hull.vertices, shape.hull.faces);
     }
     return {};
 }
 
 double extent(const Shape& shape) {
     switch (shape.kind) {
-        case ShapeKind::box: return shape.size.maxCoeff();
-        case ShapeKind::sphere: return 2 * shape.radius;
-        case ShapeKind::cylinder: return std::max(2 * shape.radius, shape.length);
-        case ShapeKind::capsule: return 2 * shape.radius + shape.length;
-        case ShapeKind::plane: return 0;
+        case ShapeKind::box:
+            return shape.size.maxCoeff();
+        case ShapeKind::sphere:
+            return 2 * shape.radius;
+        case ShapeKind::cylinder:
+            return std::max(2 * shape.radius, shape.length);
+        case ShapeKind::capsule:
+            return 2 * shape.radius + shape.length;
+        case ShapeKind::plane:
+            return 0;
         case ShapeKind::mesh: {
             if (shape.hull.vertices.empty()) return 0;
             Vec3 low = shape.hull.vertices.front();

@@ -17,7 +17,9 @@ constexpr auto enum_names(ShapeKind) {
 
 /// The unit of a mesh file's coordinates, which the file itself does not tell.
 enum class MeshUnit { m, cm, mm };
-constexpr auto enum_names(MeshUnit) { return std::array{"m", "cm", "mm"}; }
+constexpr auto enum_names(MeshUnit) {
+    return std::array{"m", "cm", "mm"};
+}
 
 /// A shape in the frame of its body B. Boxes, spheres, capsules and cylinders are centred on B's
 /// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is where its
@@ -29,20 +31,25 @@ struct Shape {
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
     std::string file;          ///< mesh: OBJ, STL or PLY, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    Hull hull;                 ///< mesh: its convex hull, loaded [m]
+    Hull hull;  ///< mesh: its convex hull, loaded [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("shape", kind, Field::text().required());
         switch (kind) {
-            case ShapeKind::box: v("size", size, Field::length().positive().required()); break;
-            case ShapeKind::sphere: v("radius", radius, Field::length().positive().required()); break;
+            case ShapeKind::box:
+                v("size", size, Field::length().positive().required());
+                break;
+            case ShapeKind::sphere:
+                v("radius", radius, Field::length().positive().required());
+                break;
             case ShapeKind::capsule:
             case ShapeKind::cylinder:
                 v("radius", radius, Field::length().positive().required());
                 v("length", length, Field::length().positive().required());
                 break;
-            case ShapeKind::plane: break;
+            case ShapeKind::plane:
+                break;
             case ShapeKind::mesh:
                 v("file", file, Field::text().required());
                 v("unit", unit, Field::text().required());

@@ -5,22 +5,28 @@ namespace dihaptic::servo {
 StatusText describe(Status bit) {
     switch (bit) {
         case kContactsFull:
-            return {"more contacts than memory was reserved for", "raise settings: dynamics: max_contacts"};
+            return {"more contacts than memory was reserved for",
+                    "raise settings: dynamics: max_contacts"};
         case kForceLimited:
             return {"a force was cut to the largest allowed", "soften the coupling, or press less"};
         case kRateLimited:
             return {"a force was kept from changing faster than allowed",
-                    "soften the coupling, touch more slowly, or raise settings: safety: max_force_rate_N_s"};
+                    "soften the coupling, touch more slowly, or raise settings: safety: "
+                    "max_force_rate_N_s"};
         case kNotFinite:
-            return {"a force was not a number, and all force was switched off", "report the session's folder as a bug"};
+            return {"a force was not a number, and all force was switched off",
+                    "report the session's folder as a bug"};
         case kOutsideWorkspace:
-            return {"a handle left its device's workspace", "move the device in the rig file, or the hand"};
+            return {"a handle left its device's workspace",
+                    "move the device in the rig file, or the hand"};
         case kForceClamped:
             return {"a device was asked for more than its peak force",
                     "lower settings: safety: max_force_N, or soften the coupling"};
-        case kNoMoreData: return {"the recording ended", ""};
+        case kNoMoreData:
+            return {"the recording ended", ""};
         case kOverrun:
-            return {"a tick took longer than its period", "close other programs, or lower the rate"};
+            return {"a tick took longer than its period",
+                    "close other programs, or lower the rate"};
     }
     return {};
 }

@@ -43,8 +43,8 @@ struct FingerFrame {
     Vec3 p_WP = Vec3::Zero();
     Vec3 v_WP = Vec3::Zero();
     Quat R_WP = Quat::Identity();
-    Vec3 f_asked_W = Vec3::Zero();  ///< on the handle, what the coupling wants
-    Vec3 f_sent_W = Vec3::Zero();   ///< on the handle, what the device was told
+    Vec3 f_asked_W = Vec3::Zero();    ///< on the handle, what the coupling wants
+    Vec3 f_sent_W = Vec3::Zero();     ///< on the handle, what the device was told
     Vec3 f_contact_W = Vec3::Zero();  ///< on the proxy, from what it touches
     double normal_force = 0;          ///< its normal part, at least 0
 
@@ -87,9 +87,9 @@ struct ContactFrame {
     int32_t a = -1;  ///< bodies: those of the scene first, then the proxies, in order
     int32_t b = -1;
     int32_t points = 0;
-    Vec3 p_WC = Vec3::Zero();   ///< centre of pressure; without pressure the mean of the points
-    Vec3 n_W = Vec3::Zero();    ///< mean normal, from a to b
-    double gap = 0;             ///< smallest distance; negative: penetration
+    Vec3 p_WC = Vec3::Zero();  ///< centre of pressure; without pressure the mean of the points
+    Vec3 n_W = Vec3::Zero();   ///< mean normal, from a to b
+    double gap = 0;            ///< smallest distance; negative: penetration
     double normal_force = 0;
     Vec3 f_B_W = Vec3::Zero();  ///< whole force on b
 
@@ -112,8 +112,9 @@ struct Frame {
     int32_t trial = 0;
     int32_t phase = 0;  ///< of the trial: index into the driver's or the task's list
     uint32_t status = 0;
-    double grip_force = kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
-    double load_force = 0;            ///< tangential contact forces along gravity, summed over the fingers
+    double grip_force =
+        kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
+    double load_force = 0;  ///< tangential contact forces along gravity, summed over the fingers
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;
     double solver_residual = 0;
@@ -121,10 +122,12 @@ struct Frame {
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
     std::vector<FingerFrame> fingers;
     std::vector<BodyFrame> bodies;  ///< of the scene
-    std::vector<uint16_t> changed;  ///< bodies that changed since the last frame: only these are logged
+    std::vector<uint16_t>
+        changed;  ///< bodies that changed since the last frame: only these are logged
     std::vector<ContactFrame> contacts;
 
-    /// v(name, value, unit) for values; v.each(name, list) and v.changed(name, list, which) for lists.
+    /// v(name, value, unit) for values; v.each(name, list) and v.changed(name, list, which) for
+    /// lists.
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("sequence", f.sequence, "1");

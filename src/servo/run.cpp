@@ -1,8 +1,8 @@
 #include "servo/run.h"
 
-#include <ctime>
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 namespace dihaptic::servo {
@@ -10,7 +10,9 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-double elapsed(Steady::time_point since) { return std::chrono::duration<double>(Steady::now() - since).count(); }
+double elapsed(Steady::time_point since) {
+    return std::chrono::duration<double>(Steady::now() - since).count();
+}
 
 void sleep_until(Steady::time_point deadline) {
     // steady_clock is CLOCK_MONOTONIC here; an absolute sleep does not drift
@@ -46,7 +48,8 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
 }
 
 RealTimeResult run_real(Servo& servo, const Director& director, const FrameSink& sink, Time most,
-                        const std::atomic<bool>& stop, TickTimes& times, std::atomic<int64_t>& reached) {
+                        const std::atomic<bool>& stop, TickTimes& times,
+                        std::atomic<int64_t>& reached) {
     RealTimeResult result;
     std::thread thread([&] {
         const auto start = Steady::now();
@@ -56,7 +59,8 @@ RealTimeResult run_real(Servo& servo, const Director& director, const FrameSink&
         while (now <= most && !stop.load(std::memory_order_relaxed)) {
             sleep_until(start + now);
             const auto begin = Steady::now();
-            servo.note_timing(std::chrono::duration<double>(begin - (start + now)).count(), last_tick, overrun);
+            servo.note_timing(std::chrono::duration<double>(begin - (start + now)).count(),
+                              last_tick, overrun);
             const Frame& frame = servo.tick(now, director);
             if (sink) sink(frame);
             last_tick = elapsed(begin);

@@ -18,8 +18,8 @@ uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
 
 }  // namespace
 
-Servo::Servo(const scene::Scene& scene, const Settings& settings, std::unique_ptr<devices::DeviceGroup> devices,
-             std::vector<Pose> X_WD)
+Servo::Servo(const scene::Scene& scene, const Settings& settings,
+             std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD)
     : settings_(settings),
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
@@ -29,7 +29,8 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings, std::unique_pt
         const double peak = devices_->info(static_cast<int>(i)).peak_force;
         const double max_force = std::min(settings.safety.max_force.value_or(peak), peak);
         const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
-        fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force, settings.safety.max_force_rate);
+        fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force,
+                              settings.safety.max_force_rate);
         X_DW_.push_back(X_WD_[i].inverse());
     }
     const size_t n = fingers_.size();
@@ -39,7 +40,9 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings, std::unique_pt
     f_D_.resize(n, Vec3::Zero());
 }
 
-Servo::~Servo() { deactivate(); }
+Servo::~Servo() {
+    deactivate();
+}
 
 void Servo::activate() {
     world_.activate();
@@ -74,6 +77,8 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.stop = false;
     if (director) director(frame_, handles_, commands_);
 
+    for (size_t i = 0; i < fingers_.size(); ++i)
+        fingers_[i].begin_tick(world_, handles_[i], settings_.step());
     dynamics::StepStatus step = dynamics::StepStatus::ok;
     if ((frame_.sequence + 1) % settings_.dynamics.every == 0) {
         const double h = settings_.step();
@@ -81,7 +86,8 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
             const Commands::Load& load = commands_.loads[static_cast<size_t>(i)];
             world_.apply(load.body, load.force_W, load.torque_W);
         }
-        for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].before_step(world_, handles_[i], h);
+        for (size_t i = 0; i < fingers_.size(); ++i)
+            fingers_[i].before_step(world_, handles_[i], h);
         step = world_.step(h);
         for (haptics::Finger& finger : fingers_) finger.after_step(world_);
     }
@@ -202,7 +208,8 @@ void Servo::measure_grasp() noexcept {
     if (fingers_.size() < 2) return;
     Vec3 others = Vec3::Zero();
     for (size_t i = 1; i < fingers_.size(); ++i) others += frame_.fingers[i].p_WP;
-    const Vec3 axis = (others / static_cast<double>(fingers_.size() - 1) - frame_.fingers[0].p_WP).normalized();
+    const Vec3 axis =
+        (others / static_cast<double>(fingers_.size() - 1) - frame_.fingers[0].p_WP).normalized();
     double squeeze = 0;
     for (size_t i = 0; i < fingers_.size(); ++i) {
         const haptics::ProxyTouch& touch = fingers_[i].touch();

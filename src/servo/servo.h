@@ -1,7 +1,8 @@
 // One tick of the servo, as an ordinary function with time as an argument. Real time, tests, batch
 // runs and replay call the same one:
 //
-//   read the devices -> director -> fold the couplings -> step the world -> forces -> limits -> write -> Frame
+//   read the devices -> director -> fold the couplings -> step the world -> forces -> limits ->
+//   write -> Frame
 //
 // The force that is written belongs to the positions that were read in the same tick.
 #pragma once
@@ -33,19 +34,21 @@ struct Commands {
     int load_count = 0;
 
     void load(const Load& load) noexcept {
-        if (load_count < static_cast<int>(loads.size())) loads[static_cast<size_t>(load_count++)] = load;
+        if (load_count < static_cast<int>(loads.size()))
+            loads[static_cast<size_t>(load_count++)] = load;
     }
 };
 
 /// The owner's part of a tick: sees the last Frame and the handles as just read. It runs inside the
 /// tick, so it must not allocate, lock or throw.
-using Director = std::function<void(const Frame& last, std::span<const haptics::Handle> handles, Commands& commands)>;
+using Director = std::function<void(const Frame& last, std::span<const haptics::Handle> handles,
+                                    Commands& commands)>;
 
 class Servo {
   public:
     /// `X_WD` by device; devices, in the order of the scene's fingers.
-    Servo(const scene::Scene& scene, const Settings& settings, std::unique_ptr<devices::DeviceGroup> devices,
-          std::vector<Pose> X_WD);
+    Servo(const scene::Scene& scene, const Settings& settings,
+          std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD);
     ~Servo();
 
     /// Reserves all memory and switches the devices on.

@@ -21,8 +21,8 @@ struct Settings {
         v("safety", safety);
     }
 
-    double tick() const { return 1 / rate; }                        ///< [s]
-    double step() const { return tick() * dynamics.every; }        ///< of the world [s]
+    double tick() const { return 1 / rate; }                 ///< [s]
+    double step() const { return tick() * dynamics.every; }  ///< of the world [s]
 };
 
 }  // namespace dihaptic::servo

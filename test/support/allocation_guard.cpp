@@ -58,7 +58,9 @@ void free(void* p) {
 
 #endif
 
-extern "C" int dihaptic_allocation_guard = 0;
+extern "C" {
+int dihaptic_allocation_guard = 0;
+}
 
 namespace dihaptic::testing {
 
@@ -66,9 +68,13 @@ AllocationGuard::AllocationGuard() {
     allocations = 0;
     ++armed;
 }
-AllocationGuard::~AllocationGuard() { --armed; }
+AllocationGuard::~AllocationGuard() {
+    --armed;
+}
 
-size_t AllocationGuard::count() const { return allocations; }
+size_t AllocationGuard::count() const {
+    return allocations;
+}
 
 bool AllocationGuard::works() {
 #ifdef DIHAPTIC_SANITIZED

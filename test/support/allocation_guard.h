@@ -1,5 +1,5 @@
-// Counts every memory allocation of this thread while it is armed, libraries' included: malloc and its
-// kin are replaced in test programs.
+// Counts every memory allocation of this thread while it is armed, libraries' included: malloc and
+// its kin are replaced in test programs.
 #pragma once
 
 #include <cstddef>
@@ -23,5 +23,6 @@ class AllocationGuard {
 }  // namespace dihaptic::testing
 
 /// First line of a test that needs the guard: skips it, aloud, where the guard cannot work.
-#define DIHAPTIC_NEEDS_ALLOCATION_GUARD() \
-    if (!dihaptic::testing::AllocationGuard::works()) GTEST_SKIP() << "sanitizers replace malloc: allocations cannot be counted"
+#define DIHAPTIC_NEEDS_ALLOCATION_GUARD()             \
+    if (!dihaptic::testing::AllocationGuard::works()) \
+    GTEST_SKIP() << "sanitizers replace malloc: allocations cannot be counted"

@@ -1,4 +1,5 @@
-// Files for tests: a temporary folder that goes away, and the data that lies outside the repository.
+// Files for tests: a temporary folder that goes away, and the data that lies outside the
+// repository.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace dihaptic::testing {
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "dihaptic-test-XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / "dihaptic-test-XXXXXX").string();
         if (mkdtemp(name.data()) != nullptr) path_ = name;
     }
     ~TemporaryFolder() {
@@ -48,6 +50,6 @@ inline std::string shared_data(const std::string& name) {
 }  // namespace dihaptic::testing
 
 /// Skips the test, aloud, where the recorded data is absent.
-#define DIHAPTIC_NEEDS_DATA(variable, name)                          \
+#define DIHAPTIC_NEEDS_DATA(variable, name)                            \
     const std::string variable = dihaptic::testing::shared_data(name); \
     if (variable.empty()) GTEST_SKIP() << "../shared/data/" << name << " is absent"

@@ -18,7 +18,8 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
     Diagnostics diagnostics;
     for (const DeviceConfig& config : configs) {
         Options options;
-        if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+        if (config.options.kind != Node::Kind::null)
+            read_fields(options, config.options, diagnostics);
         DeviceInfo info;
         info.model = "recording";
         info.peak_force = options.peak_force;
@@ -53,15 +54,19 @@ void check(const DeviceConfig& config, Diagnostics& diagnostics) {
     }
 }
 
-std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, const Context& context) {
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
+                                  const Context& context) {
     if (!context.recording) {
-        throw Error("devices of the backend 'replay' need a recording", "Use: dihaptic replay SESSION.");
+        throw Error("devices of the backend 'replay' need a recording",
+                    "Use: dihaptic replay SESSION.");
     }
     return std::make_unique<ReplayGroup>(configs, context);
 }
 
 }  // namespace
 
-Backend backend() { return {"replay", check, make}; }
+Backend backend() {
+    return {"replay", check, make};
+}
 
 }  // namespace dihaptic::devices::replay

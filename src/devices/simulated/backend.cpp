@@ -36,12 +36,13 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
 
 class SimulatedGroup final : public DeviceGroup {
   public:
-    SimulatedGroup(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options, const Context& context)
+    SimulatedGroup(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options,
+                   const Context& context)
         : DeviceGroup(infos(options, context)) {
         for (size_t i = 0; i < configs.size(); ++i) {
             devices_.push_back({options[i], configs[i].X_WD,
-                                Plant(options[i], context.impedance, context.tremor, context.seed, static_cast<int>(i),
-                                      *context.driver),
+                                Plant(options[i], context.impedance, context.tremor, context.seed,
+                                      static_cast<int>(i), *context.driver),
                                 Encoder(options[i])});
         }
     }
@@ -56,8 +57,8 @@ class SimulatedGroup final : public DeviceGroup {
             Device& device = devices_[i];
             device.plant.advance(now);
             const Pose X_DW = device.X_WD.inverse();
-            const Encoder::Measured measured =
-                device.encoder.measure(now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
+            const Encoder::Measured measured = device.encoder.measure(
+                now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
             readings[i] = {measured.p, measured.v, 0, device.clamped};
             if (const auto& box = device.options.workspace;
                 box && (measured.p.array().abs() > box->array() / 2).any()) {
@@ -68,18 +69,23 @@ class SimulatedGroup final : public DeviceGroup {
     void do_write(std::span<const Vec3> f_D) noexcept override {
         for (size_t i = 0; i < devices_.size(); ++i) {
             Device& device = devices_[i];
-            device.clamped = device.plant.hold(device.X_WD.R * f_D[i]) ? uint32_t{kForceClamped} : 0;
+            device.clamped =
+                device.plant.hold(device.X_WD.R * f_D[i]) ? uint32_t{kForceClamped} : 0;
         }
     }
 
     std::vector<Device> devices_;
 };
 
-void check(const DeviceConfig& config, Diagnostics& diagnostics) { read_options(config, diagnostics); }
+void check(const DeviceConfig& config, Diagnostics& diagnostics) {
+    read_options(config, diagnostics);
+}
 
-std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, const Context& context) {
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
+                                  const Context& context) {
     if (context.driver == nullptr) {
-        throw Error("simulated devices need a hand that moves them", "Give the scene or the experiment a hand.");
+        throw Error("simulated devices need a hand that moves them",
+                    "Give the scene or the experiment a hand.");
     }
     Diagnostics diagnostics;
     std::vector<Options> options;
@@ -90,6 +96,8 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, cons
 
 }  // namespace
 
-Backend backend() { return {"simulated", check, make}; }
+Backend backend() {
+    return {"simulated", check, make};
+}
 
 }  // namespace dihaptic::devices::simulated

@@ -10,20 +10,22 @@
 
 namespace dihaptic::devices::simulated {
 
-/// plant: a bare mass, as the benchmarks use it. premium_1_0: SensAble PHANToM Premium 1.0, from its
-/// data sheet.
+/// plant: a bare mass, as the benchmarks use it. premium_1_0: SensAble PHANToM Premium 1.0, from
+/// its data sheet.
 enum class Preset { plant, premium_1_0 };
-constexpr auto enum_names(Preset) { return std::array{"plant", "premium_1_0"}; }
+constexpr auto enum_names(Preset) {
+    return std::array{"plant", "premium_1_0"};
+}
 
 struct Options {
-    Preset preset = Preset::plant;  ///< sets all others, which may then be given too
-    double mass = 0.075;            ///< apparent mass at the endpoint [kg]
-    double peak_force = 8.5;        ///< larger forces are clamped [N]
+    Preset preset = Preset::plant;           ///< sets all others, which may then be given too
+    double mass = 0.075;                     ///< apparent mass at the endpoint [kg]
+    double peak_force = 8.5;                 ///< larger forces are clamped [N]
     std::optional<double> continuous_force;  ///< that the motors can hold for long [N]
-    double position_step = 0;       ///< of the encoders, at the endpoint; 0: exact [m]
-    double friction = 0;            ///< Coulomb friction at the endpoint [N]
-    int delay_ticks = 0;            ///< a force acts so many ticks after it was written
-    int velocity_window = 8;        ///< ticks that the velocity is taken over, when positions have steps
+    double position_step = 0;                ///< of the encoders, at the endpoint; 0: exact [m]
+    double friction = 0;                     ///< Coulomb friction at the endpoint [N]
+    int delay_ticks = 0;                     ///< a force acts so many ticks after it was written
+    int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
     std::optional<Vec3> workspace;  ///< edges of the reachable box around D's origin [m]
 
     template <class Visitor>

@@ -19,8 +19,8 @@ Options Options::of(Preset preset) {
     return options;
 }
 
-Plant::Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor, uint64_t seed,
-             int finger, const hand::Driver& driver)
+Plant::Plant(const Options& options, const hand::Impedance& impedance,
+             const hand::TremorSpec& tremor, uint64_t seed, int finger, const hand::Driver& driver)
     : options_(options),
       finger_(impedance),
       tremor_(tremor, seed, finger),

@@ -2,9 +2,9 @@
 //
 //     m a = f_finger + f_device + f_friction
 //
-// integrated at 10 kHz (semi-implicit Euler), with the device's force held from write to write, clamped
-// to its peak, and acting `delay_ticks` late. Coulomb friction takes up to friction * h of momentum a
-// step and holds the endpoint when it can.
+// integrated at 10 kHz (semi-implicit Euler), with the device's force held from write to write,
+// clamped to its peak, and acting `delay_ticks` late. Coulomb friction takes up to friction * h of
+// momentum a step and holds the endpoint when it can.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace dihaptic::devices::simulated {
 
 class Plant {
   public:
-    Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor, uint64_t seed,
-          int finger, const hand::Driver& driver);
+    Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor,
+          uint64_t seed, int finger, const hand::Driver& driver);
 
     /// Puts the endpoint at the finger's target, at rest.
     void reset();
@@ -48,7 +48,8 @@ class Plant {
 /// What an encoder and a driver make of a position: steps, and a velocity from past positions.
 class Encoder {
   public:
-    explicit Encoder(const Options& options) : step_(options.position_step), window_(options.velocity_window) {}
+    explicit Encoder(const Options& options)
+        : step_(options.position_step), window_(options.velocity_window) {}
 
     struct Measured {
         Vec3 p;

@@ -38,8 +38,9 @@ Collision::Collision(int max_bodies, int max_pairs)
       max_pairs_(max_pairs) {
     // round shapes too are met ahead of touch, whatever their size
     gContactBreakingThreshold = kRoundMargin;
-    dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
-                                   ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+    dispatcher_.setDispatcherFlags(
+        dispatcher_.getDispatcherFlags() &
+        ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     manifolds_.reserve(static_cast<size_t>(max_pairs));
     looked_at_.reserve(static_cast<size_t>(max_pairs));
     live_.reserve(static_cast<size_t>(max_pairs));
@@ -64,16 +65,18 @@ void Collision::reserve_pairs(int pairs) {
         dummies[i].m_collisionFilterMask = kMovable;
     }
     for (size_t i = 1; i < dummies.size(); ++i) pairs_.addOverlappingPair(&dummies[0], &dummies[i]);
-    for (size_t i = 1; i < dummies.size(); ++i) pairs_.removeOverlappingPair(&dummies[0], &dummies[i], &dispatcher_);
+    for (size_t i = 1; i < dummies.size(); ++i)
+        pairs_.removeOverlappingPair(&dummies[0], &dummies[i], &dispatcher_);
 }
 
 void Collision::add(btCollisionObject& object, bool can_move) {
     btVector3 low;
     btVector3 high;
     object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
-    object.setBroadphaseHandle(broadphase_.createProxy(
-        low, high, object.getCollisionShape()->getShapeType(), &object, can_move ? kMovable : kImmovable,
-        can_move ? kMovable | kImmovable : kMovable, &dispatcher_));
+    object.setBroadphaseHandle(
+        broadphase_.createProxy(low, high, object.getCollisionShape()->getShapeType(), &object,
+                                can_move ? kMovable : kImmovable,
+                                can_move ? kMovable | kImmovable : kMovable, &dispatcher_));
     objects_.push_back(&object);
 }
 
@@ -111,7 +114,8 @@ void Collision::find_contacts(double h) {
 
 void Collision::list_live_pairs() {
     const auto awake = [](const btBroadphaseProxy* proxy) {
-        return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex2() == kAwake;
+        return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex2() ==
+               kAwake;
     };
     live_.clear();
     btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();

@@ -1,5 +1,6 @@
-// Bullet's collision detection, stepped so that sleeping bodies cost nothing and nothing is allocated:
-// a sweep-and-prune broadphase of fixed size, and narrow-phase contact manifolds from pools.
+// Bullet's collision detection, stepped so that sleeping bodies cost nothing and nothing is
+// allocated: a sweep-and-prune broadphase of fixed size, and narrow-phase contact manifolds from
+// pools.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -20,12 +21,13 @@ class Collision {
     Collision(int max_bodies, int max_pairs);
     ~Collision();
 
-    /// The object must outlive this. Its user index names the body; its user index 2 is 1 when awake.
+    /// The object must outlive this. Its user index names the body; its user index 2 is 1 when
+    /// awake.
     void add(btCollisionObject& object, bool can_move);
     void update_bounds(btCollisionObject& object, double h);
 
-    /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one touches
-    /// wake: their user index 2 becomes 1, and their pairs are looked at too.
+    /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
+    /// touches wake: their user index 2 becomes 1, and their pairs are looked at too.
     void find_contacts(double h);
     /// Tells that bodies fell asleep or woke: other pairs are to be looked at.
     void sleepers_changed() { live_is_stale_ = true; }
@@ -43,7 +45,8 @@ class Collision {
             ++version;
             return btHashedOverlappingPairCache::addOverlappingPair(a, b);
         }
-        void* removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b, btDispatcher* dispatcher) override {
+        void* removeOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b,
+                                    btDispatcher* dispatcher) override {
             ++version;
             return btHashedOverlappingPairCache::removeOverlappingPair(a, b, dispatcher);
         }
@@ -69,10 +72,10 @@ class Collision {
     std::vector<btCollisionObject*> objects_;
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
-    std::vector<int> live_;         // pairs with an awake body, by index into the cache
-    int64_t live_version_ = -1;     // of the pairs that live_ was made from
+    std::vector<int> live_;      // pairs with an awake body, by index into the cache
+    int64_t live_version_ = -1;  // of the pairs that live_ was made from
     bool live_is_stale_ = true;
-    std::vector<char> looked_at_;   // by pair
+    std::vector<char> looked_at_;  // by pair
     bool overflowed_ = false;
 };
 

@@ -11,9 +11,10 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Contacts are found this far ahead of touch, and further for bodies that could close more in the step.
+/// Contacts are found this far ahead of touch, and further for bodies that could close more in the
+/// step.
 constexpr double kMargin = 5e-4;      // [m]
-constexpr double kMostMargin = 5e-3;  // [m]
+constexpr double kMostMargin = 2e-2;  // [m]
 /// A contact is the continuation of an old one within this distance on the body.
 constexpr double kSamePoint = 5e-3;  // [m]
 
@@ -22,7 +23,8 @@ const Polyhedron* polyhedron(const btCollisionObject& object) {
 }
 
 double reach(const btCollisionObject& a, const btCollisionObject& b, double h) {
-    const btVector3 closing = a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
+    const btVector3 closing =
+        a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
     return std::min(kMostMargin, kMargin + h * closing.length());
 }
 
@@ -32,7 +34,8 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
               const btCollisionObjectWrapper* b, const double& step)
         : btActivatingCollisionAlgorithm(info, a, b), manifold_(info.m_manifold), step_(step) {
         if (manifold_ == nullptr) {
-            manifold_ = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
+            manifold_ =
+                m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
             owned_ = true;
         }
     }
@@ -40,8 +43,9 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         if (owned_) m_dispatcher->releaseManifold(manifold_);
     }
 
-    void processCollision(const btCollisionObjectWrapper* a_wrap, const btCollisionObjectWrapper* b_wrap,
-                          const btDispatcherInfo&, btManifoldResult* result) override {
+    void processCollision(const btCollisionObjectWrapper* a_wrap,
+                          const btCollisionObjectWrapper* b_wrap, const btDispatcherInfo&,
+                          btManifoldResult* result) override {
         const btCollisionObject& a = *a_wrap->getCollisionObject();
         const btCollisionObject& b = *b_wrap->getCollisionObject();
         const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
@@ -64,7 +68,9 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
                                    btManifoldResult*) override {
         return 1;
     }
-    void getAllContactManifolds(btManifoldArray& manifolds) override { manifolds.push_back(manifold_); }
+    void getAllContactManifolds(btManifoldArray& manifolds) override {
+        manifolds.push_back(manifold_);
+    }
 
   private:
     static void flip(ContactPatch& patch) {
@@ -77,7 +83,8 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         std::array<btManifoldPoint, 4> old;
         std::array<bool, 4> taken{};
         const int old_count = manifold_->getNumContacts();
-        for (int i = 0; i < old_count; ++i) old[static_cast<size_t>(i)] = manifold_->getContactPoint(i);
+        for (int i = 0; i < old_count; ++i)
+            old[static_cast<size_t>(i)] = manifold_->getContactPoint(i);
         manifold_->clearManifold();
         if (!a_is_body0) flip(patch);
         const Pose& X_W0 = a_is_body0 ? X_WA : X_WB;
@@ -93,7 +100,8 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             int nearest = -1;
             double distance = kSamePoint * kSamePoint;
             for (int j = 0; j < old_count; ++j) {
-                const double d = (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
+                const double d =
+                    (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
                 if (!taken[static_cast<size_t>(j)] && d < distance) {
                     distance = d;
                     nearest = j;
@@ -121,7 +129,8 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
 }  // namespace
 
 struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
-    Create(const double& h, btCollisionAlgorithmCreateFunc* bullets) : step(h), otherwise(bullets) {}
+    Create(const double& h, btCollisionAlgorithmCreateFunc* bullets)
+        : step(h), otherwise(bullets) {}
 
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
@@ -140,7 +149,8 @@ struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
 };
 
 PolyhedronAlgorithms::PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step) {
-    constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE};
+    constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
+                                STATIC_PLANE_PROXYTYPE};
     for (const int a : kTypes) {
         for (const int b : kTypes) {
             if (a == STATIC_PLANE_PROXYTYPE && b == STATIC_PLANE_PROXYTYPE) continue;

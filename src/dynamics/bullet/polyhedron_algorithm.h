@@ -1,5 +1,6 @@
-// Bullet's door to dynamics/polyhedron.h: the collision algorithm for pairs of boxes and hulls, and for
-// either against a plane. Contacts keep the impulses of the last step's nearest point, for warm starts.
+// Bullet's door to dynamics/polyhedron.h: the collision algorithm for pairs of boxes and hulls, and
+// for either against a plane. Contacts keep the impulses of the last step's nearest point, for warm
+// starts.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>

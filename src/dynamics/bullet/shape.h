@@ -10,8 +10,12 @@
 
 namespace dihaptic::dynamics {
 
-inline btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
-inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+inline btVector3 to_bullet(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+inline Vec3 from_bullet(const btVector3& v) {
+    return {v.x(), v.y(), v.z()};
+}
 inline btTransform to_bullet(const Pose& X) {
     return btTransform(btQuaternion(X.R.x(), X.R.y(), X.R.z(), X.R.w()), to_bullet(X.p));
 }
@@ -20,8 +24,8 @@ inline Pose from_bullet(const btTransform& X) {
     return {Quat(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin())};
 }
 
-/// The shape, in the frame that Bullet moves: centre of mass and principal axes of inertia. `X_BM` is
-/// the pose of that frame in the body's.
+/// The shape, in the frame that Bullet moves: centre of mass and principal axes of inertia. `X_BM`
+/// is the pose of that frame in the body's.
 std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const Pose& X_BM);
 
 /// The shape as a polyhedron in the same frame; null when it is round, flat, or has too many edges.

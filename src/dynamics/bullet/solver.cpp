@@ -14,11 +14,12 @@ void SequentialImpulse::reserve(int bodies, int contacts) {
 }
 
 contact::SolveStats SequentialImpulse::solve(std::span<btCollisionObject*> bodies,
-                                             std::span<btPersistentManifold*> manifolds, const Settings& settings,
-                                             double h, btDispatcher& dispatcher) {
+                                             std::span<btPersistentManifold*> manifolds,
+                                             const Settings& settings, double h,
+                                             btDispatcher& dispatcher) {
     btContactSolverInfo info;
-    // Two friction directions, along the slip and across: one lets a gripped block pitch. Directions are
-    // not kept from step to step: that would make the cone a pyramid.
+    // Two friction directions, along the slip and across: one lets a gripped block pitch.
+    // Directions are not kept from step to step: that would make the cone a pyramid.
     info.m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS;
     if (settings.warm_start) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
     info.m_warmstartingFactor = 1;
@@ -30,16 +31,16 @@ contact::SolveStats SequentialImpulse::solve(std::span<btCollisionObject*> bodie
 
     iterations_ = 0;
     residual_squared_ = 0;
-    solveGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds.data(), static_cast<int>(manifolds.size()),
-               nullptr, 0, info, nullptr, &dispatcher);
+    solveGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds.data(),
+               static_cast<int>(manifolds.size()), nullptr, 0, info, nullptr, &dispatcher);
     return {iterations_, std::sqrt(residual_squared_), false};
 }
 
 void SequentialImpulse::convertContacts(btPersistentManifold** manifolds, int manifold_count,
                                         const btContactSolverInfo& info) {
-    // Bullet starts normal impulses from the last step's, but friction from zero: a hold that friction
-    // alone carries is then found anew in every step. Directions change from step to step, so the last
-    // impulse is kept as a vector and resolved along the new ones.
+    // Bullet starts normal impulses from the last step's, but friction from zero: a hold that
+    // friction alone carries is then found anew in every step. Directions change from step to step,
+    // so the last impulse is kept as a vector and resolved along the new ones.
     last_friction_.clear();
     for (int m = 0; m < manifold_count; ++m) {
         for (int i = 0; i < manifolds[m]->getNumContacts(); ++i) {
@@ -57,29 +58,35 @@ void SequentialImpulse::convertContacts(btPersistentManifold** manifolds, int ma
         for (int i = 0; i < manifolds[m]->getNumContacts(); ++i, ++contact) {
             if (row >= m_tmpSolverContactConstraintPool.size()) return;
             const btSolverConstraint& normal = m_tmpSolverContactConstraintPool[row];
-            if (normal.m_originalContactPoint != &manifolds[m]->getContactPoint(i)) continue;  // left out by Bullet
+            if (normal.m_originalContactPoint != &manifolds[m]->getContactPoint(i))
+                continue;  // left out by Bullet
             ++row;
             for (int direction = 0; direction < 2; ++direction) {
-                btSolverConstraint& friction = m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + direction];
+                btSolverConstraint& friction =
+                    m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + direction];
                 const btScalar limit = friction.m_friction * normal.m_appliedImpulse;
-                const btScalar impulse = std::clamp(last_friction_[contact].dot(friction.m_contactNormal1), -limit, limit);
+                const btScalar impulse = std::clamp(
+                    last_friction_[contact].dot(friction.m_contactNormal1), -limit, limit);
                 friction.m_appliedImpulse = impulse;
                 btSolverBody& a = m_tmpSolverBodyPool[friction.m_solverBodyIdA];
                 btSolverBody& b = m_tmpSolverBodyPool[friction.m_solverBodyIdB];
-                a.internalApplyImpulse(friction.m_contactNormal1 * a.internalGetInvMass(), friction.m_angularComponentA, impulse);
-                b.internalApplyImpulse(friction.m_contactNormal2 * b.internalGetInvMass(), friction.m_angularComponentB, impulse);
+                a.internalApplyImpulse(friction.m_contactNormal1 * a.internalGetInvMass(),
+                                       friction.m_angularComponentA, impulse);
+                b.internalApplyImpulse(friction.m_contactNormal2 * b.internalGetInvMass(),
+                                       friction.m_angularComponentB, impulse);
             }
         }
     }
 }
 
-btScalar SequentialImpulse::solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                                 btPersistentManifold** manifolds, int manifold_count,
-                                                 btTypedConstraint** constraints, int constraint_count,
-                                                 const btContactSolverInfo& info, btIDebugDraw* draw) {
+btScalar SequentialImpulse::solveSingleIteration(
+    int iteration, btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
+    int manifold_count, btTypedConstraint** constraints, int constraint_count,
+    const btContactSolverInfo& info, btIDebugDraw* draw) {
     iterations_ = iteration + 1;
     residual_squared_ = btSequentialImpulseConstraintSolver::solveSingleIteration(
-        iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count, info, draw);
+        iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
+        info, draw);
     return residual_squared_;
 }
 

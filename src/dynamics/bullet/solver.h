@@ -18,14 +18,17 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
     void reserve(int bodies, int contacts);
 
     /// Changes the bodies' velocities so that the contacts hold; the manifolds keep the impulses.
-    contact::SolveStats solve(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
-                              const Settings& settings, double h, btDispatcher& dispatcher);
+    contact::SolveStats solve(std::span<btCollisionObject*> bodies,
+                              std::span<btPersistentManifold*> manifolds, const Settings& settings,
+                              double h, btDispatcher& dispatcher);
 
   private:
-    void convertContacts(btPersistentManifold** manifolds, int manifold_count, const btContactSolverInfo& info) override;
+    void convertContacts(btPersistentManifold** manifolds, int manifold_count,
+                         const btContactSolverInfo& info) override;
     btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
-                                  btPersistentManifold** manifolds, int manifold_count, btTypedConstraint** constraints,
-                                  int constraint_count, const btContactSolverInfo& info, btIDebugDraw* draw) override;
+                                  btPersistentManifold** manifolds, int manifold_count,
+                                  btTypedConstraint** constraints, int constraint_count,
+                                  const btContactSolverInfo& info, btIDebugDraw* draw) override;
 
     std::vector<btVector3> last_friction_;  // by contact, impulse of the last step on body 0
     int iterations_ = 0;
@@ -33,9 +36,9 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
 };
 
 /// Moves the warm-start impulses of a contact patch toward an even share. Which of a pad's four
-/// corners carries its load is undetermined when the pad cannot turn, and a sequential solver started
-/// from nothing loads the first corner alone: the held object then turns about that corner. Shares
-/// that the load does determine are restored by the solve itself.
+/// corners carries its load is undetermined when the pad cannot turn, and a sequential solver
+/// started from nothing loads the first corner alone: the held object then turns about that corner.
+/// Shares that the load does determine are restored by the solve itself.
 void even_out(btPersistentManifold& manifold);
 
 }  // namespace dihaptic::dynamics

@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <thread>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/diagnostics.h"
+#include "base/geometry.h"
+#include "base/random.h"
+#include "base/ring.h"
+#include "base/table.h"
+#include "testing/files.h"
+
+namespace dihaptic {
+namespace {
+
+TEST(Pose, ProductsAndInverses) {
+    const Pose X_AB{rotation_xyz({0.3, -0.2, 1.1}), {1, 2, 3}};
+    const Pose X_BC{rotation_xyz({-1, 0.4, 0.2}), {0.1, -5, 2}};
+    const Vec3 p_CQ(0.7, 0.8, -0.9);
+    EXPECT_LT(((X_AB * X_BC) * p_CQ - X_AB * (X_BC * p_CQ)).norm(), 1e-14);
+    EXPECT_LT((X_AB.inverse() * (X_AB * p_CQ) - p_CQ).norm(), 1e-14);
+}
+
+TEST(Pose, RotationsAreAboutFixedAxesXThenYThenZ) {
+    const double quarter = std::numbers::pi / 2;
+    EXPECT_LT((rotation_xyz({quarter, 0, quarter}) * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm(), 1e-15);
+    EXPECT_LT((rotation_xyz({quarter, 0, quarter}) * Vec3(1, 0, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
+    EXPECT_NEAR(angle_between(rotation_xyz({0, 0, 0.1}), rotation_xyz({0, 0, 0.4})), 0.3, 1e-15);
+}
+
+TEST(Clock, SumsOfTicksStayExact) {
+    Time t{0};
+    for (int i = 0; i < 3'600'000; ++i) t += from_seconds(1e-3);
+    EXPECT_EQ(seconds(t), 3600.0);
+}
+
+TEST(Random, StreamsAreRepeatableAndIndependent) {
+    Random a(7, "tremor"), b(7, "tremor"), other(7, "noise"), seeded(8, "tremor");
+    const double first = a.uniform(0, 1);
+    EXPECT_EQ(first, b.uniform(0, 1));
+    EXPECT_NE(first, other.uniform(0, 1));
+    EXPECT_NE(first, seeded.uniform(0, 1));
+}
+
+TEST(Random, NormalHasMeanZeroAndUnitVariance) {
+    Random random(1, "normal");
+    double sum = 0, square = 0;
+    const int n = 100000;
+    for (int i = 0; i < n; ++i) {
+        const double x = random.normal();
+        sum += x;
+        square += x * x;
+    }
+    EXPECT_NEAR(sum / n, 0, 0.01);
+    EXPECT_NEAR(square / n, 1, 0.02);
+}
+
+TEST(Ring, RefusesWhatDoesNotFitAndKeepsTheRest) {
+    Ring ring(64);
+    const std::vector<std::byte> record(20, std::byte{5});
+    EXPECT_TRUE(ring.push(record));
+    EXPECT_TRUE(ring.push(record));
+    EXPECT_FALSE(ring.push(record));
+    std::vector<std::byte> out;
+    EXPECT_TRUE(ring.pop(out));
+    EXPECT_EQ(out, record);
+    EXPECT_TRUE(ring.push(record));
+    EXPECT_TRUE(ring.pop(out));
+    EXPECT_TRUE(ring.pop(out));
+    EXPECT_FALSE(ring.pop(out));
+}
+
+TEST(Ring, CarriesRecordsOfAllSizesBetweenThreadsInOrder) {
+    Ring ring(4096);
+    constexpr uint32_t kCount = 200000;
+    std::thread consumer([&] {
+        std::vector<std::byte> out;
+        for (uint32_t i = 0; i < kCount;) {
+            if (!ring.pop(out)) continue;
+            uint32_t number = 0;
+            std::memcpy(&number, out.data(), sizeof(number));
+            ASSERT_EQ(number, i);
+            ASSERT_EQ(out.size(), sizeof(number) + i % 97);
+            ++i;
+        }
+    });
+    std::vector<std::byte> record;
+    for (uint32_t i = 0; i < kCount; ++i) {
+        record.assign(sizeof(i) + i % 97, std::byte{1});
+        std::memcpy(record.data(), &i, sizeof(i));
+        while (!ring.push(record)) std::this_thread::yield();
+    }
+    consumer.join();
+}
+
+TEST(Table, CsvQuotesWhatItMustAndReadsBack) {
+    Table table;
+    table.columns = {{"a", ""}, {"b", ""}};
+    table.rows = {{std::string("x, \"y\"\nz"), 0.5}, {std::string("plain"), std::numeric_limits<double>::quiet_NaN()}};
+    const testing::TemporaryFolder folder;
+    write_csv(table, folder.file("t.csv"));
+    EXPECT_EQ(testing::read_file(folder.file("t.csv")), "a,b\n\"x, \"\"y\"\"\nz\",0.5\nplain,\n");
+    const auto rows = read_csv(folder.file("t.csv"));
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_EQ(rows[1][0], "x, \"y\"\nz");
+    EXPECT_EQ(rows[2][1], "");
+}
+
+TEST(Table, WritingWhereItCannotSaysSo) {
+    EXPECT_THROW(write_file("x", "/nowhere/file.csv"), Error);
+}
+
+}  // namespace
+}  // namespace dihaptic

@@ -1,0 +1,178 @@
+#include "base/field_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "base/field_table.h"
+#include "base/field_writer.h"
+
+namespace dihaptic {
+namespace {
+
+enum class Fruit { apple, pear };
+constexpr auto enum_names(Fruit) { return std::array{"apple", "pear"}; }
+
+struct Inner {
+    double stiffness = 100;
+    std::optional<double> damping;
+    template <class V>
+    void visit(V& v) {
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
+        v("damping", damping, Field::of(Quantity::damping).at_least(0));
+    }
+};
+
+struct Outer {
+    std::string name;
+    Vec3 size{1, 2, 3};
+    int count = 4;
+    bool on = false;
+    Fruit fruit = Fruit::apple;
+    Inner inner;
+    std::vector<Inner> list;
+    template <class V>
+    void visit(V& v) {
+        v("name", name, Field::text().required());
+        v("size", size, Field::length().positive());
+        v("count", count, Field::number().at_least(1).at_most(10));
+        v("on", on);
+        v("fruit", fruit);
+        v("inner", inner);
+        v("list", list);
+    }
+};
+
+struct Read {
+    Outer value;
+    Diagnostics diagnostics;
+    Origins origins;
+
+    explicit Read(const std::string& yaml) {
+        read_fields(value, parse_yaml(yaml, "test.yaml"), diagnostics, &origins);
+    }
+    /// The only problem's text; fails the test when there is another number of them.
+    std::string problem() const {
+        EXPECT_EQ(diagnostics.problems().size(), 1u);
+        return diagnostics.problems().empty() ? "" : diagnostics.problems().front().text();
+    }
+};
+
+TEST(FieldReader, ReadsValuesInAnyUnitOfTheRightKind) {
+    const Read in("name: a\nsize_mm: [10, 20, 30]\ncount: 7\non: yes\nfruit: pear\ninner: {stiffness_N_mm: 2}\n"
+                  "list: [{stiffness_N_m: 1}, {damping_Ns_m: 0}]\n");
+    EXPECT_TRUE(in.diagnostics.problems().empty());
+    EXPECT_EQ(in.value.name, "a");
+    EXPECT_TRUE(in.value.size.isApprox(Vec3(0.01, 0.02, 0.03)));
+    EXPECT_EQ(in.value.count, 7);
+    EXPECT_TRUE(in.value.on);
+    EXPECT_EQ(in.value.fruit, Fruit::pear);
+    EXPECT_EQ(in.value.inner.stiffness, 2000);
+    ASSERT_EQ(in.value.list.size(), 2u);
+    EXPECT_EQ(in.value.list[1].damping, 0.0);
+    EXPECT_EQ(in.value.list[1].stiffness, 100);
+}
+
+TEST(FieldReader, KeepsWhatTheFileDoesNotGive) {
+    const Read in("name: a\n");
+    EXPECT_EQ(in.value.count, 4);
+    EXPECT_FALSE(in.value.inner.damping);
+}
+
+struct Bad {
+    const char* yaml;
+    const char* says;  // a part of the message
+};
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.says; }
+
+class BadInput : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(BadInput, IsReportedWithLineKeyAndRemedy) {
+    EXPECT_NE(Read(GetParam().yaml).problem().find(GetParam().says), std::string::npos) << Read(GetParam().yaml).problem();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    FieldReader, BadInput,
+    ::testing::Values(
+        Bad{"count: 3\n", "test.yaml:1: error: name: is missing. Add name."},
+        Bad{"name: a\ncuont: 3\n", "test.yaml:2: error: cuont: is not known here. Did you mean count?"},
+        Bad{"name: a\nsize: [1, 2, 3]\n", "test.yaml:2: error: size: needs its unit in the key. Write size_m"},
+        Bad{"name: a\nsize_kg: [1, 2, 3]\n", "size_kg: is not a unit of length. Write size_m, size_mm, size_cm or size_um."},
+        Bad{"name: a\nsize_mm: [1, 2]\n", "size_mm: must be three numbers. Write size_mm: [x, y, z]."},
+        Bad{"name: a\nsize_mm: [1, 2, x]\n", "must be a number, is 'x'"},
+        Bad{"name: a\nsize_mm: [1, 2, 3 mm]\n", "Write the number alone; its unit is in the key."},
+        Bad{"name: a\nsize_mm: [1, -2, 3]\n", "size_mm: must be positive, is -2"},
+        Bad{"name: a\nsize_m: [1, 1, 1]\nsize_mm: [1, 1, 1]\n", "size_mm: the same size is given as size_m too"},
+        Bad{"name: a\ncount: 11\n", "count: must be at least 1 and at most 10, is 11"},
+        Bad{"name: a\ncount: 2.5\n", "must be a whole number"},
+        Bad{"name: a\ncount: nan\n", "must be a number, is 'nan'"},
+        Bad{"name: a\ncount: [1]\n", "must be a number, is a list"},
+        Bad{"name: a\non: maybe\n", "must be yes or no"},
+        Bad{"name: a\nfruit: plum\n", "'plum' is not known. Use apple or pear."},
+        Bad{"name: a\ninner: 3\n", "inner: must have keys of its own"},
+        Bad{"name: a\nlist: 3\n", "list: must be a list"},
+        Bad{"name: a\nlist: [{stiffness_N_m: 0}]\n", "stiffness_N_m: must be positive, is 0"},
+        Bad{"name: [a]\n", "name: must be a single word or text"}));
+
+TEST(FieldReader, ReportsAllProblemsOfAFile) {
+    const Read in("cuont: 3\nfruit: plum\n");
+    EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // and the name is missing
+    EXPECT_THROW(in.diagnostics.throw_if_errors(), Error);
+}
+
+TEST(FieldReader, RemembersWhereEachSettingCameFromAndLetsLaterFilesOverride) {
+    Inner inner;
+    Diagnostics diagnostics;
+    Origins origins;
+    read_fields(inner, parse_yaml("stiffness_N_m: 5\ndamping_Ns_m: 1\n", "first.yaml"), diagnostics, &origins);
+    read_fields(inner, parse_yaml("\nstiffness_N_m: 7\n", "second.yaml"), diagnostics, &origins);
+    EXPECT_EQ(inner.stiffness, 7);
+    EXPECT_EQ(inner.damping, 1.0);
+    EXPECT_EQ(origins["stiffness"], "second.yaml:2");
+    EXPECT_EQ(origins["damping"], "first.yaml:2");
+    const Table table = list_fields(inner, origins);
+    EXPECT_EQ(to_csv(table), "setting,value,origin\nstiffness_N_m,7,second.yaml:2\ndamping_Ns_m,1,first.yaml:2\n");
+}
+
+TEST(FieldWriter, WhatIsWrittenReadsBackToTheBit) {
+    Outer out;
+    out.name = "a: \"strange\" name";
+    out.size = {0.1, 1.0 / 3, 1e-17};
+    out.inner.damping = 0.1 + 0.2;
+    out.list.resize(2);
+    const Read in(to_yaml(write_fields(out)));
+    EXPECT_TRUE(in.diagnostics.problems().empty());
+    EXPECT_EQ(in.value.name, out.name);
+    EXPECT_EQ(in.value.size, out.size);
+    EXPECT_EQ(in.value.inner.damping, out.inner.damping);
+    EXPECT_EQ(in.value.list.size(), 2u);
+}
+
+TEST(Node, ReportsBrokenYamlWithItsLine) {
+    try {
+        parse_yaml("a: 1\nb: [1, 2\nc: 3\n", "broken.yaml");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("broken.yaml:"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("is not YAML"), std::string::npos) << e.what();
+    }
+}
+
+TEST(Node, RefusesAKeyGivenTwice) {
+    try {
+        parse_yaml("a: 1\nb: 2\na: 3\n", "twice.yaml");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_STREQ(e.what(), "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
+    }
+}
+
+TEST(Node, SaysWhyAFileCannotBeRead) {
+    try {
+        read_yaml("/nowhere/scene.yaml");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("No such file"), std::string::npos) << e.what();
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic

@@ -1,0 +1,102 @@
+// Every backend of the table keeps the contract of device_group.h.
+#include <gtest/gtest.h>
+
+#include "devices/device_group.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::devices {
+namespace {
+
+class StillDriver final : public hand::Driver {
+  public:
+    double duration() const override { return 1; }
+    const std::vector<Phase>& phases() const override { return phases_; }
+
+  private:
+    hand::FingerTarget do_target(int finger, double) const noexcept override { return {{0.01 * finger, 0.02, 0.03}, Vec3::Zero()}; }
+    std::vector<Phase> phases_{{"still", 0, 1}};
+};
+
+class Conformance : public ::testing::TestWithParam<std::string> {
+  protected:
+    std::unique_ptr<DeviceGroup> make() {
+        Context context;
+        context.driver = &driver_;
+        context.recording = [](Time now, std::span<Reading> readings) {
+            for (size_t i = 0; i < readings.size(); ++i) readings[i].p_DH = Vec3(static_cast<double>(i), seconds(now), 0);
+            return now < std::chrono::seconds(1);
+        };
+        const Pose X_WD{rotation_xyz({0.3, 0.1, -0.5}), {0.1, 0.2, 0.3}};
+        return find_backend(GetParam())->make({{"thumb", {}, {}}, {"index", X_WD, {}}}, context);
+    }
+    StillDriver driver_;
+};
+
+TEST_P(Conformance, LivesThroughItsLifeCycleTwice) {
+    const auto group = make();
+    ASSERT_EQ(group->size(), 2);
+    EXPECT_FALSE(group->info(0).model.empty());
+    std::vector<Reading> readings(2);
+    const std::vector<Vec3> forces(2, Vec3(0.1, 0, 0));
+    for (int life = 0; life < 2; ++life) {
+        group->activate();
+        for (int i = 0; i < 10; ++i) {
+            group->read(i * std::chrono::milliseconds(1), readings);
+            group->write(forces);
+            for (const Reading& reading : readings) {
+                EXPECT_TRUE(reading.p_DH.allFinite());
+                EXPECT_TRUE(reading.v_DH.allFinite());
+            }
+        }
+        group->deactivate();
+        group->deactivate();  // harmless
+    }
+}
+
+TEST_P(Conformance, AllocatesNothingInTheCycle) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    const auto group = make();
+    std::vector<Reading> readings(2);
+    const std::vector<Vec3> forces(2, Vec3(0.1, 0, 0));
+    group->activate();
+    const testing::AllocationGuard guard;
+    for (int i = 0; i < 100; ++i) {
+        group->read(i * std::chrono::milliseconds(1), readings);
+        group->write(forces);
+    }
+    EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {
+    Diagnostics diagnostics;
+    find_backend(GetParam())->check({"thumb", {}, parse_yaml("no_such_option: 1\n", "rig.yaml")}, diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors());
+}
+
+std::vector<std::string> names() {
+    std::vector<std::string> out;
+    for (const Backend& backend : backends()) out.emplace_back(backend.name);
+    return out;
+}
+INSTANTIATE_TEST_SUITE_P(DeviceTable, Conformance, ::testing::ValuesIn(names()));
+
+TEST(DeviceTable, HasSimulatedAndReplay) {
+    EXPECT_NE(find_backend("simulated"), nullptr);
+    EXPECT_NE(find_backend("replay"), nullptr);
+    EXPECT_EQ(find_backend("telepathy"), nullptr);
+}
+
+TEST(Replay, SaysWhenTheRecordingEnds) {
+    Context context;
+    context.recording = [](Time, std::span<Reading>) { return false; };
+    const auto group = find_backend("replay")->make({{"thumb", {}, {}}}, context);
+    std::vector<Reading> readings(1);
+    group->activate();
+    group->read(Time(0), readings);
+    EXPECT_TRUE(readings[0].status & kNoMoreData);
+}
+
+TEST(Replay, NeedsARecording) { EXPECT_THROW(find_backend("replay")->make({{"thumb", {}, {}}}, {}), Error); }
+
+}  // namespace
+}  // namespace dihaptic::devices

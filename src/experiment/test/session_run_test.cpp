@@ -1,0 +1,193 @@
+#include "experiment/session_run.h"
+
+#include <gtest/gtest.h>
+
+#include "recording/raw_log.h"
+#include "testing/files.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::atomic<bool> kGoOn{false};
+
+RunResult run(const std::string& file, const std::string& out, const std::string& movement = "", Clock clock = Clock::virtual_clock,
+              std::vector<std::string> set = {}) {
+    Request request;
+    request.file = file;
+    request.movement = movement;
+    request.set = std::move(set);
+    RunOptions options;
+    options.out = out;
+    options.clock = clock;
+    return run_session(make_plan(request), options, kGoOn, {});
+}
+
+class ShippedRun : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ShippedRun, RunsRepeatsItselfAndReplaysToTheBit) {
+    const testing::TemporaryFolder folder;
+    const RunResult first = run(GetParam(), folder.path());
+    const RunResult second = run(GetParam(), folder.path());
+    EXPECT_EQ(first.dropped, 0);
+    EXPECT_GT(first.ticks, 1000);
+    const std::string log = testing::read_file(first.folder + "/raw.log");
+    EXPECT_TRUE(log == testing::read_file(second.folder + "/raw.log")) << "raw.log differs between two runs";
+    const ReplayResult replay = replay_session(first.folder, kGoOn, {});
+    EXPECT_EQ(replay.ticks, first.ticks);
+    EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
+}
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> out;
+    for (const char* folder : {"scenes", "experiments"}) {
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            // a stand alone has no hand that does anything; its experiment has
+            if (entry.path().stem() != "block-on-stand") out.push_back(entry.path().string());
+        }
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+INSTANTIATE_TEST_SUITE_P(Session, ShippedRun, ::testing::ValuesIn(shipped()));
+
+TEST(Session, TheDemoKeepsEachFingerUnderThePremiumsContinuousForce) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("experiments/lift-block.yaml", folder.path());
+    recording::RawLogReader log(result.folder + "/raw.log");
+    double highest = 0;
+    double force = 0;
+    while (const servo::Frame* frame = log.next()) {
+        highest = std::max(highest, frame->bodies[1].X_WB.p.z());
+        for (const servo::FingerFrame& finger : frame->fingers) force = std::max(force, finger.f_sent_W.norm());
+        EXPECT_EQ(frame->status & servo::kOutsideWorkspace, 0u);
+    }
+    EXPECT_GT(highest - 0.02, 0.095);
+    EXPECT_LT(force, 1.4);
+    EXPECT_GT(force, 1.0);
+}
+
+TEST(Session, ARealClockSessionReplaysToTheBit) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/block-on-table.yaml", folder.path(), "", Clock::real);
+    EXPECT_GE(result.elapsed, 2.9);
+    EXPECT_EQ(result.dropped, 0);
+    const ReplayResult replay = replay_session(result.folder, kGoOn, {});
+    EXPECT_EQ(replay.ticks, result.ticks);
+    EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
+}
+
+TEST(Session, ReplaySeesAForceThatWasChanged) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
+    // another stiffness than the recorded one
+    std::string settings = testing::read_file(result.folder + "/settings.yaml");
+    settings.replace(settings.find("stiffness_N_m: 800"), 18, "stiffness_N_m: 801");
+    std::ofstream(result.folder + "/settings.yaml") << settings;
+    EXPECT_GT(replay_session(result.folder, kGoOn, {}).different_ticks, 100);
+}
+
+TEST(Session, FreezesItsInputsSoThatItNeedsNoOtherFile) {
+    const testing::TemporaryFolder folder;
+    folder.write("block.obj", "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const std::string scene = folder.write(
+        "scene.yaml",
+        "bodies:\n  - {name: floor, shape: plane, fixed: yes}\n  - {name: thing, shape: mesh, file: block.obj, unit: mm, mass_g: 50}\n"
+        "hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.2}]}\n");
+    const RunResult result = run(scene, folder.file("out"));
+    fs::remove(folder.file("block.obj"));
+    fs::remove(scene);
+    EXPECT_EQ(replay_session(result.folder, kGoOn, {}).different_ticks, 0);
+    const std::string csv = testing::read_file(result.folder + "/settings.csv");
+    EXPECT_NE(csv.find("coupling.stiffness_N_m,1000,default"), std::string::npos) << csv;
+}
+
+TEST(Session, RecordsWhereEverySettingCameFrom) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path(), "", Clock::virtual_clock, {"dynamics.iterations=99"});
+    const std::string csv = testing::read_file(result.folder + "/settings.csv");
+    EXPECT_NE(csv.find("coupling.stiffness_N_m,800,scenes/frictionless-plane.yaml:2"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("dynamics.iterations,99,command line"), std::string::npos) << csv;
+}
+
+TEST(Session, StopsInOrderWhenAsked) {
+    const testing::TemporaryFolder folder;
+    Request request;
+    request.file = "scenes/frictionless-plane.yaml";
+    RunOptions options;
+    options.out = folder.path();
+    const std::atomic<bool> stop{true};
+    const RunResult result = run_session(make_plan(request), options, stop, {});
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_EQ(recording::SessionFolder::open(result.folder).read_info().state, recording::SessionState::interrupted);
+}
+
+/// Largest change of any sent force from tick to tick, over the largest allowed.
+double worst_force_rate(const std::string& folder) {
+    recording::RawLogReader log(folder + "/raw.log");
+    const double most = servo::Settings{}.safety.max_force_rate * log.head().tick;
+    std::vector<Vec3> last(log.head().fingers.size(), Vec3::Zero());
+    double worst = 0;
+    while (const servo::Frame* frame = log.next()) {
+        for (size_t i = 0; i < last.size(); ++i) {
+            worst = std::max(worst, (frame->fingers[i].f_sent_W - last[i]).norm() / most);
+            last[i] = frame->fingers[i].f_sent_W;
+        }
+    }
+    return worst;
+}
+
+TEST(Movement, TheShippedOneIsGraspedWithoutAForceSpike) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("experiments/reach-to-grasp.yaml", folder.path());
+    EXPECT_LE(worst_force_rate(result.folder), 1 + 1e-9);
+    EXPECT_TRUE(fs::exists(result.folder + "/movement.csv"));
+    EXPECT_TRUE(fs::exists(result.folder + "/movement-faults.csv"));
+    recording::RawLogReader log(result.folder + "/raw.log");
+    double grip = 0;
+    while (const servo::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
+    EXPECT_GT(grip, 0.5);
+}
+
+TEST(Movement, EveryRecordedOneRunsTwiceTheSameAndWithoutAForceSpike) {
+    DIHAPTIC_NEEDS_DATA(data, "reach-to-grasp");
+    int touched = 0;
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(data)) {
+        if (entry.path().extension() != ".csv") continue;
+        SCOPED_TRACE(entry.path().string());
+        const testing::TemporaryFolder folder;
+        const RunResult a = run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
+        const RunResult b = run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
+        EXPECT_TRUE(testing::read_file(a.folder + "/raw.log") == testing::read_file(b.folder + "/raw.log"));
+        EXPECT_LE(worst_force_rate(a.folder), 1 + 1e-9);
+        ++count;
+        recording::RawLogReader log(a.folder + "/raw.log");
+        double grip = 0;
+        while (const servo::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
+        if (grip > 0.2) ++touched;
+    }
+    EXPECT_EQ(count, 30);
+    EXPECT_GE(touched, 25) << "movements whose fingers met the block on both sides";
+}
+
+TEST(Movement, ALineInMetresIsReportedAndBridged) {
+    const testing::TemporaryFolder folder;
+    std::istringstream in(testing::read_file("movements/reach-to-grasp.csv"));
+    std::string line, out;
+    for (int n = 1; std::getline(in, line); ++n) {
+        if (n == 130) line = line.substr(0, line.find(',')) + ",0.035,-0.04,-0.31,0.03,-0.05,-0.35,0";
+        out += line + "\n";
+    }
+    Request request;
+    request.file = "experiments/reach-to-grasp.yaml";
+    request.movement = folder.write("m.csv", out);
+    const Plan plan = make_plan(request);
+    ASSERT_FALSE(plan.warnings.empty());
+    EXPECT_NE(plan.warnings[0].text().find("m.csv:130: warning: thumb: this line's values are a thousandth"), std::string::npos)
+        << plan.warnings[0].text();
+}
+
+}  // namespace
+}  // namespace dihaptic::experiment

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "haptics/finger.h"
+
+namespace dihaptic::haptics {
+namespace {
+
+constexpr double kStep = 1e-3;
+
+TEST(Limiter, CutsMagnitudeAndKeepsDirection) {
+    Limiter limiter(2, 1e9);
+    unsigned flags = 0;
+    EXPECT_LT((limiter.limit({3, 4, 0}, kStep, flags) - Vec3(1.2, 1.6, 0)).norm(), 1e-15);
+    EXPECT_EQ(flags, kForceLimited);
+    flags = 0;
+    EXPECT_EQ(limiter.limit({1, 0, 0}, kStep, flags), Vec3(1, 0, 0));
+    EXPECT_EQ(flags, 0u);
+}
+
+TEST(Limiter, CutsChange) {
+    Limiter limiter(100, 500);  // half a newton a tick
+    unsigned flags = 0;
+    Vec3 last = Vec3::Zero();
+    for (int i = 0; i < 10; ++i) {
+        const Vec3 now = limiter.limit({0, 0, 3}, kStep, flags);
+        EXPECT_LE((now - last).norm(), 0.5 + 1e-12);
+        last = now;
+    }
+    EXPECT_EQ(flags, kRateLimited);
+    EXPECT_EQ(last, Vec3(0, 0, 3));
+}
+
+TEST(Limiter, DropsToZeroAtOnceAndForGoodOnWhatIsNoNumber) {
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        Limiter limiter(10, 500);
+        unsigned flags = 0;
+        for (int i = 0; i < 10; ++i) limiter.limit({0, 0, 5}, kStep, flags);
+        flags = 0;
+        EXPECT_EQ(limiter.limit({0, bad, 0}, kStep, flags), Vec3::Zero());
+        EXPECT_EQ(flags, kNotFinite);
+        EXPECT_EQ(limiter.limit({0, 0, 1}, kStep, flags), Vec3::Zero());
+        EXPECT_TRUE(limiter.faulted());
+    }
+}
+
+/// A finger in front of a fixed wall whose face is x = 0, solid beyond.
+struct Scene {
+    scene::Finger finger;
+    World world;
+    BodyIndex proxy;
+
+    static scene::Scene wall() {
+        scene::Scene scene;
+        scene::Body body;
+        body.name = "wall";
+        body.shape = scene::Shape::box({0.2, 1, 1});
+        body.position = {0.1, 0, 0};
+        body.fixed = true;
+        body.friction = 0.5;
+        scene.bodies = {body};
+        return scene;
+    }
+    Scene() : world(wall(), {}) {
+        finger.name = "index";
+        finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
+        finger.friction = 0.5;
+        proxy = world.add_proxy(finger, {-0.05, 0, 0});
+        world.activate();
+    }
+    Vec3 tick(Finger& f, const Handle& handle) {
+        f.begin_tick(world, handle, kStep);
+        f.before_step(world, handle, kStep);
+        world.step(kStep);
+        f.after_step(world);
+        return f.force(world, handle, kStep).f_asked_W;
+    }
+};
+
+CouplingSettings implicit(double k) {
+    CouplingSettings settings;
+    settings.stiffness = k;
+    return settings;
+}
+
+TEST(ImplicitCoupling, LeavesTheHandFreeInFreeSpaceAndTheProxyFollows) {
+    Scene s;
+    Finger finger(s.finger, s.proxy, implicit(1000), 8.5, 1e9);
+    for (int i = 0; i < 300; ++i) {
+        const double y = 0.1 * i * kStep;
+        EXPECT_EQ(s.tick(finger, {{-0.05, y, 0}, {0, 0.1, 0}}), Vec3::Zero());
+    }
+    EXPECT_NEAR(s.world.state(s.proxy).X_WB.p.y(), 0.03, 2e-4);
+}
+
+TEST(ImplicitCoupling, PressesAWallWithStiffnessTimesDepth) {
+    for (const double k : {300.0, 4000.0}) {
+        Scene s;
+        Finger finger(s.finger, s.proxy, implicit(k), 1e3, 1e9);
+        Vec3 f;
+        const double depth = 0.01;
+        for (int i = 0; i < 2000; ++i) {
+            const double x = std::min(-0.05 + 0.1 * i * kStep, depth - 0.0025);
+            f = s.tick(finger, {{x, 0, 0}, {x < depth - 0.0025 ? 0.1 : 0, 0, 0}});
+        }
+        EXPECT_NEAR(f.x() / (-k * depth), 1, 1e-4);
+        EXPECT_NEAR(f.tail<2>().norm(), 0, 1e-6);
+        EXPECT_TRUE(finger.touch().touching);
+        EXPECT_LT((finger.touch().n_W - Vec3(-1, 0, 0)).norm(), 1e-9);
+        EXPECT_NEAR(finger.touch().friction, 0.5, 1e-12);
+    }
+}
+
+TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
+    Scene s;
+    Finger finger(s.finger, s.proxy, implicit(1000), 1e3, 1e9);
+    Vec3 f;
+    double largest = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double x = std::min(-0.05 + 0.1 * i * kStep, 0.0075);  // 10 mm deep: 10 N
+        const double y = i < 1000 ? 0 : 0.01 * (i - 1000) * kStep;   // then along the wall, to 20 mm
+        f = s.tick(finger, {{x, y, 0}, {0, i < 1000 ? 0 : 0.01, 0}});
+        largest = std::max(largest, std::abs(f.y()));
+        if (i == 1300) {
+            EXPECT_NEAR(s.world.state(s.proxy).X_WB.p.y(), 0, 1e-6);
+            EXPECT_NEAR(f.y(), -3, 0.02);
+        }
+    }
+    EXPECT_NEAR(largest, 0.5 * 10, 0.05);
+    EXPECT_NEAR(f.y(), -5, 0.05);  // slides behind the hand
+    EXPECT_NEAR(s.world.state(s.proxy).X_WB.p.y(), 0.02 - 0.005, 3e-4);
+}
+
+TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
+    Scene s;
+    Finger finger(s.finger, s.proxy, implicit(1000), 1e3, 1e9);
+    for (int i = 0; i < 2000; ++i) s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
+    EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.x(), -11, 0.01);
+    EXPECT_EQ(finger.force(s.world, {{-0.01, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.norm(), 0);  // it does not pull
+    const Vec3 across = finger.force(s.world, {{0.0075, 0.05, 0}, Vec3::Zero()}, kStep).f_asked_W;
+    EXPECT_NEAR(across.y(), -0.5 * -across.x(), 1e-9);  // it slides
+}
+
+TEST(DualSpring, SmoothsTheForceByItsFilter) {
+    Scene s;
+    CouplingSettings settings;
+    settings.kind = CouplingKind::dual_spring;
+    settings.stiffness = 100;
+    settings.damping = 0;
+    Finger finger(s.finger, s.proxy, settings, 1e3, 1e9);
+    const Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
+    // the proxy stands still for the first force: it is one hundredth of a metre behind
+    finger.begin_tick(s.world, handle, kStep);
+    const Vec3 first = finger.force(s.world, handle, kStep).f_asked_W;
+    finger.begin_tick(s.world, handle, kStep);
+    const Vec3 second = finger.force(s.world, handle, kStep).f_asked_W;
+    EXPECT_NEAR(first.x(), 0.2 * 100 * -0.01, 1e-12);
+    EXPECT_NEAR(second.x(), (0.2 + 0.8 * 0.2) * 100 * -0.01, 1e-12);
+}
+
+TEST(DualSpring, DragsTheHandInFreeMotion) {
+    Scene s;
+    CouplingSettings settings;
+    settings.kind = CouplingKind::dual_spring;
+    Finger finger(s.finger, s.proxy, settings, 1e3, 1e9);
+    Vec3 f;
+    for (int i = 0; i < 400; ++i) {
+        const double t = i * kStep;
+        f = s.tick(finger, {{-0.05, 2 * t * t, 0}, {0, 4 * t, 0}});
+    }
+    // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper adds a
+    // little, since the proxy's speed is a step late
+    EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
+}
+
+TEST(Coupling, DefaultDampingCancelsTheHoldOfOneSample) {
+    EXPECT_DOUBLE_EQ(damping(implicit(1000), 1e-3), 0.5);
+    CouplingSettings given = implicit(1000);
+    given.damping = 2;
+    EXPECT_EQ(damping(given, 1e-3), 2);
+}
+
+}  // namespace
+}  // namespace dihaptic::haptics

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model/butterworth.h"
+#include "model/grasp.h"
+#include "model/minimum_jerk.h"
+
+namespace dihaptic::model {
+namespace {
+
+TEST(MinimumJerk, StartsAndEndsAtRestWithItsPeakInTheMiddle) {
+    EXPECT_EQ(minimum_jerk(-1).share, 0);
+    EXPECT_EQ(minimum_jerk(0).rate, 0);
+    EXPECT_EQ(minimum_jerk(2).share, 1);
+    EXPECT_EQ(minimum_jerk(2).rate, 0);
+    EXPECT_DOUBLE_EQ(minimum_jerk(0.5).share, 0.5);
+    EXPECT_DOUBLE_EQ(minimum_jerk(0.5).rate, kMinimumJerkPeak);
+    const double h = 1e-6;
+    for (double s = 0.1; s < 1; s += 0.1) {
+        EXPECT_NEAR((minimum_jerk(s + h).share - minimum_jerk(s - h).share) / (2 * h), minimum_jerk(s).rate, 1e-8);
+    }
+}
+
+std::vector<double> sine(double frequency, double rate, size_t n) {
+    std::vector<double> out(n);
+    for (size_t i = 0; i < n; ++i) out[i] = std::sin(2 * std::numbers::pi * frequency * static_cast<double>(i) / rate);
+    return out;
+}
+
+/// Of a sine, from the root mean square of its middle half.
+double amplitude(const std::vector<double>& x) {
+    double square = 0;
+    for (size_t i = x.size() / 4; i < 3 * x.size() / 4; ++i) square += x[i] * x[i];
+    return std::sqrt(2 * square / (static_cast<double>(x.size()) / 2));
+}
+
+/// |H|^2 of a second-order Butterworth at a frequency, by the bilinear transform: both passes together.
+double both_passes(double frequency, double cutoff, double rate, bool high) {
+    const double ratio = std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
+    return 1 / (1 + std::pow(high ? 1 / ratio : ratio, 4));
+}
+
+TEST(Butterworth, HasTheMagnitudeOfItsClosedForm) {
+    for (const double f : {1.0, 3.0, 5.0, 8.0, 20.0, 100.0}) {
+        const auto x = sine(f, 1000, 8000);
+        EXPECT_NEAR(amplitude(high_pass(x, 5, 1000)), both_passes(f, 5, 1000, true), 3e-3) << f;
+        EXPECT_NEAR(amplitude(low_pass(x, 5, 1000)), both_passes(f, 5, 1000, false), 3e-3) << f;
+    }
+}
+
+TEST(Butterworth, DoesNotShiftInTime) {
+    const auto x = sine(2, 1000, 4000);
+    const auto y = low_pass(x, 20, 1000);
+    for (size_t i = 1000; i < 3000; ++i) EXPECT_NEAR(x[i], y[i], 1e-3);
+}
+
+TEST(Butterworth, LeavesAConstantAlone) {
+    for (const double y : low_pass(std::vector<double>(100, 3.5), 5, 1000)) EXPECT_NEAR(y, 3.5, 1e-12);
+    for (const double y : high_pass(std::vector<double>(100, 3.5), 5, 1000)) EXPECT_NEAR(y, 0, 1e-12);
+}
+
+TEST(Grasp, ClosedForms) {
+    EXPECT_DOUBLE_EQ(series_spring_force(0.015, 300, 600), 3.0);
+    EXPECT_DOUBLE_EQ(minimum_grip(0.981, 0.5), 0.981);
+    EXPECT_DOUBLE_EQ(passive_stiffness(3, 1e-3), 6000);
+}
+
+}  // namespace
+}  // namespace dihaptic::model

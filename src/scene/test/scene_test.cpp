@@ -1,0 +1,189 @@
+#include "scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scene/mesh.h"
+#include "testing/files.h"
+
+namespace dihaptic::scene {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Vertices of a box with corners at 0 and size.
+std::vector<Vec3> corners(const Vec3& size) {
+    std::vector<Vec3> out;
+    for (int i = 0; i < 8; ++i) out.push_back(size.cwiseProduct(Vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
+    return out;
+}
+
+TEST(Hull, OfABoxWithPointsInsideHasItsVolumeAndInertia) {
+    std::vector<Vec3> points = corners({0.04, 0.06, 0.1});
+    points.emplace_back(0.02, 0.03, 0.05);
+    const Hull hull = convex_hull(points);
+    EXPECT_EQ(hull.vertices.size(), 8u);
+    const VolumeIntegrals mine = integrate(hull.vertices, hull.faces);
+    const VolumeIntegrals box = integrate(Shape::box({0.04, 0.06, 0.1}));
+    EXPECT_NEAR(mine.volume, box.volume, 1e-15);
+    EXPECT_LT((mine.centre - Vec3(0.02, 0.03, 0.05)).norm(), 1e-14);
+    EXPECT_LT((mine.inertia - box.inertia).norm(), 1e-18);
+}
+
+TEST(Hull, OfPointsInAPlaneIsEmpty) {
+    EXPECT_TRUE(convex_hull(corners({1, 1, 0})).faces.empty());
+}
+
+TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
+    // a capsule, as a surface of revolution with many facets
+    Shape capsule;
+    capsule.kind = ShapeKind::capsule;
+    capsule.radius = 0.01;
+    capsule.length = 0.03;
+    std::vector<Vec3> points;
+    for (int ring = -60; ring <= 60; ++ring) {
+        const double latitude = kPi / 2 * ring / 60;
+        for (int i = 0; i < 120; ++i) {
+            const double longitude = 2 * kPi * i / 120;
+            const double z = capsule.radius * std::sin(latitude) + (ring > 0 ? 1 : ring < 0 ? -1 : 0) * capsule.length / 2;
+            points.emplace_back(capsule.radius * std::cos(latitude) * std::cos(longitude),
+                                capsule.radius * std::cos(latitude) * std::sin(longitude), z);
+        }
+    }
+    const Hull hull = convex_hull(points);
+    const VolumeIntegrals fine = integrate(hull.vertices, hull.faces);
+    const VolumeIntegrals exact = integrate(capsule);
+    EXPECT_NEAR(fine.volume / exact.volume, 1, 2e-3);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(fine.inertia(axis, axis) / exact.inertia(axis, axis), 1, 4e-3);
+}
+
+TEST(Integrals, OfSphereAndCylinder) {
+    const VolumeIntegrals sphere = integrate(Shape::sphere(0.02));
+    EXPECT_NEAR(sphere.volume, 4.0 / 3 * kPi * 8e-6, 1e-18);
+    EXPECT_NEAR(sphere.inertia(0, 0) / sphere.volume, 0.4 * 4e-4, 1e-18);
+    Shape cylinder;
+    cylinder.kind = ShapeKind::cylinder;
+    cylinder.radius = 0.01;
+    cylinder.length = 0.05;
+    const VolumeIntegrals c = integrate(cylinder);
+    EXPECT_NEAR(c.inertia(2, 2) / c.volume, 1e-4 / 2, 1e-18);
+    EXPECT_NEAR(c.inertia(0, 0) / c.volume, (3e-4 + 25e-4) / 12, 1e-18);
+}
+
+TEST(PairFriction, IsWhatTheFileSaysOfThePairOrElseTheGeometricMean) {
+    Scene scene;
+    scene.pairs = {{{"thumb", "block"}, 0.35, {}}};
+    EXPECT_DOUBLE_EQ(pair_friction(scene, "block", 0.8, "table", 0.8), 0.8);
+    EXPECT_DOUBLE_EQ(pair_friction(scene, "block", 0.9, "table", 0.4), 0.6);
+    EXPECT_EQ(pair_friction(scene, "block", 0.8, "thumb", 0.8), 0.35);
+    EXPECT_EQ(pair_friction(scene, "block", 0, "table", 0.8), 0);
+}
+
+/// A scene with one more line or body, and the messages that reading it gives.
+std::string problems_of(const std::string& yaml) {
+    const testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    read_scene(folder.write("scene.yaml", yaml), diagnostics);
+    std::string all;
+    for (const Problem& p : diagnostics.problems()) all += p.text() + "\n";
+    return all;
+}
+
+const std::string kBlock =
+    "bodies:\n  - {name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100}\n";
+
+TEST(SceneFile, ReadsAndFillsInTwoPads) {
+    EXPECT_EQ(problems_of(kBlock), "");
+    const testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    const Scene scene = read_scene(folder.write("scene.yaml", kBlock), diagnostics);
+    ASSERT_EQ(scene.fingers.size(), 2u);
+    EXPECT_EQ(scene.fingers[0].name, "thumb");
+    EXPECT_EQ(scene.object_index(), 0);
+    EXPECT_EQ(mass(scene.bodies[0]), 0.1);
+}
+
+TEST(SceneFile, MassFromDensity) {
+    Body body;
+    body.shape = Shape::box({0.1, 0.1, 0.1});
+    body.density = 800;
+    EXPECT_NEAR(mass(body), 0.8, 1e-15);
+}
+
+struct Bad {
+    const char* yaml;
+    const char* says;
+};
+void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.says; }
+class BadScene : public ::testing::TestWithParam<Bad> {};
+TEST_P(BadScene, IsReported) {
+    EXPECT_NE(problems_of(GetParam().yaml).find(GetParam().says), std::string::npos) << problems_of(GetParam().yaml);
+}
+INSTANTIATE_TEST_SUITE_P(
+    SceneFile, BadScene,
+    ::testing::Values(
+        Bad{"title: x\n", "bodies: is missing"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n", "scene.yaml:2: error: mass_g: must be positive, is -100"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40]}\n", "has neither mass nor density"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 1, density_g_cm3: 1}\n", "both mass and density"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_m: [40, 40, 40], mass_g: 100}\n", "warning: this shape is 40 m large. Check the unit"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_kg: 100}\n", "warning: b: weighs 100 kg. Check the unit"},
+        Bad{"bodies:\n  - {name: b, shape: ball, size_mm: [4, 4, 4], mass_g: 1}\n", "'ball' is not known. Use box, sphere"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, size_mm: [4, 4, 4], mass_g: 1}\n", "radius: is missing"},
+        Bad{"bodies:\n  - {name: p, shape: plane}\n", "a plane is infinite and cannot move"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, turns: xy}\n", "cannot be held to turn about two axes"},
+        Bad{"bodies:\n  - {name: b, shape: mesh, file: gone.obj, unit: mm, mass_g: 1}\n", "there is no mesh"},
+        Bad{"bodies:\n  - {name: b, shape: mesh, file: scene.yaml, unit: mm, mass_g: 1}\n", "cannot be read"},
+        Bad{"bodies:\n  - {name: b, shape: mesh, file: m.obj, mass_g: 1}\n", "unit: is missing"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1}\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1}\n", "'b' is used twice"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - {between: [blokc, thumb], friction: 1}\n", "there is no body or finger 'blokc'. Did you mean block?"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - {between: [block], friction: 1}\n", "must be two names"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\nobject: blok\n", "Did you mean block?"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, friction: -1}\n", "friction: must be at least 0"}));
+
+const char* const kObj =
+    "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\n"
+    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const char* const kStl =
+    "solid t\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 40 0\nvertex 40 0 0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 40 0 0\nvertex 0 0 40\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 40\nvertex 0 40 0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 40 0 0\nvertex 0 40 0\nvertex 0 0 40\nendloop\nendfacet\n"
+    "endsolid t\n";
+const char* const kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n40 0 0\n0 40 0\n0 0 40\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+class MeshFormat : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+TEST_P(MeshFormat, IsReadWithItsUnit) {
+    const testing::TemporaryFolder folder;
+    const auto [name, text] = GetParam();
+    folder.write(name, text);
+    const std::string yaml = std::string("bodies:\n  - {name: t, shape: mesh, file: ") + name + ", unit: mm, density_g_cm3: 1}\n";
+    Diagnostics diagnostics;
+    const Scene scene = read_scene(folder.write("scene.yaml", yaml), diagnostics);
+    EXPECT_TRUE(diagnostics.problems().empty());
+    EXPECT_NEAR(mass(scene.bodies[0]), 1000 * 0.04 * 0.04 * 0.04 / 6, 1e-9);
+}
+INSTANTIATE_TEST_SUITE_P(SceneFile, MeshFormat,
+                         ::testing::Values(std::pair{"t.obj", kObj}, std::pair{"t.stl", kStl}, std::pair{"t.ply", kPly}));
+
+TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
+    // an L of two boxes, one face shared
+    const testing::TemporaryFolder folder;
+    folder.write("l.obj",
+                 "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+                 "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
+                 "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n");
+    Diagnostics diagnostics;
+    read_scene(folder.write("scene.yaml", "bodies:\n  - {name: l, shape: mesh, file: l.obj, unit: cm, mass_g: 10}\n"), diagnostics);
+    ASSERT_EQ(diagnostics.problems().size(), 1u);
+    EXPECT_NE(diagnostics.problems()[0].text().find("is not convex: its convex hull, of 17 % more volume"), std::string::npos)
+        << diagnostics.problems()[0].text();
+}
+
+}  // namespace
+}  // namespace dihaptic::scene

@@ -1,0 +1,211 @@
+#include "servo/servo.h"
+
+#include <gtest/gtest.h>
+
+#include "hand/script.h"
+#include "servo/run.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::servo {
+namespace {
+
+/// Two fingers that close on a block on a table, and lift it.
+struct Grasp {
+    scene::Scene scene;
+    hand::HandSpec hand;
+    std::unique_ptr<hand::ScriptDriver> driver;
+    std::unique_ptr<Servo> servo;
+
+    explicit Grasp(const Settings& settings = {}, const std::string& options = "") {
+        scene::Body table;
+        table.name = "table";
+        table.shape = scene::Shape::box({1, 1, 0.1});
+        table.position = {0, 0, -0.05};
+        table.fixed = true;
+        scene::Body block;
+        block.name = "block";
+        block.shape = scene::Shape::box({0.04, 0.04, 0.04});
+        block.position = {0, 0, 0.02};
+        block.mass = 0.1;
+        scene.bodies = {table, block};
+        Diagnostics diagnostics;
+        scene::complete(scene, "", diagnostics);
+        hand.centre = {0, 0, 0.02};
+        hand.aperture = 0.06;
+        hand.script = {{"close", 0.3, 0.03, Vec3::Zero(), false}, {"lift", 0.5, {}, {0, 0, 0.05}, false}, {"hold", 0.3, {}, Vec3::Zero(), false}};
+        const auto fingers = scene::finger_names(scene);
+        driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
+        rig::Rig rig = rig::simulated_rig(fingers);
+        rig.devices[1].rotation = {0.5, 0.2, 1.1};
+        rig.devices[1].position = {0.3, 0, 0};
+        if (!options.empty()) {
+            for (rig::Device& device : rig.devices) device.options = parse_yaml(options, "rig.yaml");
+        }
+        devices::Context context;
+        context.driver = driver.get();
+        context.impedance = hand.impedance;
+        servo = std::make_unique<Servo>(scene, settings, rig::make_devices(rig, fingers, context), rig::poses(rig, fingers));
+        servo->activate();
+    }
+    const Frame& run(double from, double to, const FrameSink& sink = {}) {
+        const Frame* frame = nullptr;
+        for (double t = from; t < to - 1e-9; t += 1e-3) {
+            frame = &servo->tick(from_seconds(t), {});
+            if (sink) sink(*frame);
+        }
+        return *frame;
+    }
+};
+
+/// The fingers sag by half the weight over 300 and 1000 N/m in series.
+constexpr double kLiftedHeight = 0.07 - 0.1 * 9.81 / 2 / (300.0 * 1000 / 1300);
+
+TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
+    Grasp grasp;
+    const Frame& frame = grasp.run(0, 1.1);
+    EXPECT_EQ(frame.status, 0u);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
+    // targets 7.5 mm beyond contact, through 300 and 1000 N/m in series
+    EXPECT_NEAR(frame.grip_force / (0.0075 * 300 * 1000 / 1300), 1, 0.01);
+    EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
+    EXPECT_NEAR(-frame.fingers[0].f_sent_W.z() - frame.fingers[1].f_sent_W.z(), 0.1 * 9.81, 0.01);
+    EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.grip_force, 1e-2);
+    EXPECT_EQ(frame.contacts.size(), 2u);  // a finger each: the block has left the table
+    EXPECT_EQ(frame.contacts[0].points, 4);
+}
+
+TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
+    // pressing a wall at speed: the force of a tick is that of the tick's own depth
+    Grasp grasp;
+    grasp.run(0, 0.25, [](const Frame& frame) {
+        const FingerFrame& thumb = frame.fingers[0];
+        if (thumb.normal_force <= 0) return;
+        const double stretch = thumb.p_WP.x() - thumb.p_WH.x();
+        const double spring = 1000 * stretch + 0.5 * (thumb.v_WP.x() - thumb.v_WH.x());
+        EXPECT_NEAR(thumb.f_sent_W.x(), spring, 1e-9);
+    });
+}
+
+TEST(Servo, IsTheSameWhereverTheDevicesStand) {
+    Grasp here;
+    Grasp there;  // the second device of both is turned; compare the fingers with each other
+    const Frame& frame = here.run(0, 1.1);
+    EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.fingers[1].f_sent_W.x(), 1e-6);
+    EXPECT_NEAR(frame.fingers[0].f_sent_W.z(), frame.fingers[1].f_sent_W.z(), 1e-6);
+}
+
+TEST(Servo, AllocatesNothingAfterActivation) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    for (const auto kind : {haptics::CouplingKind::implicit, haptics::CouplingKind::dual_spring}) {
+        for (const char* options : {"", "preset: premium_1_0\ndelay_ticks: 1\n"}) {
+            Settings settings;
+            settings.coupling.kind = kind;
+            settings.coupling.stiffness = 500;
+            Grasp grasp(settings, options);
+            const Director director = [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+                commands.phase = 1;
+                commands.load({{1}, {0, 0, 0.01}, Vec3::Zero()});
+            };
+            const testing::AllocationGuard guard;
+            for (int i = 0; i < 1100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), director);
+            EXPECT_EQ(guard.count(), 0u);
+        }
+    }
+}
+
+TEST(Servo, TheAllocationGuardSeesADirectorThatAllocates) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Grasp grasp;
+    std::vector<int> grows;
+    const Director director = [&](const Frame&, std::span<const haptics::Handle>, Commands&) { grows.push_back(1); };
+    const testing::AllocationGuard guard;
+    grasp.servo->tick(Time(0), director);
+    EXPECT_GT(guard.count(), 0u);
+}
+
+TEST(Servo, RepeatsItselfToTheBit) {
+    Grasp a, b;
+    const Frame& last_a = a.run(0, 1.1);
+    const Frame& last_b = b.run(0, 1.1);
+    EXPECT_EQ(last_a.fingers[0].f_sent_W, last_b.fingers[0].f_sent_W);
+    EXPECT_EQ(last_a.bodies[1].X_WB.p, last_b.bodies[1].X_WB.p);
+}
+
+TEST(Servo, KeepsTheForceWithinItsLimitsAndSaysSo) {
+    Settings settings;
+    settings.safety.max_force = 1.0;
+    settings.safety.max_force_rate = 20;
+    Grasp grasp(settings);
+    Vec3 last = Vec3::Zero();
+    uint32_t status = 0;
+    grasp.run(0, 0.6, [&](const Frame& frame) {
+        const Vec3& f = frame.fingers[0].f_sent_W;
+        EXPECT_LE(f.norm(), 1.0 + 1e-12);
+        EXPECT_LE((f - last).norm(), 20 * 1e-3 + 1e-12);
+        last = f;
+        status |= frame.status;
+    });
+    EXPECT_TRUE(status & kForceLimited);
+    EXPECT_TRUE(status & kRateLimited);
+}
+
+TEST(Servo, TellsOfHandlesOutsideTheirWorkspace) {
+    Grasp grasp({}, "workspace_mm: [10, 10, 10]\n");
+    EXPECT_TRUE(grasp.run(0, 0.1).status & kOutsideWorkspace);
+}
+
+TEST(Servo, DynamicsMayBeSlower) {
+    Settings settings;
+    settings.dynamics.every = 10;
+    Grasp grasp(settings);
+    const Frame& frame = grasp.run(0, 1.1);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
+    EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
+}
+
+TEST(Servo, LoadsOfTheDirectorActOnBodies) {
+    Grasp grasp;
+    const Director push = [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+        commands.load({{1}, {0, 0, 2 * 0.1 * 9.81}, Vec3::Zero()});
+    };
+    for (int i = 0; i < 100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), push);
+    const Frame& frame = grasp.servo->tick(std::chrono::milliseconds(100), push);
+    EXPECT_NEAR(frame.bodies[1].v_WB.z(), 9.81 * 0.101, 1e-6);
+}
+
+TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
+    Grasp grasp;
+    const std::atomic<bool> stop{false};
+    TickTimes times;
+    times.reserve(2000);
+    int frames = 0;
+    const Director director = [](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
+        commands.stop = last.sequence == 98;
+    };
+    run_virtual(*grasp.servo, director, [&](const Frame&) { ++frames; }, std::chrono::seconds(10), stop, &times);
+    EXPECT_EQ(frames, 100);
+    EXPECT_EQ(times.count(), 100u);
+    EXPECT_GT(times.quantile(1), 0);
+}
+
+TEST(Run, RealTimeKeepsPaceAndCountsOverruns) {
+    Grasp grasp;
+    const std::atomic<bool> stop{false};
+    std::atomic<int64_t> reached{0};
+    TickTimes times;
+    times.reserve(1000);
+    const auto begin = std::chrono::steady_clock::now();
+    const RealTimeResult result = run_real(
+        *grasp.servo, {}, [&](const Frame& frame) {
+            EXPECT_GE(frame.lateness, 0);
+            if (frame.sequence == 50) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // an overrun
+        },
+        std::chrono::milliseconds(200), stop, times, reached);
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
+    EXPECT_GE(result.overruns, 1);
+    EXPECT_EQ(result.reached, Time(reached.load()));
+    EXPECT_LT(times.count(), 201u - 15u);  // the missed ticks are left out
+}
+
+}  // namespace
+}  // namespace dihaptic::servo

@@ -1,0 +1,126 @@
+"""session.nwb, read as a user would: with h5py, without this program.
+
+Usage: nwb_test.py PROGRAM, from the project's folder.
+"""
+import datetime
+import glob
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+
+
+class Nwb(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        subprocess.run([PROGRAM, "run", "experiments/lift-block.yaml", "--out", cls.folder.name, "--participant", "S07",
+                        "--set", "coupling.stiffness_N_m=900"], check=True, capture_output=True)
+        (name,) = glob.glob(cls.folder.name + "/*/session.nwb")
+        cls.file = h5py.File(name, "r")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.file.close()
+        cls.folder.cleanup()
+
+    def text(self, path):
+        return self.file[path].asstr()[()]
+
+    def test_root_has_what_the_schema_wants(self):
+        self.assertEqual(self.file.attrs["namespace"], "core")
+        self.assertEqual(self.file.attrs["neurodata_type"], "NWBFile")
+        self.assertRegex(self.file.attrs["nwb_version"], r"^2\.")
+        self.assertEqual(len(self.file.attrs["object_id"]), 36)
+        for name in ["identifier", "session_description", "session_start_time", "timestamps_reference_time", "file_create_date"]:
+            self.assertIn(name, self.file)
+        for name in ["acquisition", "analysis", "processing", "stimulus/presentation", "stimulus/templates", "general"]:
+            self.assertIsInstance(self.file[name], h5py.Group, name)
+        started = datetime.datetime.fromisoformat(self.text("session_start_time"))
+        self.assertIsNotNone(started.utcoffset())
+        self.assertLess(abs((datetime.datetime.now(started.tzinfo) - started).total_seconds()), 600)
+        self.assertEqual(self.file["file_create_date"].shape, (1,))
+
+    def test_every_object_has_type_namespace_and_an_id_of_its_own(self):
+        ids = []
+
+        def visit(name, item):
+            if "neurodata_type" in item.attrs:
+                self.assertIn(item.attrs["namespace"], ["core", "hdmf-common"], name)
+                ids.append(item.attrs["object_id"])
+
+        self.file.visititems(visit)
+        self.assertGreater(len(ids), 30)
+        self.assertEqual(len(ids), len(set(ids)))
+
+    def test_series_have_units_and_one_row_a_tick(self):
+        ticks = len(self.file["acquisition/grip_force/data"])
+        self.assertEqual(ticks, 9501)
+        for name, series in self.file["acquisition"].items():
+            if name == "contacts":
+                continue
+            data = series["data"]
+            self.assertEqual(data.shape[0], ticks, name)
+            self.assertIn("unit", data.attrs, name)
+            self.assertTrue(series.attrs["description"], name)
+            self.assertEqual(series["starting_time"][()], 0, name)
+            self.assertEqual(series["starting_time"].attrs["rate"], 1000, name)
+            self.assertEqual(series["starting_time"].attrs["unit"], "seconds", name)
+            self.assertIsNotNone(data.compression, name)
+        for finger in ["thumb", "index"]:
+            for what in ["handle_position", "proxy_position"]:
+                position = self.file[f"acquisition/{finger}_{what}"]
+                self.assertEqual(position.attrs["neurodata_type"], "SpatialSeries")
+                self.assertEqual(position["data"].shape[1], 3)
+                self.assertEqual(position["data"].attrs["unit"], "meters")
+                self.assertIn("z up", position["reference_frame"].asstr()[()])
+            self.assertEqual(self.file[f"acquisition/{finger}_force_sent/data"].attrs["unit"], "newtons")
+
+    def test_contacts_have_times_that_never_go_back(self):
+        contacts = self.file["acquisition/contacts"]
+        self.assertEqual(contacts["data"].shape, (len(contacts["timestamps"]), 14))
+        self.assertTrue(np.all(np.diff(contacts["timestamps"][:]) >= 0))
+
+    def test_the_physics_is_in_it(self):
+        hold = slice(4500, 7400)
+        height = self.file["acquisition/block_position/data"][hold, 2]
+        self.assertGreater(height.min(), 0.115)
+        down = -(self.file["acquisition/thumb_force_sent/data"][hold, 2] + self.file["acquisition/index_force_sent/data"][hold, 2])
+        self.assertAlmostEqual(down.mean() / (0.1 * 9.81), 1, delta=0.005)
+        orientation = self.file["acquisition/block_orientation/data"][hold]
+        self.assertTrue(np.allclose(np.linalg.norm(orientation, axis=1), 1))
+        self.assertTrue(np.allclose(orientation[:, 0], 1, atol=1e-3))  # w first
+
+    def test_tables(self):
+        for name, columns in {"trials": ["start_time", "stop_time", "outcome"], "phases": ["start_time", "stop_time", "phase", "mean_grip_N"]}.items():
+            table = self.file["intervals/" + name]
+            self.assertEqual(table.attrs["neurodata_type"], "TimeIntervals")
+            self.assertEqual(table["id"].attrs["neurodata_type"], "ElementIdentifiers")
+            for column in columns:
+                self.assertIn(column, list(table.attrs["colnames"]))
+            for column in table.attrs["colnames"]:
+                self.assertEqual(len(table[column]), len(table["id"]))
+                self.assertTrue(table[column].attrs["description"])
+            self.assertTrue(np.all(table["stop_time"][:] > table["start_time"][:]))
+        self.assertEqual(self.file["intervals/trials/outcome"].asstr()[0], "done")
+        self.assertEqual(self.file["intervals/phases/phase"].asstr()[3], "hold")
+
+    def test_settings_with_their_origins_are_inside(self):
+        table = self.file["scratch/settings"]
+        rows = dict(zip(table["setting"].asstr()[:], zip(table["value"].asstr()[:], table["origin"].asstr()[:])))
+        self.assertEqual(rows["coupling.stiffness_N_m"], ("900", "command line"))
+        self.assertEqual(rows["rate_Hz"], ("1000", "default"))
+
+    def test_subject_and_devices(self):
+        self.assertEqual(self.text("general/subject/subject_id"), "S07")
+        self.assertEqual(self.text("general/subject/species"), "Homo sapiens")
+        self.assertIn("premium", self.file["general/devices/thumb"].attrs["description"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
