@@ -91,11 +91,15 @@ TEST(GraspTrace, TiltAndHeightOfASine) {
 
 TEST(GraspTrace, ForceAbove5HzLeavesOutWhatIsSlower) {
     const auto shaking = [](double frequency) {
-        return trace_of([=](int i) {
-            servo::Frame f = held(i);
-            f.fingers[0].f_sent_W.y() = 3 + std::sin(2 * std::numbers::pi * frequency * i * 1e-3);
-            return f;
-        }, 3000).force_above_5_hz({0, 3000});
+        return trace_of(
+                   [=](int i) {
+                       servo::Frame f = held(i);
+                       f.fingers[0].f_sent_W.y() =
+                           3 + std::sin(2 * std::numbers::pi * frequency * i * 1e-3);
+                       return f;
+                   },
+                   3000)
+            .force_above_5_hz({0, 3000});
     };
     EXPECT_NEAR(shaking(50), 1 / std::numbers::sqrt2, 0.01);
     EXPECT_LT(shaking(0.5), 0.001);
@@ -145,9 +149,12 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
         finder.add(f);
     }
     std::vector<std::string> said;
-    for (const Event& e : finder.events()) said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
-    EXPECT_EQ(said, (std::vector<std::string>{"0 phase reach", "10 touch thumb block", "10 touch index block", "50 phase lift",
-                                              "60 lift-off block", "70 limit a force was kept from changing faster than allowed"}));
+    for (const Event& e : finder.events())
+        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
+    EXPECT_EQ(said, (std::vector<std::string>{
+                        "0 phase reach", "10 touch thumb block", "10 touch index block",
+                        "50 phase lift", "60 lift-off block",
+                        "70 limit a force was kept from changing faster than allowed"}));
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ TEST(Ring, CarriesRecordsOfAllSizesBetweenThreadsInOrder) {
 TEST(Table, CsvQuotesWhatItMustAndReadsBack) {
     Table table;
     table.columns = {{"a", ""}, {"b", ""}};
-    table.rows = {{std::string("x, \"y\"\nz"), 0.5}, {std::string("plain"), std::numeric_limits<double>::quiet_NaN()}};
+    table.rows = {{std::string("x, \"y\"\nz"), 0.5},
+                  {std::string("plain"), std::numeric_limits<double>::quiet_NaN()}};
     const testing::TemporaryFolder folder;
     write_csv(table, folder.file("t.csv"));
     EXPECT_EQ(testing::read_file(folder.file("t.csv")), "a,b\n\"x, \"\"y\"\"\nz\",0.5\nplain,\n");

@@ -9,7 +9,9 @@ namespace dihaptic {
 namespace {
 
 enum class Fruit { apple, pear };
-constexpr auto enum_names(Fruit) { return std::array{"apple", "pear"}; }
+constexpr auto enum_names(Fruit) {
+    return std::array{"apple", "pear"};
+}
 
 struct Inner {
     double stiffness = 100;
@@ -57,8 +59,10 @@ struct Read {
 };
 
 TEST(FieldReader, ReadsValuesInAnyUnitOfTheRightKind) {
-    const Read in("name: a\nsize_mm: [10, 20, 30]\ncount: 7\non: yes\nfruit: pear\ninner: {stiffness_N_mm: 2}\n"
-                  "list: [{stiffness_N_m: 1}, {damping_Ns_m: 0}]\n");
+    const Read in(
+        "name: a\nsize_mm: [10, 20, 30]\ncount: 7\non: yes\nfruit: pear\ninner: {stiffness_N_mm: "
+        "2}\n"
+        "list: [{stiffness_N_m: 1}, {damping_Ns_m: 0}]\n");
     EXPECT_TRUE(in.diagnostics.problems().empty());
     EXPECT_EQ(in.value.name, "a");
     EXPECT_TRUE(in.value.size.isApprox(Vec3(0.01, 0.02, 0.03)));
@@ -81,26 +85,34 @@ struct Bad {
     const char* yaml;
     const char* says;  // a part of the message
 };
-void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.says; }
+void PrintTo(const Bad& bad, std::ostream* out) {
+    *out << bad.says;
+}
 
 class BadInput : public ::testing::TestWithParam<Bad> {};
 
 TEST_P(BadInput, IsReportedWithLineKeyAndRemedy) {
-    EXPECT_NE(Read(GetParam().yaml).problem().find(GetParam().says), std::string::npos) << Read(GetParam().yaml).problem();
+    EXPECT_NE(Read(GetParam().yaml).problem().find(GetParam().says), std::string::npos)
+        << Read(GetParam().yaml).problem();
 }
 
 INSTANTIATE_TEST_SUITE_P(
     FieldReader, BadInput,
     ::testing::Values(
         Bad{"count: 3\n", "test.yaml:1: error: name: is missing. Add name."},
-        Bad{"name: a\ncuont: 3\n", "test.yaml:2: error: cuont: is not known here. Did you mean count?"},
-        Bad{"name: a\nsize: [1, 2, 3]\n", "test.yaml:2: error: size: needs its unit in the key. Write size_m"},
-        Bad{"name: a\nsize_kg: [1, 2, 3]\n", "size_kg: is not a unit of length. Write size_m, size_mm, size_cm or size_um."},
-        Bad{"name: a\nsize_mm: [1, 2]\n", "size_mm: must be three numbers. Write size_mm: [x, y, z]."},
+        Bad{"name: a\ncuont: 3\n",
+            "test.yaml:2: error: cuont: is not known here. Did you mean count?"},
+        Bad{"name: a\nsize: [1, 2, 3]\n",
+            "test.yaml:2: error: size: needs its unit in the key. Write size_m"},
+        Bad{"name: a\nsize_kg: [1, 2, 3]\n",
+            "size_kg: is not a unit of length. Write size_m, size_mm, size_cm or size_um."},
+        Bad{"name: a\nsize_mm: [1, 2]\n",
+            "size_mm: must be three numbers. Write size_mm: [x, y, z]."},
         Bad{"name: a\nsize_mm: [1, 2, x]\n", "must be a number, is 'x'"},
         Bad{"name: a\nsize_mm: [1, 2, 3 mm]\n", "Write the number alone; its unit is in the key."},
         Bad{"name: a\nsize_mm: [1, -2, 3]\n", "size_mm: must be positive, is -2"},
-        Bad{"name: a\nsize_m: [1, 1, 1]\nsize_mm: [1, 1, 1]\n", "size_mm: the same size is given as size_m too"},
+        Bad{"name: a\nsize_m: [1, 1, 1]\nsize_mm: [1, 1, 1]\n",
+            "size_mm: the same size is given as size_m too"},
         Bad{"name: a\ncount: 11\n", "count: must be at least 1 and at most 10, is 11"},
         Bad{"name: a\ncount: 2.5\n", "must be a whole number"},
         Bad{"name: a\ncount: nan\n", "must be a number, is 'nan'"},
@@ -122,14 +134,16 @@ TEST(FieldReader, RemembersWhereEachSettingCameFromAndLetsLaterFilesOverride) {
     Inner inner;
     Diagnostics diagnostics;
     Origins origins;
-    read_fields(inner, parse_yaml("stiffness_N_m: 5\ndamping_Ns_m: 1\n", "first.yaml"), diagnostics, &origins);
+    read_fields(inner, parse_yaml("stiffness_N_m: 5\ndamping_Ns_m: 1\n", "first.yaml"), diagnostics,
+                &origins);
     read_fields(inner, parse_yaml("\nstiffness_N_m: 7\n", "second.yaml"), diagnostics, &origins);
     EXPECT_EQ(inner.stiffness, 7);
     EXPECT_EQ(inner.damping, 1.0);
     EXPECT_EQ(origins["stiffness"], "second.yaml:2");
     EXPECT_EQ(origins["damping"], "first.yaml:2");
     const Table table = list_fields(inner, origins);
-    EXPECT_EQ(to_csv(table), "setting,value,origin\nstiffness_N_m,7,second.yaml:2\ndamping_Ns_m,1,first.yaml:2\n");
+    EXPECT_EQ(to_csv(table),
+              "setting,value,origin\nstiffness_N_m,7,second.yaml:2\ndamping_Ns_m,1,first.yaml:2\n");
 }
 
 TEST(FieldWriter, WhatIsWrittenReadsBackToTheBit) {
@@ -161,7 +175,8 @@ TEST(Node, RefusesAKeyGivenTwice) {
         parse_yaml("a: 1\nb: 2\na: 3\n", "twice.yaml");
         FAIL();
     } catch (const Error& e) {
-        EXPECT_STREQ(e.what(), "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
+        EXPECT_STREQ(e.what(),
+                     "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
     }
 }
 

@@ -13,7 +13,9 @@ class StillDriver final : public hand::Driver {
     const std::vector<Phase>& phases() const override { return phases_; }
 
   private:
-    hand::FingerTarget do_target(int finger, double) const noexcept override { return {{0.01 * finger, 0.02, 0.03}, Vec3::Zero()}; }
+    hand::FingerTarget do_target(int finger, double) const noexcept override {
+        return {{0.01 * finger, 0.02, 0.03}, Vec3::Zero()};
+    }
     std::vector<Phase> phases_{{"still", 0, 1}};
 };
 
@@ -23,7 +25,8 @@ class Conformance : public ::testing::TestWithParam<std::string> {
         Context context;
         context.driver = &driver_;
         context.recording = [](Time now, std::span<Reading> readings) {
-            for (size_t i = 0; i < readings.size(); ++i) readings[i].p_DH = Vec3(static_cast<double>(i), seconds(now), 0);
+            for (size_t i = 0; i < readings.size(); ++i)
+                readings[i].p_DH = Vec3(static_cast<double>(i), seconds(now), 0);
             return now < std::chrono::seconds(1);
         };
         const Pose X_WD{rotation_xyz({0.3, 0.1, -0.5}), {0.1, 0.2, 0.3}};
@@ -69,7 +72,8 @@ TEST_P(Conformance, AllocatesNothingInTheCycle) {
 
 TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {
     Diagnostics diagnostics;
-    find_backend(GetParam())->check({"thumb", {}, parse_yaml("no_such_option: 1\n", "rig.yaml")}, diagnostics);
+    find_backend(GetParam())
+        ->check({"thumb", {}, parse_yaml("no_such_option: 1\n", "rig.yaml")}, diagnostics);
     EXPECT_TRUE(diagnostics.has_errors());
 }
 
@@ -96,7 +100,9 @@ TEST(Replay, SaysWhenTheRecordingEnds) {
     EXPECT_TRUE(readings[0].status & kNoMoreData);
 }
 
-TEST(Replay, NeedsARecording) { EXPECT_THROW(find_backend("replay")->make({{"thumb", {}, {}}}, {}), Error); }
+TEST(Replay, NeedsARecording) {
+    EXPECT_THROW(find_backend("replay")->make({{"thumb", {}, {}}}, {}), Error);
+}
 
 }  // namespace
 }  // namespace dihaptic::devices

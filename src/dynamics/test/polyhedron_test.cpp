@@ -25,7 +25,8 @@ TEST(Polyhedron, OfABoxHasItsFacesAndEdges) {
 
 TEST(Collide, FaceOnFaceGivesTheFourCornersOfTheSharedPatch) {
     const double gap = 2e-4;
-    const ContactPatch patch = collide(kCube, {}, kPad, {Quat::Identity(), {0.0225 + gap, 0.003, -0.002}}, 5e-4);
+    const ContactPatch patch =
+        collide(kCube, {}, kPad, {Quat::Identity(), {0.0225 + gap, 0.003, -0.002}}, 5e-4);
     ASSERT_EQ(patch.count, 4);
     EXPECT_LT((patch.n_W - Vec3::UnitX()).norm(), 1e-15);
     for (int i = 0; i < 4; ++i) {
@@ -45,7 +46,9 @@ TEST(Collide, BeyondTheMarginGivesNothing) {
 TEST(Collide, ACornerPointingDownTouchesWithItsVertex) {
     const double diagonal = 0.02 * std::numbers::sqrt3;
     const Quat R = Quat::FromTwoVectors(Vec3(1, 1, 1).normalized(), -Vec3::UnitZ());
-    const ContactPatch patch = collide(Polyhedron::box({1, 1, 0.1}), {Quat::Identity(), {0, 0, -0.05}}, kCube, {R, {0, 0, diagonal - 1e-5}}, 5e-4);
+    const ContactPatch patch =
+        collide(Polyhedron::box({1, 1, 0.1}), {Quat::Identity(), {0, 0, -0.05}}, kCube,
+                {R, {0, 0, diagonal - 1e-5}}, 5e-4);
     ASSERT_EQ(patch.count, 1);
     EXPECT_NEAR(patch.points[0].gap, -1e-5, 1e-15);
     EXPECT_LT((patch.n_W - Vec3::UnitZ()).norm(), 1e-14);
@@ -72,15 +75,18 @@ TEST(Collide, IsTheSameSeenFromTheOtherSide) {
         const auto angle = [&] { return random.uniform(-3, 3); };
         const auto place = [&] { return random.uniform(-0.03, 0.03); };
         const Pose X_WA{rotation_xyz({angle(), angle(), angle()}), {place(), place(), place()}};
-        const Pose X_WB{rotation_xyz({angle(), angle(), angle()}), {place(), place(), place() + 0.03}};
+        const Pose X_WB{rotation_xyz({angle(), angle(), angle()}),
+                        {place(), place(), place() + 0.03}};
         const ContactPatch ab = collide(kCube, X_WA, kPad, X_WB, 1e-3);
         const ContactPatch ba = collide(kPad, X_WB, kCube, X_WA, 1e-3);
         ASSERT_EQ(ab.count > 0, ba.count > 0);
         if (ab.count == 0) continue;
         ++touching;
         double deepest_ab = 1, deepest_ba = 1;
-        for (int k = 0; k < ab.count; ++k) deepest_ab = std::min(deepest_ab, ab.points[static_cast<size_t>(k)].gap);
-        for (int k = 0; k < ba.count; ++k) deepest_ba = std::min(deepest_ba, ba.points[static_cast<size_t>(k)].gap);
+        for (int k = 0; k < ab.count; ++k)
+            deepest_ab = std::min(deepest_ab, ab.points[static_cast<size_t>(k)].gap);
+        for (int k = 0; k < ba.count; ++k)
+            deepest_ba = std::min(deepest_ba, ba.points[static_cast<size_t>(k)].gap);
         EXPECT_NEAR(deepest_ab, deepest_ba, 2e-5);
     }
     EXPECT_GT(touching, 200);
@@ -98,14 +104,18 @@ TEST(Collide, TurnsAndMovesWithTheWorld) {
         ASSERT_EQ(here.count, there.count);
         EXPECT_LT((X_WA.R * here.n_W - there.n_W).norm(), 1e-12);
         for (int k = 0; k < here.count; ++k) {
-            EXPECT_LT((X_WA * here.points[static_cast<size_t>(k)].p_WA - there.points[static_cast<size_t>(k)].p_WA).norm(), 1e-12);
+            EXPECT_LT((X_WA * here.points[static_cast<size_t>(k)].p_WA -
+                       there.points[static_cast<size_t>(k)].p_WA)
+                          .norm(),
+                      1e-12);
         }
     }
 }
 
 TEST(CollideHalfSpace, GivesTheCornersThatAreNear) {
     const Pose plane{rotation_xyz({0, 0.3, 0}), {0, 0, 0.1}};
-    const ContactPatch patch = collide_half_space(plane, kCube, {plane.R, plane * Vec3(0.1, 0.2, 0.02 - 1e-6)}, 5e-4);
+    const ContactPatch patch =
+        collide_half_space(plane, kCube, {plane.R, plane * Vec3(0.1, 0.2, 0.02 - 1e-6)}, 5e-4);
     ASSERT_EQ(patch.count, 4);
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(patch.points[static_cast<size_t>(i)].gap, -1e-6, 1e-14);
     EXPECT_LT((patch.n_W - plane.R * Vec3::UnitZ()).norm(), 1e-15);

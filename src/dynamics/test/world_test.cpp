@@ -13,7 +13,8 @@ constexpr double kStep = 1e-3;
 constexpr double kGravity = 9.81;
 constexpr double kDegree = std::numbers::pi / 180;
 
-scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass, double friction = 0.8) {
+scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
+                double friction = 0.8) {
     scene::Body body;
     body.name = name;
     body.shape = scene::Shape::box(size);
@@ -26,8 +27,12 @@ scene::Body box(const std::string& name, const Vec3& size, const Vec3& position,
     }
     return body;
 }
-scene::Body table(double friction = 0.8) { return box("table", {1, 1, 0.1}, {0, 0, -0.05}, 0, friction); }
-scene::Body block(const Vec3& position, double friction = 0.8) { return box("block", Vec3::Constant(0.04), position, 0.1, friction); }
+scene::Body table(double friction = 0.8) {
+    return box("table", {1, 1, 0.1}, {0, 0, -0.05}, 0, friction);
+}
+scene::Body block(const Vec3& position, double friction = 0.8) {
+    return box("block", Vec3::Constant(0.04), position, 0.1, friction);
+}
 
 World make(std::vector<scene::Body> bodies, Settings settings = {}) {
     scene::Scene scene;
@@ -101,7 +106,8 @@ TEST(World, SlidesWithCoulombFrictionOfThePair) {
     run(world, 0.1);
     EXPECT_NEAR(world.states()[1].v_WB.norm(), speed - 0.6 * kGravity * 0.1, 2e-3);
     run(world, 0.5);
-    EXPECT_NEAR(world.states()[1].X_WB.p.head<2>().norm(), speed * speed / (2 * 0.6 * kGravity), 2e-3);
+    EXPECT_NEAR(world.states()[1].X_WB.p.head<2>().norm(), speed * speed / (2 * 0.6 * kGravity),
+                2e-3);
     EXPECT_LT(world.states()[1].v_WB.norm(), 1e-9);
 }
 
@@ -115,7 +121,8 @@ TEST(World, SlopesHoldBelowTheFrictionAngleAndReleaseAbove) {
         const Vec3 start = world.states()[1].X_WB.p;
         run(world, 1);
         const double moved = (world.states()[1].X_WB.p - start).norm();
-        const double a = kGravity * (std::sin(degrees * kDegree) - 0.5 * std::cos(degrees * kDegree));
+        const double a =
+            kGravity * (std::sin(degrees * kDegree) - 0.5 * std::cos(degrees * kDegree));
         if (a < 0) {
             EXPECT_LT(moved, 1e-6);
         } else {
@@ -157,8 +164,10 @@ TEST(World, ATumblingBodyKeepsItsEnergyAndAngularMomentum) {
     scene.bodies = {box("bar", {0.1, 0.05, 0.02}, {0, 0, 0}, 0.2)};
     World world(scene, {});
     world.activate();
-    const Vec3 inertia = (0.2 / (0.1 * 0.05 * 0.02) * scene::integrate(scene.bodies[0].shape).inertia).diagonal();
-    world.apply({0}, Vec3::Zero(), Vec3(inertia.cwiseProduct(Vec3(2, 5, 3)) / kStep));  // spins about all three
+    const Vec3 inertia =
+        (0.2 / (0.1 * 0.05 * 0.02) * scene::integrate(scene.bodies[0].shape).inertia).diagonal();
+    world.apply({0}, Vec3::Zero(),
+                Vec3(inertia.cwiseProduct(Vec3(2, 5, 3)) / kStep));  // spins about all three
     world.step(kStep);
     const auto momentum = [&] {
         const BodyState& s = world.states()[0];
@@ -176,7 +185,9 @@ TEST(World, AMeshTurnsAboutItsCentreOfMassWhereverItsFilePutsIt) {
     mesh.shape.kind = scene::ShapeKind::mesh;
     mesh.shape.hull = scene::convex_hull([] {
         std::vector<Vec3> corners;
-        for (int i = 0; i < 8; ++i) corners.emplace_back(0.1 + 0.04 * (i & 1), 0.2 + 0.04 * (i >> 1 & 1), 0.04 * (i >> 2 & 1));
+        for (int i = 0; i < 8; ++i)
+            corners.emplace_back(0.1 + 0.04 * (i & 1), 0.2 + 0.04 * (i >> 1 & 1),
+                                 0.04 * (i >> 2 & 1));
         return corners;
     }());
     World world = make({mesh});
@@ -214,7 +225,8 @@ TEST(World, RoundShapesRestOnAPlaneWhereTheyShould) {
 }
 
 TEST(Sleep, RestingBodiesSleepAndStayExactlyWhereTheyAre) {
-    World world = make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});
+    World world =
+        make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});
     run(world, 1.5);
     EXPECT_FALSE(world.states()[1].awake);
     EXPECT_FALSE(world.states()[2].awake);
@@ -225,7 +237,8 @@ TEST(Sleep, RestingBodiesSleepAndStayExactlyWhereTheyAre) {
 }
 
 TEST(Sleep, ALoadWakesABodyAndAllThatItTouches) {
-    World world = make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});
+    World world =
+        make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});
     run(world, 1.5);
     world.apply({2}, {0, 0, 0.1}, Vec3::Zero());
     world.step(kStep);
@@ -235,7 +248,8 @@ TEST(Sleep, ALoadWakesABodyAndAllThatItTouches) {
 }
 
 TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
-    World world = make({table(), block({0, 0, 0.02}), box("falling", Vec3::Constant(0.04), {0, 0, 1.5}, 0.1)});
+    World world = make(
+        {table(), block({0, 0, 0.02}), box("falling", Vec3::Constant(0.04), {0, 0, 1.5}, 0.1)});
     bool slept = false;
     for (int i = 0; i < 1000 && world.states()[2].v_WB.z() <= 0; ++i) {
         const double falling = world.states()[2].v_WB.z();
@@ -333,7 +347,9 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
     for (int i = 0; i < 12; ++i) {
         scene::Body b = block({0.03 * (i % 3), 0.02 * (i % 2), 0.05 + 0.05 * i});
         b.name = "thing " + std::to_string(i);
-        b.shape.kind = std::array{scene::ShapeKind::sphere, scene::ShapeKind::capsule, scene::ShapeKind::cylinder, scene::ShapeKind::box}[static_cast<size_t>(i % 4)];
+        b.shape.kind = std::array{scene::ShapeKind::sphere, scene::ShapeKind::capsule,
+                                  scene::ShapeKind::cylinder,
+                                  scene::ShapeKind::box}[static_cast<size_t>(i % 4)];
         b.shape.radius = 0.015;
         b.shape.length = 0.03;
         bodies.push_back(b);
@@ -347,7 +363,8 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
 TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Settings settings;
-    settings.max_contacts = 4;  // far too few: memory has to be had in the step, and the step says so
+    settings.max_contacts =
+        4;  // far too few: memory has to be had in the step, and the step says so
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {
         bodies.push_back(block({0.05 * (i % 10) - 0.25, 0.05 * (i / 10) - 0.2, 0.02}));

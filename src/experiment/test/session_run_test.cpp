@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 const std::atomic<bool> kGoOn{false};
 
-RunResult run(const std::string& file, const std::string& out, const std::string& movement = "", Clock clock = Clock::virtual_clock,
-              std::vector<std::string> set = {}) {
+RunResult run(const std::string& file, const std::string& out, const std::string& movement = "",
+              Clock clock = Clock::virtual_clock, std::vector<std::string> set = {}) {
     Request request;
     request.file = file;
     request.movement = movement;
@@ -33,7 +33,8 @@ TEST_P(ShippedRun, RunsRepeatsItselfAndReplaysToTheBit) {
     EXPECT_EQ(first.dropped, 0);
     EXPECT_GT(first.ticks, 1000);
     const std::string log = testing::read_file(first.folder + "/raw.log");
-    EXPECT_TRUE(log == testing::read_file(second.folder + "/raw.log")) << "raw.log differs between two runs";
+    EXPECT_TRUE(log == testing::read_file(second.folder + "/raw.log"))
+        << "raw.log differs between two runs";
     const ReplayResult replay = replay_session(first.folder, kGoOn, {});
     EXPECT_EQ(replay.ticks, first.ticks);
     EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
@@ -60,7 +61,8 @@ TEST(Session, TheDemoKeepsEachFingerUnderThePremiumsContinuousForce) {
     double force = 0;
     while (const servo::Frame* frame = log.next()) {
         highest = std::max(highest, frame->bodies[1].X_WB.p.z());
-        for (const servo::FingerFrame& finger : frame->fingers) force = std::max(force, finger.f_sent_W.norm());
+        for (const servo::FingerFrame& finger : frame->fingers)
+            force = std::max(force, finger.f_sent_W.norm());
         EXPECT_EQ(frame->status & servo::kOutsideWorkspace, 0u);
     }
     EXPECT_GT(highest - 0.02, 0.095);
@@ -90,11 +92,13 @@ TEST(Session, ReplaySeesAForceThatWasChanged) {
 
 TEST(Session, FreezesItsInputsSoThatItNeedsNoOtherFile) {
     const testing::TemporaryFolder folder;
-    folder.write("block.obj", "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-    const std::string scene = folder.write(
-        "scene.yaml",
-        "bodies:\n  - {name: floor, shape: plane, fixed: yes}\n  - {name: thing, shape: mesh, file: block.obj, unit: mm, mass_g: 50}\n"
-        "hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.2}]}\n");
+    folder.write("block.obj",
+                 "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const std::string scene =
+        folder.write("scene.yaml",
+                     "bodies:\n  - {name: floor, shape: plane, fixed: yes}\n  - {name: thing, "
+                     "shape: mesh, file: block.obj, unit: mm, mass_g: 50}\n"
+                     "hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.2}]}\n");
     const RunResult result = run(scene, folder.file("out"));
     fs::remove(folder.file("block.obj"));
     fs::remove(scene);
@@ -105,9 +109,12 @@ TEST(Session, FreezesItsInputsSoThatItNeedsNoOtherFile) {
 
 TEST(Session, RecordsWhereEverySettingCameFrom) {
     const testing::TemporaryFolder folder;
-    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path(), "", Clock::virtual_clock, {"dynamics.iterations=99"});
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path(), "",
+                                 Clock::virtual_clock, {"dynamics.iterations=99"});
     const std::string csv = testing::read_file(result.folder + "/settings.csv");
-    EXPECT_NE(csv.find("coupling.stiffness_N_m,800,scenes/frictionless-plane.yaml:2"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("coupling.stiffness_N_m,800,scenes/frictionless-plane.yaml:2"),
+              std::string::npos)
+        << csv;
     EXPECT_NE(csv.find("dynamics.iterations,99,command line"), std::string::npos) << csv;
 }
 
@@ -120,7 +127,8 @@ TEST(Session, StopsInOrderWhenAsked) {
     const std::atomic<bool> stop{true};
     const RunResult result = run_session(make_plan(request), options, stop, {});
     EXPECT_TRUE(result.interrupted);
-    EXPECT_EQ(recording::SessionFolder::open(result.folder).read_info().state, recording::SessionState::interrupted);
+    EXPECT_EQ(recording::SessionFolder::open(result.folder).read_info().state,
+              recording::SessionState::interrupted);
 }
 
 /// Largest change of any sent force from tick to tick, over the largest allowed.
@@ -158,9 +166,12 @@ TEST(Movement, EveryRecordedOneRunsTwiceTheSameAndWithoutAForceSpike) {
         if (entry.path().extension() != ".csv") continue;
         SCOPED_TRACE(entry.path().string());
         const testing::TemporaryFolder folder;
-        const RunResult a = run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
-        const RunResult b = run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
-        EXPECT_TRUE(testing::read_file(a.folder + "/raw.log") == testing::read_file(b.folder + "/raw.log"));
+        const RunResult a =
+            run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
+        const RunResult b =
+            run("experiments/reach-to-grasp.yaml", folder.path(), entry.path().string());
+        EXPECT_TRUE(testing::read_file(a.folder + "/raw.log") ==
+                    testing::read_file(b.folder + "/raw.log"));
         EXPECT_LE(worst_force_rate(a.folder), 1 + 1e-9);
         ++count;
         recording::RawLogReader log(a.folder + "/raw.log");
@@ -177,7 +188,8 @@ TEST(Movement, ALineInMetresIsReportedAndBridged) {
     std::istringstream in(testing::read_file("movements/reach-to-grasp.csv"));
     std::string line, out;
     for (int n = 1; std::getline(in, line); ++n) {
-        if (n == 130) line = line.substr(0, line.find(',')) + ",0.035,-0.04,-0.31,0.03,-0.05,-0.35,0";
+        if (n == 130)
+            line = line.substr(0, line.find(',')) + ",0.035,-0.04,-0.31,0.03,-0.05,-0.35,0";
         out += line + "\n";
     }
     Request request;
@@ -185,7 +197,9 @@ TEST(Movement, ALineInMetresIsReportedAndBridged) {
     request.movement = folder.write("m.csv", out);
     const Plan plan = make_plan(request);
     ASSERT_FALSE(plan.warnings.empty());
-    EXPECT_NE(plan.warnings[0].text().find("m.csv:130: warning: thumb: this line's values are a thousandth"), std::string::npos)
+    EXPECT_NE(plan.warnings[0].text().find(
+                  "m.csv:130: warning: thumb: this line's values are a thousandth"),
+              std::string::npos)
         << plan.warnings[0].text();
 }
 

@@ -15,24 +15,30 @@ namespace {
 
 constexpr double kFrame = 1.0 / 85;
 
-/// Thumb and index go 30 cm out, open to 80 mm, close to 40 mm, wait, and come back: no fault in it.
+/// Thumb and index go 30 cm out, open to 80 mm, close to 40 mm, wait, and come back: no fault in
+/// it.
 struct Reach {
     static Vec3 at(int finger, double t) {
-        const double there = model::minimum_jerk((t - 0.2) / 1.0).share - model::minimum_jerk((t - 2.6) / 0.8).share;
+        const double there =
+            model::minimum_jerk((t - 0.2) / 1.0).share - model::minimum_jerk((t - 2.6) / 0.8).share;
         const double aperture = 0.012 + 0.068 * model::minimum_jerk((t - 0.2) / 0.7).share -
-                                0.04 * model::minimum_jerk((t - 1.1) / 0.5).share - 0.028 * model::minimum_jerk((t - 2.6) / 0.8).share;
-        return Vec3(0.2 - 0.2 * there, 0.1 + 0.25 * there, -0.3 + 0.28 * there) + (finger == 0 ? -0.5 : 0.5) * aperture * Vec3(0, 1, 0);
+                                0.04 * model::minimum_jerk((t - 1.1) / 0.5).share -
+                                0.028 * model::minimum_jerk((t - 2.6) / 0.8).share;
+        return Vec3(0.2 - 0.2 * there, 0.1 + 0.25 * there, -0.3 + 0.28 * there) +
+               (finger == 0 ? -0.5 : 0.5) * aperture * Vec3(0, 1, 0);
     }
 };
 
 /// The reach as a CSV, a line of text a frame.
 std::vector<std::string> reach_lines() {
-    std::vector<std::string> lines{"time_ms,thumb_x_mm,thumb_y_mm,thumb_z_mm,index_x_mm,index_y_mm,index_z_mm,occluded"};
+    std::vector<std::string> lines{
+        "time_ms,thumb_x_mm,thumb_y_mm,thumb_z_mm,index_x_mm,index_y_mm,index_z_mm,occluded"};
     for (double t = 0; t < 3.5; t += kFrame) {
         const Vec3 thumb = 1e3 * Reach::at(0, t);
         const Vec3 index = 1e3 * Reach::at(1, t);
-        lines.push_back(fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0", t * 1e3, thumb.x(), thumb.y(),
-                                    thumb.z(), index.x(), index.y(), index.z()));
+        lines.push_back(fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0", t * 1e3,
+                                    thumb.x(), thumb.y(), thumb.z(), index.x(), index.y(),
+                                    index.z()));
     }
     return lines;
 }
@@ -50,7 +56,8 @@ struct Result {
 Result read(const std::string& text) {
     const testing::TemporaryFolder folder;
     Result result;
-    result.movement = read_movement(folder.write("m.csv", text), RecordingAxes::world, result.diagnostics);
+    result.movement =
+        read_movement(folder.write("m.csv", text), RecordingAxes::world, result.diagnostics);
     return result;
 }
 std::string errors_of(const std::string& text) {
@@ -71,7 +78,8 @@ TEST(Movement, ReadsFingersTimesAndUnits) {
 TEST(Movement, TurnsAxesThatHaveYUp) {
     const testing::TemporaryFolder folder;
     Diagnostics diagnostics;
-    const Movement m = read_movement(folder.write("m.csv", join(reach_lines())), RecordingAxes::y_up, diagnostics);
+    const Movement m =
+        read_movement(folder.write("m.csv", join(reach_lines())), RecordingAxes::y_up, diagnostics);
     const Vec3 p = Reach::at(0, 0);
     EXPECT_LT((m.frames[0].p_WH[0] - Vec3(p.x(), -p.z(), p.y())).norm(), 1e-6);
 }
@@ -82,7 +90,9 @@ struct Damage {
     std::vector<std::string> (*apply)(std::vector<std::string> lines);
     const char* says;
 };
-void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.what; }
+void PrintTo(const Damage& damage, std::ostream* out) {
+    *out << damage.what;
+}
 class DamagedMovement : public ::testing::TestWithParam<Damage> {};
 TEST_P(DamagedMovement, IsRefusedWithItsLineAndRemedy) {
     const std::string said = errors_of(join(GetParam().apply(reach_lines())));
@@ -102,10 +112,12 @@ INSTANTIATE_TEST_SUITE_P(
                    l[57] = l[57].substr(0, l[57].rfind(','));
                    return l;
                },
-               "m.csv:58: error: has 7 values where the first line names 8 columns. Complete the line, or delete it"},
+               "m.csv:58: error: has 7 values where the first line names 8 columns. Complete the "
+               "line, or delete it"},
         Damage{"a missing column",
                [](std::vector<std::string> l) {
-                   for (std::string& line : l) line = line.substr(0, line.rfind(',', line.rfind(',') - 1));
+                   for (std::string& line : l)
+                       line = line.substr(0, line.rfind(',', line.rfind(',') - 1));
                    return l;
                },
                "m.csv:1: error: index_z_mm: this column is missing"},
@@ -121,8 +133,11 @@ INSTANTIATE_TEST_SUITE_P(
                    return l;
                },
                "m.csv:58: error: time: has no time"},
-        Damage{"an empty file", [](std::vector<std::string>) { return std::vector<std::string>{}; }, "m.csv:1: error: is empty"},
-        Damage{"only a header", [](std::vector<std::string> l) { return std::vector<std::string>{l[0]}; }, "has only 0 frames"},
+        Damage{"an empty file", [](std::vector<std::string>) { return std::vector<std::string>{}; },
+               "m.csv:1: error: is empty"},
+        Damage{"only a header",
+               [](std::vector<std::string> l) { return std::vector<std::string>{l[0]}; },
+               "has only 0 frames"},
         Damage{"an unknown column",
                [](std::vector<std::string> l) {
                    l[0].replace(0, 7, "zeit_ms");
@@ -135,7 +150,9 @@ INSTANTIATE_TEST_SUITE_P(
                        std::istringstream in(l[i]);
                        std::string out, cell;
                        for (int c = 0; std::getline(in, cell, ','); ++c) {
-                           out += (c ? "," : "") + (c >= 1 && c <= 6 ? fmt::format("{:.6f}", std::stod(cell) / 1000) : cell);
+                           out += (c ? "," : "") +
+                                  (c >= 1 && c <= 6 ? fmt::format("{:.6f}", std::stod(cell) / 1000)
+                                                    : cell);
                        }
                        l[i] = out;
                    }
@@ -144,19 +161,25 @@ INSTANTIATE_TEST_SUITE_P(
                "If the values are in metres, name the columns so: thumb_x_m"},
         Damage{"millimetres called metres",
                [](std::vector<std::string> l) {
-                   for (size_t at = 0; (at = l[0].find("_mm", at)) != std::string::npos;) l[0].replace(at, 3, "_m");
+                   for (size_t at = 0; (at = l[0].find("_mm", at)) != std::string::npos;)
+                       l[0].replace(at, 3, "_m");
                    return l;
                },
                "If the values are in millimetres, name the columns so: thumb_x_mm"}));
 
-Path repaired(const std::vector<std::string>& lines) { return repair(read(join(lines)).movement); }
+Path repaired(const std::vector<std::string>& lines) {
+    return repair(read(join(lines)).movement);
+}
 
 /// Largest distance of the repaired path from the reach without faults [m].
 double error_of(const Path& path) {
     double worst = 0;
     for (size_t f = 0; f < 2; ++f) {
         for (size_t s = 0; s < path.size(); ++s) {
-            worst = std::max(worst, (path.p_WH[f][s] - Reach::at(static_cast<int>(f), static_cast<double>(s) / Path::kRate)).norm());
+            worst =
+                std::max(worst, (path.p_WH[f][s] - Reach::at(static_cast<int>(f),
+                                                             static_cast<double>(s) / Path::kRate))
+                                    .norm());
         }
     }
     return worst;
@@ -165,7 +188,8 @@ double error_of(const Path& path) {
 double fastest(const Path& path) {
     double most = 0;
     for (const auto& finger : path.p_WH) {
-        for (size_t s = 1; s < finger.size(); ++s) most = std::max(most, (finger[s] - finger[s - 1]).norm() * Path::kRate);
+        for (size_t s = 1; s < finger.size(); ++s)
+            most = std::max(most, (finger[s] - finger[s - 1]).norm() * Path::kRate);
     }
     return most;
 }
@@ -222,7 +246,8 @@ TEST(Repair, BridgesAFrozenMarkerWhetherTheTrackerTellsOrNot) {
         ASSERT_EQ(path.faults.size(), 1u) << told;
         EXPECT_EQ(path.faults[0].kind, FaultKind::frozen_marker);
         EXPECT_EQ(path.faults[0].finger, 1);
-        EXPECT_LT(error_of(path), 0.012) << "it moved " << path.faults[0].distance << " m meanwhile";
+        EXPECT_LT(error_of(path), 0.012)
+            << "it moved " << path.faults[0].distance << " m meanwhile";
         EXPECT_LT(fastest(path), kMaxSpeed);
     }
 }
@@ -247,20 +272,23 @@ TEST(Repair, DropsAWildPosition) {
 
 TEST(Repair, SuspectsALineInMetres) {
     auto lines = reach_lines();
-    for (int c = 1; c <= 6; ++c) set_cell(lines[60], c, fmt::format("{:.6f}", std::stod(cell(lines[60], c)) / 1000));
+    for (int c = 1; c <= 6; ++c)
+        set_cell(lines[60], c, fmt::format("{:.6f}", std::stod(cell(lines[60], c)) / 1000));
     const Path path = repaired(lines);
     ASSERT_EQ(path.faults.size(), 2u);  // thumb and index
     for (const Fault& fault : path.faults) {
         EXPECT_TRUE(fault.wrong_unit);
         EXPECT_EQ(fault.line, 61);
-        EXPECT_NE(describe(fault, path.fingers).find("metres? multiply them by 1000"), std::string::npos);
+        EXPECT_NE(describe(fault, path.fingers).find("metres? multiply them by 1000"),
+                  std::string::npos);
     }
     EXPECT_LT(error_of(path), 2e-3);
 }
 
 TEST(Repair, CrossesAJumpNoFasterThanAHandWould) {
     auto lines = reach_lines();
-    for (size_t i = 130; i < lines.size(); ++i) set_cell(lines[i], 1, fmt::format("{:.3f}", std::stod(cell(lines[i], 1)) + 120));
+    for (size_t i = 130; i < lines.size(); ++i)
+        set_cell(lines[i], 1, fmt::format("{:.3f}", std::stod(cell(lines[i], 1)) + 120));
     const Path path = repaired(lines);
     ASSERT_EQ(path.faults.size(), 1u);
     EXPECT_EQ(path.faults[0].kind, FaultKind::jump);
@@ -288,7 +316,9 @@ TEST(GraspSite, IsNotFoundInAHandThatNeverOpens) {
     auto lines = reach_lines();
     for (size_t i = 1; i < lines.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            set_cell(lines[i], 4 + axis, fmt::format("{:.3f}", std::stod(cell(lines[i], 1 + axis)) + (axis == 1 ? 30 : 0)));
+            set_cell(
+                lines[i], 4 + axis,
+                fmt::format("{:.3f}", std::stod(cell(lines[i], 1 + axis)) + (axis == 1 ? 30 : 0)));
         }
     }
     EXPECT_FALSE(find_grasp(repaired(lines)));
@@ -297,7 +327,8 @@ TEST(GraspSite, IsNotFoundInAHandThatNeverOpens) {
 TEST(RecordedDriver, FollowsThePathWithItsShiftAndNamesPhases) {
     const Path path = repaired(reach_lines());
     const auto site = find_grasp(path);
-    const RecordedDriver driver(path, *site, {1, 0, 0}, {"index", "thumb"});  // in the scene's order
+    const RecordedDriver driver(path, *site, {1, 0, 0},
+                                {"index", "thumb"});  // in the scene's order
     EXPECT_LT((driver.target(0, 1.5).p_WT - Reach::at(1, 1.5) - Vec3(1, 0, 0)).norm(), 1e-3);
     EXPECT_EQ(driver.target(0, 99).v_WT, Vec3::Zero());
     EXPECT_EQ(driver.phases()[1].name, "grasp");
@@ -311,7 +342,8 @@ TEST(RecordedData, EveryMovementIsReadRepairedAndHasAGrasp) {
         if (entry.path().extension() != ".csv") continue;
         ++count;
         Diagnostics diagnostics;
-        const Movement movement = read_movement(entry.path().string(), RecordingAxes::y_up, diagnostics);
+        const Movement movement =
+            read_movement(entry.path().string(), RecordingAxes::y_up, diagnostics);
         ASSERT_FALSE(diagnostics.has_errors()) << entry.path();
         const Path path = repair(movement);
         EXPECT_LT(fastest(path), 2.0) << entry.path();

@@ -81,9 +81,11 @@ TEST(Finger, StiffensWithTheForceThatItFeels) {
     impedance.stiffness_per_force = 60;
     Finger finger(impedance);
     const FingerTarget target{{0.01, 0, 0}, Vec3::Zero()};
-    EXPECT_NEAR(finger.pull(target, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 1e-4).x(), 3.0, 1e-12);
+    EXPECT_NEAR(finger.pull(target, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 1e-4).x(), 3.0,
+                1e-12);
     Vec3 f;
-    for (int i = 0; i < 10000; ++i) f = finger.pull(target, Vec3::Zero(), Vec3::Zero(), {0, 2, 0}, 1e-4);
+    for (int i = 0; i < 10000; ++i)
+        f = finger.pull(target, Vec3::Zero(), Vec3::Zero(), {0, 2, 0}, 1e-4);
     EXPECT_NEAR(f.x(), (300 + 60 * 2) * 0.01, 1e-3);
 }
 

@@ -33,7 +33,8 @@ TEST(Limiter, CutsChange) {
 }
 
 TEST(Limiter, DropsToZeroAtOnceAndForGoodOnWhatIsNoNumber) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         Limiter limiter(10, 500);
         unsigned flags = 0;
         for (int i = 0; i < 10; ++i) limiter.limit({0, 0, 5}, kStep, flags);
@@ -119,7 +120,7 @@ TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
     double largest = 0;
     for (int i = 0; i < 3000; ++i) {
         const double x = std::min(-0.05 + 0.1 * i * kStep, 0.0075);  // 10 mm deep: 10 N
-        const double y = i < 1000 ? 0 : 0.01 * (i - 1000) * kStep;   // then along the wall, to 20 mm
+        const double y = i < 1000 ? 0 : 0.01 * (i - 1000) * kStep;  // then along the wall, to 20 mm
         f = s.tick(finger, {{x, y, 0}, {0, i < 1000 ? 0 : 0.01, 0}});
         largest = std::max(largest, std::abs(f.y()));
         if (i == 1300) {
@@ -135,9 +136,12 @@ TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
 TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
     Scene s;
     Finger finger(s.finger, s.proxy, implicit(1000), 1e3, 1e9);
-    for (int i = 0; i < 2000; ++i) s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
-    EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.x(), -11, 0.01);
-    EXPECT_EQ(finger.force(s.world, {{-0.01, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.norm(), 0);  // it does not pull
+    for (int i = 0; i < 2000; ++i)
+        s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
+    EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.x(), -11,
+                0.01);
+    EXPECT_EQ(finger.force(s.world, {{-0.01, 0, 0}, Vec3::Zero()}, kStep).f_asked_W.norm(),
+              0);  // it does not pull
     const Vec3 across = finger.force(s.world, {{0.0075, 0.05, 0}, Vec3::Zero()}, kStep).f_asked_W;
     EXPECT_NEAR(across.y(), -0.5 * -across.x(), 1e-9);  // it slides
 }
@@ -169,8 +173,8 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
         const double t = i * kStep;
         f = s.tick(finger, {{-0.05, 2 * t * t, 0}, {0, 4 * t, 0}});
     }
-    // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper adds a
-    // little, since the proxy's speed is a step late
+    // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper
+    // adds a little, since the proxy's speed is a step late
     EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
 }
 

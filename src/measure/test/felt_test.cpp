@@ -23,7 +23,8 @@ TEST(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     bench.run([&](const servo::Frame& frame) {
         const Vec3 v = frame.bodies[1].v_WB;
         const double force = -frame.fingers[0].f_sent_W.x();
-        const double expected = setup.mass * (v.x() - v_before.x()) / setup.settings.tick() + setup.friction * setup.mass * kGravity;
+        const double expected = setup.mass * (v.x() - v_before.x()) / setup.settings.tick() +
+                                setup.friction * setup.mass * kGravity;
         // while it is pushed and slides; the first ticks of touch bring it from rest to speed
         if (v.x() > 0.05 && v_before.x() > 0.05 && force > 0.1) {
             EXPECT_NEAR(force / expected, 1, 0.01) << seconds(frame.time);
@@ -84,7 +85,8 @@ TEST(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     Bench bench(scene, hand, setup);
     bench.run([&](const servo::Frame& frame) {
         const servo::FingerFrame& f = frame.fingers[0];
-        // nothing but the proxy's own gram, at the peak acceleration of minimum jerk over 0.2 m in 1 s
+        // nothing but the proxy's own gram, at the peak acceleration of minimum jerk over 0.2 m in
+        // 1 s
         EXPECT_LT(f.f_sent_W.head<2>().norm(), 1.02 * scene.fingers[0].mass * 5.774 * 0.2);
         if (seconds(frame.time) > 1.2) {
             EXPECT_NEAR(f.f_sent_W.z() / (1000 * (0.008 - f.p_WH.z())), 1, 0.005);

@@ -19,13 +19,15 @@ TEST(MinimumJerk, StartsAndEndsAtRestWithItsPeakInTheMiddle) {
     EXPECT_DOUBLE_EQ(minimum_jerk(0.5).rate, kMinimumJerkPeak);
     const double h = 1e-6;
     for (double s = 0.1; s < 1; s += 0.1) {
-        EXPECT_NEAR((minimum_jerk(s + h).share - minimum_jerk(s - h).share) / (2 * h), minimum_jerk(s).rate, 1e-8);
+        EXPECT_NEAR((minimum_jerk(s + h).share - minimum_jerk(s - h).share) / (2 * h),
+                    minimum_jerk(s).rate, 1e-8);
     }
 }
 
 std::vector<double> sine(double frequency, double rate, size_t n) {
     std::vector<double> out(n);
-    for (size_t i = 0; i < n; ++i) out[i] = std::sin(2 * std::numbers::pi * frequency * static_cast<double>(i) / rate);
+    for (size_t i = 0; i < n; ++i)
+        out[i] = std::sin(2 * std::numbers::pi * frequency * static_cast<double>(i) / rate);
     return out;
 }
 
@@ -36,9 +38,11 @@ double amplitude(const std::vector<double>& x) {
     return std::sqrt(2 * square / (static_cast<double>(x.size()) / 2));
 }
 
-/// |H|^2 of a second-order Butterworth at a frequency, by the bilinear transform: both passes together.
+/// |H|^2 of a second-order Butterworth at a frequency, by the bilinear transform: both passes
+/// together.
 double both_passes(double frequency, double cutoff, double rate, bool high) {
-    const double ratio = std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
+    const double ratio =
+        std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
     return 1 / (1 + std::pow(high ? 1 / ratio : ratio, 4));
 }
 
@@ -57,8 +61,10 @@ TEST(Butterworth, DoesNotShiftInTime) {
 }
 
 TEST(Butterworth, LeavesAConstantAlone) {
-    for (const double y : low_pass(std::vector<double>(100, 3.5), 5, 1000)) EXPECT_NEAR(y, 3.5, 1e-12);
-    for (const double y : high_pass(std::vector<double>(100, 3.5), 5, 1000)) EXPECT_NEAR(y, 0, 1e-12);
+    for (const double y : low_pass(std::vector<double>(100, 3.5), 5, 1000))
+        EXPECT_NEAR(y, 3.5, 1e-12);
+    for (const double y : high_pass(std::vector<double>(100, 3.5), 5, 1000))
+        EXPECT_NEAR(y, 0, 1e-12);
 }
 
 TEST(Grasp, ClosedForms) {

@@ -62,7 +62,8 @@ TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
 }
 
 TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
-    for (const char* line : {"grip_force float64 N\n", "  force_sent float64[3] N\n", "  angular_velocity float64[3] rad/s\n", "time int64 ns\n"}) {
+    for (const char* line : {"grip_force float64 N\n", "  force_sent float64[3] N\n",
+                             "  angular_velocity float64[3] rad/s\n", "time int64 ns\n"}) {
         EXPECT_NE(schema().find(line), std::string::npos) << line;
     }
 }
@@ -134,7 +135,8 @@ TEST(RawLog, NeverOverwritesAnother) {
 
 TEST(RawLog, SaysThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-    // /dev/full exists, so creating it fails; a link to it in a folder stands for a disk that fills later
+    // /dev/full exists, so creating it fails; a link to it in a folder stands for a disk that fills
+    // later
     const testing::TemporaryFolder folder;
     try {
         RawLogWriter writer("/dev/full", head());
@@ -202,7 +204,9 @@ TEST(SessionFolder, NamesAreUniqueAndTidy) {
     EXPECT_NE(a.path().find("my-exp----x_S01"), std::string::npos) << a.path();
 }
 
-TEST(SessionFolder, SaysWhatIsNoSession) { EXPECT_THROW(SessionFolder::open("/tmp"), Error); }
+TEST(SessionFolder, SaysWhatIsNoSession) {
+    EXPECT_THROW(SessionFolder::open("/tmp"), Error);
+}
 
 TEST(SessionFolder, KeepsItsInfo) {
     const testing::TemporaryFolder folder;

@@ -15,7 +15,8 @@ constexpr double kPi = std::numbers::pi;
 /// Vertices of a box with corners at 0 and size.
 std::vector<Vec3> corners(const Vec3& size) {
     std::vector<Vec3> out;
-    for (int i = 0; i < 8; ++i) out.push_back(size.cwiseProduct(Vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
+    for (int i = 0; i < 8; ++i)
+        out.push_back(size.cwiseProduct(Vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
     return out;
 }
 
@@ -46,7 +47,10 @@ TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
         const double latitude = kPi / 2 * ring / 60;
         for (int i = 0; i < 120; ++i) {
             const double longitude = 2 * kPi * i / 120;
-            const double z = capsule.radius * std::sin(latitude) + (ring > 0 ? 1 : ring < 0 ? -1 : 0) * capsule.length / 2;
+            const double z = capsule.radius * std::sin(latitude) + (ring > 0   ? 1
+                                                                    : ring < 0 ? -1
+                                                                               : 0) *
+                                                                       capsule.length / 2;
             points.emplace_back(capsule.radius * std::cos(latitude) * std::cos(longitude),
                                 capsule.radius * std::cos(latitude) * std::sin(longitude), z);
         }
@@ -55,7 +59,8 @@ TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
     const VolumeIntegrals fine = integrate(hull.vertices, hull.faces);
     const VolumeIntegrals exact = integrate(capsule);
     EXPECT_NEAR(fine.volume / exact.volume, 1, 2e-3);
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(fine.inertia(axis, axis) / exact.inertia(axis, axis), 1, 4e-3);
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(fine.inertia(axis, axis) / exact.inertia(axis, axis), 1, 4e-3);
 }
 
 TEST(Integrals, OfSphereAndCylinder) {
@@ -115,45 +120,72 @@ struct Bad {
     const char* yaml;
     const char* says;
 };
-void PrintTo(const Bad& bad, std::ostream* out) { *out << bad.says; }
+void PrintTo(const Bad& bad, std::ostream* out) {
+    *out << bad.says;
+}
 class BadScene : public ::testing::TestWithParam<Bad> {};
 TEST_P(BadScene, IsReported) {
-    EXPECT_NE(problems_of(GetParam().yaml).find(GetParam().says), std::string::npos) << problems_of(GetParam().yaml);
+    EXPECT_NE(problems_of(GetParam().yaml).find(GetParam().says), std::string::npos)
+        << problems_of(GetParam().yaml);
 }
 INSTANTIATE_TEST_SUITE_P(
     SceneFile, BadScene,
     ::testing::Values(
         Bad{"title: x\n", "bodies: is missing"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n", "scene.yaml:2: error: mass_g: must be positive, is -100"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40]}\n", "has neither mass nor density"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 1, density_g_cm3: 1}\n", "both mass and density"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_m: [40, 40, 40], mass_g: 100}\n", "warning: this shape is 40 m large. Check the unit"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_kg: 100}\n", "warning: b: weighs 100 kg. Check the unit"},
-        Bad{"bodies:\n  - {name: b, shape: ball, size_mm: [4, 4, 4], mass_g: 1}\n", "'ball' is not known. Use box, sphere"},
-        Bad{"bodies:\n  - {name: b, shape: sphere, size_mm: [4, 4, 4], mass_g: 1}\n", "radius: is missing"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n",
+            "scene.yaml:2: error: mass_g: must be positive, is -100"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40]}\n",
+            "has neither mass nor density"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 1, density_g_cm3: "
+            "1}\n",
+            "both mass and density"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_m: [40, 40, 40], mass_g: 100}\n",
+            "warning: this shape is 40 m large. Check the unit"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_kg: 100}\n",
+            "warning: b: weighs 100 kg. Check the unit"},
+        Bad{"bodies:\n  - {name: b, shape: ball, size_mm: [4, 4, 4], mass_g: 1}\n",
+            "'ball' is not known. Use box, sphere"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, size_mm: [4, 4, 4], mass_g: 1}\n",
+            "radius: is missing"},
         Bad{"bodies:\n  - {name: p, shape: plane}\n", "a plane is infinite and cannot move"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, turns: xy}\n", "cannot be held to turn about two axes"},
-        Bad{"bodies:\n  - {name: b, shape: mesh, file: gone.obj, unit: mm, mass_g: 1}\n", "there is no mesh"},
-        Bad{"bodies:\n  - {name: b, shape: mesh, file: scene.yaml, unit: mm, mass_g: 1}\n", "cannot be read"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, turns: xy}\n",
+            "cannot be held to turn about two axes"},
+        Bad{"bodies:\n  - {name: b, shape: mesh, file: gone.obj, unit: mm, mass_g: 1}\n",
+            "there is no mesh"},
+        Bad{"bodies:\n  - {name: b, shape: mesh, file: scene.yaml, unit: mm, mass_g: 1}\n",
+            "cannot be read"},
         Bad{"bodies:\n  - {name: b, shape: mesh, file: m.obj, mass_g: 1}\n", "unit: is missing"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1}\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1}\n", "'b' is used twice"},
-        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - {between: [blokc, thumb], friction: 1}\n", "there is no body or finger 'blokc'. Did you mean block?"},
-        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - {between: [block], friction: 1}\n", "must be two names"},
-        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\nobject: blok\n", "Did you mean block?"},
-        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, friction: -1}\n", "friction: must be at least 0"}));
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1}\n  - {name: b, "
+            "shape: box, size_mm: [4, 4, 4], mass_g: 1}\n",
+            "'b' is used twice"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - "
+            "{between: [blokc, thumb], friction: 1}\n",
+            "there is no body or finger 'blokc'. Did you mean block?"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\npairs:\n  - "
+            "{between: [block], friction: 1}\n",
+            "must be two names"},
+        Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\nobject: blok\n",
+            "Did you mean block?"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, friction: -1}\n",
+            "friction: must be at least 0"}));
 
 const char* const kObj =
     "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\n"
     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 const char* const kStl =
     "solid t\n"
-    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 40 0\nvertex 40 0 0\nendloop\nendfacet\n"
-    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 40 0 0\nvertex 0 0 40\nendloop\nendfacet\n"
-    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 40\nvertex 0 40 0\nendloop\nendfacet\n"
-    "facet normal 0 0 0\nouter loop\nvertex 40 0 0\nvertex 0 40 0\nvertex 0 0 40\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 40 0\nvertex 40 0 "
+    "0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 40 0 0\nvertex 0 0 "
+    "40\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 40\nvertex 0 40 "
+    "0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 40 0 0\nvertex 0 40 0\nvertex 0 0 "
+    "40\nendloop\nendfacet\n"
     "endsolid t\n";
 const char* const kPly =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n"
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n40 0 0\n0 40 0\n0 0 40\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 
@@ -162,14 +194,16 @@ TEST_P(MeshFormat, IsReadWithItsUnit) {
     const testing::TemporaryFolder folder;
     const auto [name, text] = GetParam();
     folder.write(name, text);
-    const std::string yaml = std::string("bodies:\n  - {name: t, shape: mesh, file: ") + name + ", unit: mm, density_g_cm3: 1}\n";
+    const std::string yaml = std::string("bodies:\n  - {name: t, shape: mesh, file: ") + name +
+                             ", unit: mm, density_g_cm3: 1}\n";
     Diagnostics diagnostics;
     const Scene scene = read_scene(folder.write("scene.yaml", yaml), diagnostics);
     EXPECT_TRUE(diagnostics.problems().empty());
     EXPECT_NEAR(mass(scene.bodies[0]), 1000 * 0.04 * 0.04 * 0.04 / 6, 1e-9);
 }
 INSTANTIATE_TEST_SUITE_P(SceneFile, MeshFormat,
-                         ::testing::Values(std::pair{"t.obj", kObj}, std::pair{"t.stl", kStl}, std::pair{"t.ply", kPly}));
+                         ::testing::Values(std::pair{"t.obj", kObj}, std::pair{"t.stl", kStl},
+                                           std::pair{"t.ply", kPly}));
 
 TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
     // an L of two boxes, one face shared
@@ -177,11 +211,17 @@ TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
     folder.write("l.obj",
                  "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
                  "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
-                 "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n");
+                 "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 "
+                 "9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n");
     Diagnostics diagnostics;
-    read_scene(folder.write("scene.yaml", "bodies:\n  - {name: l, shape: mesh, file: l.obj, unit: cm, mass_g: 10}\n"), diagnostics);
+    read_scene(
+        folder.write("scene.yaml",
+                     "bodies:\n  - {name: l, shape: mesh, file: l.obj, unit: cm, mass_g: 10}\n"),
+        diagnostics);
     ASSERT_EQ(diagnostics.problems().size(), 1u);
-    EXPECT_NE(diagnostics.problems()[0].text().find("is not convex: its convex hull, of 17 % more volume"), std::string::npos)
+    EXPECT_NE(diagnostics.problems()[0].text().find(
+                  "is not convex: its convex hull, of 17 % more volume"),
+              std::string::npos)
         << diagnostics.problems()[0].text();
 }
 

@@ -32,19 +32,23 @@ struct Grasp {
         scene::complete(scene, "", diagnostics);
         hand.centre = {0, 0, 0.02};
         hand.aperture = 0.06;
-        hand.script = {{"close", 0.3, 0.03, Vec3::Zero(), false}, {"lift", 0.5, {}, {0, 0, 0.05}, false}, {"hold", 0.3, {}, Vec3::Zero(), false}};
+        hand.script = {{"close", 0.3, 0.03, Vec3::Zero(), false},
+                       {"lift", 0.5, {}, {0, 0, 0.05}, false},
+                       {"hold", 0.3, {}, Vec3::Zero(), false}};
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
         rig::Rig rig = rig::simulated_rig(fingers);
         rig.devices[1].rotation = {0.5, 0.2, 1.1};
         rig.devices[1].position = {0.3, 0, 0};
         if (!options.empty()) {
-            for (rig::Device& device : rig.devices) device.options = parse_yaml(options, "rig.yaml");
+            for (rig::Device& device : rig.devices)
+                device.options = parse_yaml(options, "rig.yaml");
         }
         devices::Context context;
         context.driver = driver.get();
         context.impedance = hand.impedance;
-        servo = std::make_unique<Servo>(scene, settings, rig::make_devices(rig, fingers, context), rig::poses(rig, fingers));
+        servo = std::make_unique<Servo>(scene, settings, rig::make_devices(rig, fingers, context),
+                                        rig::poses(rig, fingers));
         servo->activate();
     }
     const Frame& run(double from, double to, const FrameSink& sink = {}) {
@@ -102,12 +106,14 @@ TEST(Servo, AllocatesNothingAfterActivation) {
             settings.coupling.kind = kind;
             settings.coupling.stiffness = 500;
             Grasp grasp(settings, options);
-            const Director director = [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+            const Director director = [](const Frame&, std::span<const haptics::Handle>,
+                                         Commands& commands) {
                 commands.phase = 1;
                 commands.load({{1}, {0, 0, 0.01}, Vec3::Zero()});
             };
             const testing::AllocationGuard guard;
-            for (int i = 0; i < 1100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), director);
+            for (int i = 0; i < 1100; ++i)
+                grasp.servo->tick(i * std::chrono::milliseconds(1), director);
             EXPECT_EQ(guard.count(), 0u);
         }
     }
@@ -117,7 +123,9 @@ TEST(Servo, TheAllocationGuardSeesADirectorThatAllocates) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Grasp grasp;
     std::vector<int> grows;
-    const Director director = [&](const Frame&, std::span<const haptics::Handle>, Commands&) { grows.push_back(1); };
+    const Director director = [&](const Frame&, std::span<const haptics::Handle>, Commands&) {
+        grows.push_back(1);
+    };
     const testing::AllocationGuard guard;
     grasp.servo->tick(Time(0), director);
     EXPECT_GT(guard.count(), 0u);
@@ -179,10 +187,11 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
     TickTimes times;
     times.reserve(2000);
     int frames = 0;
-    const Director director = [](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
-        commands.stop = last.sequence == 98;
-    };
-    run_virtual(*grasp.servo, director, [&](const Frame&) { ++frames; }, std::chrono::seconds(10), stop, &times);
+    const Director director = [](const Frame& last, std::span<const haptics::Handle>,
+                                 Commands& commands) { commands.stop = last.sequence == 98; };
+    run_virtual(
+        *grasp.servo, director, [&](const Frame&) { ++frames; }, std::chrono::seconds(10), stop,
+        &times);
     EXPECT_EQ(frames, 100);
     EXPECT_EQ(times.count(), 100u);
     EXPECT_GT(times.quantile(1), 0);
@@ -196,9 +205,11 @@ TEST(Run, RealTimeKeepsPaceAndCountsOverruns) {
     times.reserve(1000);
     const auto begin = std::chrono::steady_clock::now();
     const RealTimeResult result = run_real(
-        *grasp.servo, {}, [&](const Frame& frame) {
+        *grasp.servo, {},
+        [&](const Frame& frame) {
             EXPECT_GE(frame.lateness, 0);
-            if (frame.sequence == 50) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // an overrun
+            if (frame.sequence == 50)
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));  // an overrun
         },
         std::chrono::milliseconds(200), stop, times, reached);
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));

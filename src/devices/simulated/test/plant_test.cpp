@@ -41,7 +41,8 @@ TEST(Plant, SwingsAsTheDampedOscillatorThatItIs) {
     for (int i = 1; i < 300; ++i) {
         p.advance(milliseconds(i));
         const double t = i * 1e-3;
-        const double expected = 0.01 * (1 - std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t)));
+        const double expected =
+            0.01 * (1 - std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t)));
         EXPECT_NEAR(p.p_WH().x(), expected, 5e-5) << t;
     }
 }
@@ -95,7 +96,8 @@ TEST(Plant, FrictionHoldsAgainstLessThanItself) {
     EXPECT_EQ(p.p_WH().x(), 0);
     p.hold({0.15, 0, 0});
     p.advance(milliseconds(3000));
-    // it stops where spring and friction balance the force: within friction / stiffness of the target
+    // it stops where spring and friction balance the force: within friction / stiffness of the
+    // target
     EXPECT_NEAR(p.p_WH().x(), 0.15 / 300, 0.04 / 300 + 1e-6);
     EXPECT_EQ(p.v_WH().x(), 0);
 }
@@ -104,7 +106,8 @@ TEST(Encoder, RoundsToItsStepsAndTakesVelocityFromThem) {
     Options options = Options::of(Preset::premium_1_0);
     Encoder encoder(options);
     Encoder::Measured measured{};
-    for (int i = 0; i < 100; ++i) measured = encoder.measure(milliseconds(i), {0.1 * i * 1e-3, 0, 0}, {0.1, 0, 0});
+    for (int i = 0; i < 100; ++i)
+        measured = encoder.measure(milliseconds(i), {0.1 * i * 1e-3, 0, 0}, {0.1, 0, 0});
     EXPECT_NEAR(std::remainder(measured.p.x(), 0.03e-3), 0, 1e-15);
     EXPECT_NEAR(measured.p.x(), 0.0099, 0.015e-3);
     EXPECT_NEAR(measured.v.x(), 0.1, 0.03e-3 / 8e-3);
@@ -114,7 +117,8 @@ TEST(Encoder, RoundsToItsStepsAndTakesVelocityFromThem) {
 TEST(Options, OfThePremiumAreThoseOfItsDataSheetAndMayBeOverridden) {
     Options options;
     Diagnostics diagnostics;
-    read_fields(options, parse_yaml("preset: premium_1_0\nfriction_N: 0.1\n", "rig.yaml"), diagnostics);
+    read_fields(options, parse_yaml("preset: premium_1_0\nfriction_N: 0.1\n", "rig.yaml"),
+                diagnostics);
     EXPECT_FALSE(diagnostics.has_errors());
     EXPECT_EQ(options.position_step, 0.03e-3);
     EXPECT_EQ(options.peak_force, 8.5);
@@ -128,7 +132,11 @@ TEST(SimulatedGroup, ReadsAndWritesInTheDevicesFrameAndMindsItsWorkspace) {
     Context context;
     context.driver = &driver;
     const Pose X_WD{rotation_xyz({0.4, -0.2, 1.3}), {0.1, -0.2, 0.05}};
-    const auto group = find_backend("simulated")->make({{"thumb", X_WD, parse_yaml("preset: premium_1_0\nfriction_N: 0\nposition_step_m: 0\n", "")}}, context);
+    const auto group =
+        find_backend("simulated")
+            ->make({{"thumb", X_WD,
+                     parse_yaml("preset: premium_1_0\nfriction_N: 0\nposition_step_m: 0\n", "")}},
+                   context);
     std::vector<Reading> readings(1);
     group->activate();
     group->read(Time(0), readings);
