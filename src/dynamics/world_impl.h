@@ -1,0 +1,72 @@
+// What World consists of. Only world.cpp, which sets it up, and world_step.cpp, which steps it, see
+// this.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "dynamics/bullet/collision.h"
+#include "dynamics/bullet/shape.h"
+#include "dynamics/bullet/solver.h"
+#include "dynamics/groups.h"
+#include "dynamics/sleep.h"
+#include "dynamics/world.h"
+
+namespace dihaptic::dynamics {
+
+/// Something of a group of bodies that touch.
+template <class T>
+struct Grouped {
+    size_t group;
+    int order;  // among its like: keeps sorting stable without memory
+    T item;
+    bool operator<(const Grouped& other) const {
+        return group != other.group ? group < other.group : order < other.order;
+    }
+};
+
+struct World::Impl {
+    struct Item {
+        std::string name;
+        double friction = 0;
+        bool is_proxy = false;
+        bool can_move = false;
+        Pose X_BM;
+        Vec3 inertia = Vec3::Zero();
+        std::unique_ptr<btCollisionShape> shape;
+        std::unique_ptr<Polyhedron> polyhedron;
+        std::unique_ptr<btRigidBody> body;
+        Vec3 force = Vec3::Zero();
+        Vec3 torque = Vec3::Zero();
+    };
+
+    scene::Scene scene;
+    Settings settings;
+    std::vector<Item> items;
+    std::vector<size_t> awake;  // bodies that take part in the step
+    std::vector<size_t> can_move;
+    std::vector<Grouped<btCollisionObject*>> grouped_bodies;  // awake, by group
+    std::vector<Grouped<btPersistentManifold*>> grouped_contacts;
+    std::vector<btCollisionObject*> batch_bodies;
+    std::vector<btPersistentManifold*> batch_contacts;
+    std::vector<double> friction;  // by pair, row-major
+    std::unique_ptr<Collision> collision;
+    std::unique_ptr<Groups> groups;
+    std::unique_ptr<SleepKeeper> sleep;
+    SequentialImpulse sequential_impulse;
+
+    void add(const std::string& name, const scene::Shape& shape, double mass,
+             double friction_coefficient, const Pose& X_WB, const btVector3& linear,
+             const btVector3& angular);
+    bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
+    void wake(size_t i, std::vector<BodyState>& states);
+    void collect_awake(std::vector<BodyState>& states);
+    void integrate_loads(double h, const Vec3& gravity);
+    void prepare_contacts();
+    void group_contacts();
+    contact::SolveStats solve(double h);
+    void integrate_positions(double h, std::vector<BodyState>& states);
+    void read_state(size_t i, BodyState& state) const;
+    void let_sleep(double h, std::vector<BodyState>& states);
+};
+
+}  // namespace dihaptic::dynamics
