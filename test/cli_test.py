@@ -168,7 +168,7 @@ class Interruptions(unittest.TestCase):
 
     def test_killed_anywhere_it_recovers_and_replays(self):
         random.seed(1)
-        for _ in range(8):
+        for _ in range(int(os.environ.get("DIHAPTIC_KILLS", 8))):
             with tempfile.TemporaryDirectory() as out:
                 process = self.start(out)
                 self.wait_for_log(out, random.randint(50_000, 9_000_000))

@@ -22,7 +22,7 @@ struct Options {
     std::string clock = "virtual";
 };
 
-void run_one(Options options) {
+void run_one(const Options& options) {
     const experiment::Plan plan = experiment::make_plan(options.request);
     print(plan.warnings);
     fmt::print("{}\n", plan.title);

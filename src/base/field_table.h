@@ -25,10 +25,10 @@ class FieldLister {
         writer(name, value, field);
         const Node written = writer.take();
         const std::string key =
-            written.entries.empty() ? si_key(name, field.quantity) : written.entries.front().first;
+            written.entries.empty() ? si_key(name, field.quantity) : written.entries.front().key;
         const auto origin = origins_.find(join(name));
         table_.rows.push_back({(path_.empty() ? "" : path_ + ".") + key,
-                               written.entries.empty() ? "" : written.entries.front().second.scalar,
+                               written.entries.empty() ? "" : written.entries.front().value.scalar,
                                origin == origins_.end() ? "default" : origin->second});
     }
 

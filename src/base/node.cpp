@@ -36,7 +36,7 @@ void Node::set(const std::string& key, Node value) {
             return;
         }
     }
-    entries.emplace_back(key, std::move(value));
+    entries.push_back({key, std::move(value)});
 }
 
 namespace {
@@ -64,7 +64,7 @@ Node convert(const YAML::Node& in, const std::string& file) {
                 }
                 Node value = convert(entry.second, file);
                 value.place = at;
-                out.entries.emplace_back(key, std::move(value));
+                out.entries.push_back({key, std::move(value)});
             }
             break;
         default:

@@ -2,21 +2,22 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
 
 namespace dihaptic {
 
+/// A YAML document, or a part of it.
 struct Node {
+    struct Entry;
     enum class Kind { null, scalar, sequence, mapping };
 
     Kind kind = Kind::null;
     Place place;
     std::string scalar;
-    std::vector<Node> items;                            ///< of a sequence
-    std::vector<std::pair<std::string, Node>> entries;  ///< of a mapping, in the order of the file
+    std::vector<Node> items;     ///< of a sequence
+    std::vector<Entry> entries;  ///< of a mapping, in the order of the file
 
     /// The value of a mapping's key, or null.
     const Node* find(const std::string& key) const;
@@ -25,6 +26,11 @@ struct Node {
     static Node mapping();
     /// Adds or replaces an entry of a mapping.
     void set(const std::string& key, Node value);
+};
+
+struct Node::Entry {
+    std::string key;
+    Node value;
 };
 
 /// Reads a YAML file.

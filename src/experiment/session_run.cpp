@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -12,6 +12,15 @@
 
 namespace dihaptic::experiment {
 namespace {
+
+/// Equal to the bit, so that a NaN equals itself.
+template <class Vector>
+bool same_bits(const Vector& a, const Vector& b) {
+    for (Eigen::Index i = 0; i < a.size(); ++i) {
+        if (std::bit_cast<uint64_t>(a[i]) != std::bit_cast<uint64_t>(b[i])) return false;
+    }
+    return true;
+}
 
 namespace fs = std::filesystem;
 using Wall = std::chrono::steady_clock;
@@ -265,13 +274,13 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         for (size_t i = 0; i < frame.fingers.size(); ++i) {
             const servo::FingerFrame& a = frame.fingers[i];
             const servo::FingerFrame& b = recorded->fingers[i];
-            same = same && std::memcmp(a.f_sent_W.data(), b.f_sent_W.data(), sizeof(Vec3)) == 0 &&
-                   std::memcmp(a.f_asked_W.data(), b.f_asked_W.data(), sizeof(Vec3)) == 0 &&
-                   std::memcmp(a.p_WP.data(), b.p_WP.data(), sizeof(Vec3)) == 0;
+            same = same && same_bits(a.f_sent_W, b.f_sent_W) &&
+                   same_bits(a.f_asked_W, b.f_asked_W) && same_bits(a.p_WP, b.p_WP);
         }
         for (size_t i = 0; i < frame.bodies.size(); ++i) {
-            same = same && std::memcmp(frame.bodies[i].X_WB.p.data(),
-                                       recorded->bodies[i].X_WB.p.data(), sizeof(Vec3)) == 0;
+            const Pose& a = frame.bodies[i].X_WB;
+            const Pose& b = recorded->bodies[i].X_WB;
+            same = same && same_bits(a.p, b.p) && same_bits(a.R.coeffs(), b.R.coeffs());
         }
         if (!same) {
             if (result.different_ticks++ == 0) result.first_difference = seconds(recorded->time);

@@ -32,7 +32,7 @@ Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTou
     // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
     if (!touch.touching) return Vec3::Zero();
     const dynamics::BodyState& state = world.state(proxy);
-    const Vec3 spring =
+    Vec3 spring =
         settings_.stiffness * (state.X_WB.p - handle.p_WH) + damping_ * (state.v_WB - handle.v_WH);
     const bool of_this_step = handle.p_WH == handle_.p_WH && handle.v_WH == handle_.v_WH;
     if (of_this_step) return spring;

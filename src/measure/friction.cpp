@@ -49,7 +49,8 @@ double drift(const scene::Scene& scene, const dynamics::Settings& settings, doub
         centre.push_back(scene::integrate(scene.bodies[i].shape).centre);
         start.push_back(world.states()[i].X_WB * centre[i]);
     }
-    for (double t = 0; t < time; t += kStep) world.step(kStep);
+    const auto steps = static_cast<int>(std::lround(time / kStep));
+    for (int i = 0; i < steps; ++i) world.step(kStep);
     double most = 0;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         most = std::max(most, (world.states()[i].X_WB * centre[i] - start[i]).norm());

@@ -37,7 +37,9 @@ double perfect_peak(double k, double speed) {
     const double damping = 3;
     double x = -kStartGap, v = 0, peak = 0;
     const double end = kStartGap + kSqueeze;
-    for (double t = 0; t < end / speed + 1; t += h) {
+    const auto steps = static_cast<int>((end / speed + 1) / h);
+    for (int i = 0; i < steps; ++i) {
+        const double t = i * h;
         const bool running = speed * t < end;
         const double target = -kStartGap + std::min(speed * t, end);
         const double push = x > 0 ? k * x : 0;

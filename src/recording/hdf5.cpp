@@ -24,6 +24,7 @@ Id string_type() {
 
 std::vector<const char*> pointers(const std::vector<std::string>& values) {
     std::vector<const char*> out;
+    out.reserve(values.size());
     for (const std::string& value : values) out.push_back(value.c_str());
     return out;
 }

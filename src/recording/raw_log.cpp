@@ -125,7 +125,7 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std
                     "Read it with that version; session.yaml names it.");
     }
     Node fields = text;
-    std::erase_if(fields.entries, [](const auto& entry) { return entry.first == "schema"; });
+    std::erase_if(fields.entries, [](const auto& entry) { return entry.key == "schema"; });
     Diagnostics diagnostics;
     read_fields(head_, fields, diagnostics);
     diagnostics.throw_if_errors();

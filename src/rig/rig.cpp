@@ -97,6 +97,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
 
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers) {
     std::vector<Pose> out;
+    out.reserve(fingers.size());
     for (const std::string& finger : fingers) out.push_back(device_of(rig, finger).X_WD());
     return out;
 }

@@ -89,6 +89,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
     }
     Diagnostics diagnostics;
     std::vector<Options> options;
+    options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
     diagnostics.throw_if_errors();
     return std::make_unique<SimulatedGroup>(configs, options, context);

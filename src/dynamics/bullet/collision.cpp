@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-extern btScalar gContactBreakingThreshold;  // Bullet's own, in btPersistentManifold.cpp
-
 namespace dihaptic::dynamics {
 namespace {
 
