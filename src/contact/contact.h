@@ -22,13 +22,7 @@ struct Contact {
     double friction = 0;        ///< coefficient of the pair
     double normal_force = 0;    ///< pressing the bodies apart, mean over the step, at least 0 [N]
     Vec3 f_B_W = Vec3::Zero();  ///< whole force of a on b, mean over the step [N]
-};
-
-/// What a solve achieved.
-struct SolveStats {
-    int iterations = 0;
-    double residual = 0;    ///< largest change of a contact's velocity in the last iteration [m/s]
-    bool fallback = false;  ///< another solver than the one asked for answered
+    double moment = 0;          ///< of a on b about the normal, mean over the step [N*m]
 };
 
 }  // namespace dihaptic::contact

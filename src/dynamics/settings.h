@@ -4,21 +4,22 @@
 #include <array>
 
 #include "base/field.h"
+#include "contact/solver.h"
 
 namespace dihaptic::dynamics {
 
-enum class Solver { sequential_impulse };
-constexpr auto enum_names(Solver) {
-    return std::array{"sequential_impulse"};
-}
+using contact::Solver;
 
 struct Settings {
     Solver solver = Solver::sequential_impulse;
-    int every = 1;         ///< one step in so many ticks of the servo
-    int iterations = 200;  ///< most iterations of a step
-    double tolerance =
-        1e-7;  ///< a step ends when an iteration changes no contact's velocity by more [m/s]
-    bool warm_start = true;  ///< start from the last step's contact forces
+    int every = 1;            ///< one step in so many ticks of the servo
+    int iterations = 200;     ///< most iterations of a step, of sequential_impulse
+    double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's
+                              ///< velocity by more [m/s]
+    int friction_directions = 8;  ///< of stewart_trinkle's friction polygon
+    contact::DirectionFrame friction_frame =
+        contact::DirectionFrame::sliding;  ///< where they lie: along sliding, or fixed
+    bool warm_start = true;                ///< start from the last step's contact forces
     double penetration_recovery =
         0.2;               ///< share of a penetration that one step removes (Bullet's erp2)
     bool sleeping = true;  ///< objects at rest that nothing touches are left out of the step
@@ -30,6 +31,9 @@ struct Settings {
         v("every", every, Field::number().at_least(1).at_most(100));
         v("iterations", iterations, Field::number().at_least(1).at_most(100000));
         v("tolerance", tolerance, Field::of(Quantity::speed).at_least(0));
+        v("friction_directions", friction_directions,
+          Field::number().at_least(4).at_most(contact::kMostDirections));
+        v("friction_frame", friction_frame);
         v("warm_start", warm_start);
         v("penetration_recovery", penetration_recovery, Field::number().at_least(0).at_most(1));
         v("sleeping", sleeping);

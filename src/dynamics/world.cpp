@@ -41,11 +41,12 @@ btVector3 factors(scene::Axes axes) {
 }  // namespace
 
 void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass,
-                      double friction_coefficient, const Pose& X_WB, const btVector3& linear,
-                      const btVector3& angular) {
+                      double friction_coefficient, double torsion_radius, const Pose& X_WB,
+                      const btVector3& linear, const btVector3& angular) {
     Item item;
     item.name = name;
     item.friction = friction_coefficient;
+    item.torsion_radius = torsion_radius;
     item.can_move = mass > 0 && !(linear.isZero() && angular.isZero());
     Solid solid = solid_of(shape, item.can_move ? mass : 0);
     const bool one_axis = angular.length2() == 1;
@@ -80,7 +81,8 @@ World::World(const scene::Scene& scene, const Settings& settings)
     impl_->settings = settings;
     for (const scene::Body& body : scene.bodies) {
         const bool fixed = body.fixed;
-        impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction, body.pose(),
+        impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction,
+                   body.torsion_radius, body.pose(),
                    fixed ? btVector3(0, 0, 0) : factors(body.moves),
                    fixed ? btVector3(0, 0, 0) : factors(body.turns));
     }
@@ -91,7 +93,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
-    impl_->add(finger.name, finger.shape, finger.mass, finger.friction,
+    impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
                {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1), btVector3(0, 0, 0));
     impl_->items.back().is_proxy = true;
     return {size() - 1};
@@ -108,6 +110,11 @@ void World::activate() {
     w.groups = std::make_unique<Groups>(count);
     w.sleep = std::make_unique<SleepKeeper>(count);
     w.sequential_impulse.reserve(static_cast<int>(count), max_contacts);
+    w.problem.reserve(static_cast<int>(count), max_contacts);
+    const bool torsion = std::any_of(w.items.begin(), w.items.end(), [](const Impl::Item& item) {
+        return item.torsion_radius > 0;
+    });
+    w.solvers.reserve(static_cast<int>(count), max_contacts, torsion);
     w.awake.reserve(count);
     w.can_move.reserve(count);
     w.grouped_bodies.reserve(count);
@@ -155,6 +162,10 @@ double World::friction(BodyIndex a, BodyIndex b) const {
 
 std::span<const size_t> World::stepped() const {
     return impl_->awake;
+}
+
+void World::set_solver(Solver solver) noexcept {
+    impl_->settings.solver = solver;
 }
 
 double World::mass(BodyIndex body) const {

@@ -78,6 +78,9 @@ class World {
     /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
 
+    /// The solver of the next steps; it starts from the last one's impulses.
+    void set_solver(Solver solver) noexcept;
+
     /// Steps by h [s].
     StepStatus step(double h) noexcept;
 

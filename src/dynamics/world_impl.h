@@ -4,7 +4,9 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "contact/solver.h"
 #include "dynamics/bullet/collision.h"
+#include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
 #include "dynamics/bullet/solver.h"
 #include "dynamics/groups.h"
@@ -28,6 +30,7 @@ struct World::Impl {
     struct Item {
         std::string name;
         double friction = 0;
+        double torsion_radius = 0;
         bool is_proxy = false;
         bool can_move = false;
         Pose X_BM;
@@ -53,10 +56,12 @@ struct World::Impl {
     std::unique_ptr<Groups> groups;
     std::unique_ptr<SleepKeeper> sleep;
     SequentialImpulse sequential_impulse;
+    ManifoldProblem problem;
+    contact::ContactSolvers solvers;
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
-             double friction_coefficient, const Pose& X_WB, const btVector3& linear,
-             const btVector3& angular);
+             double friction_coefficient, double torsion_radius, const Pose& X_WB,
+             const btVector3& linear, const btVector3& angular);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
@@ -64,6 +69,7 @@ struct World::Impl {
     void prepare_contacts();
     void group_contacts();
     contact::SolveStats solve(double h);
+    contact::SolveStats solve_batch(double h);
     void integrate_positions(double h, std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);

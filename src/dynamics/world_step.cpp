@@ -46,6 +46,8 @@ StepStatus World::step(double h) noexcept {
             out.friction = point.m_combinedFriction;
             out.normal_force = point.m_appliedImpulse / h;
             out.f_B_W = -from_bullet(impulse) / h;
+            // about a's outward normal, which is against Bullet's
+            out.moment = torsion_impulse(manifold->getContactPoint(i)) / h;
         }
     }
     w.let_sleep(h, states_);
@@ -98,8 +100,11 @@ void World::Impl::prepare_contacts() {
         const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
             manifold->getContactPoint(i).m_combinedFriction = friction[a * count + b];
+            // Bullet's solver knows no torsion
+            const bool torsion = settings.solver != Solver::sequential_impulse;
+            torsion_radius(manifold->getContactPoint(i)) =
+                torsion ? std::max(items[a].torsion_radius, items[b].torsion_radius) : 0;
         }
-        even_out(*manifold);
     }
 }
 
@@ -130,12 +135,10 @@ void World::Impl::group_contacts() {
 
 contact::SolveStats World::Impl::solve(double h) {
     contact::SolveStats stats;
-    const auto solve_batch = [&] {
+    const bool by_group = settings.solver != Solver::sequential_impulse;
+    const auto finish_batch = [&] {
         if (batch_contacts.empty()) return;
-        const contact::SolveStats batch = sequential_impulse.solve(
-            batch_bodies, batch_contacts, settings, h, collision->dispatcher());
-        stats.iterations = std::max(stats.iterations, batch.iterations);
-        stats.residual = std::max(stats.residual, batch.residual);
+        stats.join(solve_batch(h));
         batch_bodies.clear();
         batch_contacts.clear();
     };
@@ -150,14 +153,42 @@ contact::SolveStats World::Impl::solve(double h) {
             has_finger = has_finger || items[static_cast<size_t>(body->order)].is_proxy;
         }
         // a held object takes many iterations: nothing else shall wait for it
-        if (has_finger) solve_batch();
+        if (has_finger || by_group) finish_batch();
         for (auto b = first_body; b != body; ++b) batch_bodies.push_back(b->item);
         for (; contact != grouped_contacts.end() && contact->group == group; ++contact) {
             batch_contacts.push_back(contact->item);
         }
-        if (has_finger || batch_contacts.size() >= kBatch) solve_batch();
+        if (has_finger || batch_contacts.size() >= kBatch) finish_batch();
     }
-    solve_batch();
+    finish_batch();
+    return stats;
+}
+
+contact::SolveStats World::Impl::solve_batch(double h) {
+    contact::SolveStats stats;
+    problem.build(batch_bodies, batch_contacts, h, settings.penetration_recovery,
+                  settings.warm_start);
+    if (settings.solver != Solver::sequential_impulse) {
+        const contact::PolygonSettings polygon{settings.friction_directions,
+                                               settings.friction_frame};
+        if (solvers.solve(settings.solver, polygon, problem.problem(), problem.impulses(), stats)) {
+            problem.store(batch_contacts);
+            for (size_t i = 0; i < batch_bodies.size(); ++i) {
+                btRigidBody& body = *btRigidBody::upcast(batch_bodies[i]);
+                const auto change = solvers.velocity_change(static_cast<int>(i));
+                body.setLinearVelocity(body.getLinearVelocity() +
+                                       to_bullet(Vec3(change.head<3>())));
+                body.setAngularVelocity(body.getAngularVelocity() +
+                                        to_bullet(Vec3(change.tail<3>())));
+            }
+            return stats;
+        }
+        stats.fallback = true;  // too large a group: Bullet's solver grows with it
+    }
+    for (btPersistentManifold* manifold : batch_contacts) even_out(*manifold);
+    stats.iterations = sequential_impulse.solve(batch_bodies, batch_contacts, settings, h,
+                                                collision->dispatcher());
+    stats.residual = problem.judge(batch_contacts);
     return stats;
 }
 

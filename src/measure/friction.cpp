@@ -122,14 +122,16 @@ scene::Scene cards_scene(int storeys) {
     const double centre_x = u * std::sin(lean) + n * std::cos(lean);
     const double centre_z = u * std::cos(lean) + n * std::sin(lean);
     const double height = 2 * centre_z;  // of a pair's highest corners
-    const double foot = centre_x + u * std::sin(lean) - n * std::cos(lean);
-    const double pitch = 2 * foot + thick;
+    // neighbouring pairs stand clear of each other
+    const double outermost = centre_x + u * std::sin(lean) + n * std::cos(lean);
+    const double pitch = 2 * outermost + thick;
     scene::Scene scene;
     scene.bodies = {table(friction)};
-    const auto card = [&](const Vec3& position, double angle) {
-        scene::Body body =
-            box("card " + std::to_string(scene.bodies.size()), {thick, width, length},
-                {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
+    // decks side by side must not overlap
+    const double deck = storeys > 2 ? std::min(length, pitch - thick / 4) : length;
+    const auto card = [&](const Vec3& position, double angle, double size) {
+        scene::Body body = box("card " + std::to_string(scene.bodies.size()), {thick, width, size},
+                               {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
         body.mass = 0.008;
         scene.bodies.push_back(body);
     };
@@ -138,12 +140,12 @@ scene::Scene cards_scene(int storeys) {
         const int pairs = storeys - storey;
         for (int i = 0; i < pairs; ++i) {
             const double x = (i - 0.5 * (pairs - 1)) * pitch;
-            card({x - centre_x, 0, z + centre_z}, lean);
-            card({x + centre_x, 0, z + centre_z}, -lean);
+            card({x - centre_x, 0, z + centre_z}, lean, length);
+            card({x + centre_x, 0, z + centre_z}, -lean, length);
         }
         for (int i = 0; i + 1 < pairs; ++i) {
-            card({(i - 0.5 * (pairs - 2)) * pitch, 0, z + height + thick / 2},
-                 std::numbers::pi / 2);
+            card({(i - 0.5 * (pairs - 2)) * pitch, 0, z + height + thick / 2}, std::numbers::pi / 2,
+                 deck);
         }
     }
     return scene;

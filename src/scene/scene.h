@@ -29,6 +29,8 @@ struct Body {
     Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
+    double torsion_radius = 0;      ///< a contact of it carries a moment about its normal up to
+                                    ///< friction x radius x normal force; of a pair the larger [m]
     Axes moves =
         Axes::xyz;  ///< world axes that it may move along: z is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes that it may turn about: none, one, or xyz
@@ -45,6 +47,7 @@ struct Body {
         v("position", position, Field::length());
         v("rotation", rotation, Field::of(Quantity::angle));
         v("friction", friction, Field::number().at_least(0));
+        v("torsion_radius", torsion_radius, Field::length().at_least(0));
         v("moves", moves);
         v("turns", turns);
         v("colour", colour);
@@ -60,8 +63,9 @@ struct Body {
 struct Finger {
     std::string name;
     Shape shape;
-    double mass = 0.001;    ///< [kg]
-    double friction = 0.8;  ///< see pair_friction()
+    double mass = 0.001;        ///< [kg]
+    double friction = 0.8;      ///< see pair_friction()
+    double torsion_radius = 0;  ///< of a soft finger; see Body [m]
     Vec3 rotation =
         Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
     Place place;
@@ -72,6 +76,7 @@ struct Finger {
         shape.visit(v);
         v("mass", mass, Field::of(Quantity::mass).positive());
         v("friction", friction, Field::number().at_least(0));
+        v("torsion_radius", torsion_radius, Field::length().at_least(0));
         v("rotation", rotation, Field::of(Quantity::angle));
         if constexpr (requires { v.place(); }) place = v.place();
     }

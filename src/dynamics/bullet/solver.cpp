@@ -13,10 +13,9 @@ void SequentialImpulse::reserve(int bodies, int contacts) {
     last_friction_.reserve(static_cast<size_t>(contacts));
 }
 
-contact::SolveStats SequentialImpulse::solve(std::span<btCollisionObject*> bodies,
-                                             std::span<btPersistentManifold*> manifolds,
-                                             const Settings& settings, double h,
-                                             btDispatcher& dispatcher) {
+int SequentialImpulse::solve(std::span<btCollisionObject*> bodies,
+                             std::span<btPersistentManifold*> manifolds, const Settings& settings,
+                             double h, btDispatcher& dispatcher) {
     btContactSolverInfo info;
     // Two friction directions, along the slip and across: one lets a gripped block pitch.
     // Directions are not kept from step to step: that would make the cone a pyramid.
@@ -30,10 +29,9 @@ contact::SolveStats SequentialImpulse::solve(std::span<btCollisionObject*> bodie
     info.m_splitImpulse = 0;
 
     iterations_ = 0;
-    residual_squared_ = 0;
     solveGroup(bodies.data(), static_cast<int>(bodies.size()), manifolds.data(),
                static_cast<int>(manifolds.size()), nullptr, 0, info, nullptr, &dispatcher);
-    return {iterations_, std::sqrt(residual_squared_), false};
+    return iterations_;
 }
 
 void SequentialImpulse::convertContacts(btPersistentManifold** manifolds, int manifold_count,
@@ -84,10 +82,9 @@ btScalar SequentialImpulse::solveSingleIteration(
     int manifold_count, btTypedConstraint** constraints, int constraint_count,
     const btContactSolverInfo& info, btIDebugDraw* draw) {
     iterations_ = iteration + 1;
-    residual_squared_ = btSequentialImpulseConstraintSolver::solveSingleIteration(
+    return btSequentialImpulseConstraintSolver::solveSingleIteration(
         iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
         info, draw);
-    return residual_squared_;
 }
 
 void even_out(btPersistentManifold& manifold) {

@@ -18,9 +18,9 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
     void reserve(int bodies, int contacts);
 
     /// Changes the bodies' velocities so that the contacts hold; the manifolds keep the impulses.
-    contact::SolveStats solve(std::span<btCollisionObject*> bodies,
-                              std::span<btPersistentManifold*> manifolds, const Settings& settings,
-                              double h, btDispatcher& dispatcher);
+    /// Returns the iterations that it took.
+    int solve(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
+              const Settings& settings, double h, btDispatcher& dispatcher);
 
   private:
     void convertContacts(btPersistentManifold** manifolds, int manifold_count,
@@ -32,7 +32,6 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
 
     std::vector<btVector3> last_friction_;  // by contact, impulse of the last step on body 0
     int iterations_ = 0;
-    btScalar residual_squared_ = 0;
 };
 
 /// Moves the warm-start impulses of a contact patch toward an even share. Which of a pad's four

@@ -156,7 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
             "rig.yaml:1: error: devices: is not known here"},
         Bad{"unknown solver",
             [](Files& f) { f.experiment += "settings: {dynamics: {solver: magic}}\n"; },
-            "'magic' is not known. Use sequential_impulse."},
+            "'magic' is not known. Use sequential_impulse, stewart_trinkle, "
+            "staggered_projections"},
         Bad{"unknown finger",
             [](Files& f) { f.experiment += "hand: {fingers: [{name: pinky}]}\n"; },
             "the hand's finger 'pinky' is not among the scene's fingers"},

@@ -1,0 +1,176 @@
+#include "contact/block_lu.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace dihaptic::contact {
+namespace {
+
+/// Blocks reserved for each node: a pile of a hundred bodies fills about ten.
+constexpr size_t kBlocksPerNode = 24;
+constexpr size_t kWordBits = 64;
+
+/// In place, by Gauss-Jordan elimination on columns, which lie together in memory, with pivoting.
+void invert(BlockLu::Block& A) noexcept {
+    BlockLu::Block inverse = BlockLu::Block::Identity();
+    for (int k = 0; k < 6; ++k) {
+        int pivot = k;
+        for (int i = k + 1; i < 6; ++i) {
+            if (std::abs(A(k, i)) > std::abs(A(k, pivot))) pivot = i;
+        }
+        if (pivot != k) {
+            A.col(k).swap(A.col(pivot));
+            inverse.col(k).swap(inverse.col(pivot));
+        }
+        const double by = 1 / A(k, k);
+        A.col(k) *= by;
+        inverse.col(k) *= by;
+        for (int i = 0; i < 6; ++i) {
+            if (i == k) continue;
+            const double factor = A(k, i);
+            if (factor == 0) continue;
+            A.col(i) -= factor * A.col(k);
+            inverse.col(i) -= factor * inverse.col(k);
+        }
+    }
+    A = inverse;
+}
+
+}  // namespace
+
+void BlockLu::reserve(int nodes, int edges) {
+    capacity_ = nodes;
+    const auto n = static_cast<size_t>(nodes);
+    words_ = (n + kWordBits - 1) / kWordBits;
+    edges_.reserve(static_cast<size_t>(edges));
+    adjacency_.assign(n * words_, 0);
+    degree_.assign(n, 0);
+    eliminated_.assign(n, 0);
+    order_.reserve(n);
+    later_.reserve(kBlocksPerNode * n);
+    later_begin_.reserve(n + 1);
+    slot_.assign(n * n, -1);
+    blocks_.resize(kBlocksPerNode * n);
+    nodes_ = 0;
+    used_ = 0;
+}
+
+bool BlockLu::same_pattern(int nodes, std::span<const std::pair<int, int>> edges) const noexcept {
+    return nodes == nodes_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
+}
+
+bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept {
+    if (same_pattern(nodes, edges)) return true;
+    for (size_t k = 0; k < order_.size(); ++k) {  // forget the last pattern
+        const int i = order_[k];
+        slot_of(i, i) = -1;
+        for (size_t l = later_begin_[k]; l < later_begin_[k + 1]; ++l) {
+            slot_of(i, later_[l]) = slot_of(later_[l], i) = -1;
+        }
+    }
+    order_.clear();
+    later_.clear();
+    later_begin_.clear();
+    nodes_ = 0;
+    used_ = 0;
+    if (nodes > capacity_ || edges.size() > edges_.capacity()) return false;
+
+    const size_t words = (static_cast<size_t>(nodes) + kWordBits - 1) / kWordBits;
+    const auto bit = [](int node) {
+        return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
+    };
+    const auto word = [](int node) { return static_cast<size_t>(node) / kWordBits; };
+    for (int i = 0; i < nodes; ++i) {
+        std::fill_n(neighbours(i), words, 0);
+        eliminated_[static_cast<size_t>(i)] = 0;
+    }
+    for (const auto& [a, b] : edges) {
+        neighbours(a)[word(b)] |= bit(b);
+        neighbours(b)[word(a)] |= bit(a);
+    }
+    const auto count = [&](int node) {
+        int degree = 0;
+        for (size_t w = 0; w < words; ++w) degree += std::popcount(neighbours(node)[w]);
+        return degree;
+    };
+    for (int i = 0; i < nodes; ++i) degree_[static_cast<size_t>(i)] = count(i);
+
+    later_begin_.push_back(0);
+    for (int k = 0; k < nodes; ++k) {
+        int least = -1;
+        for (int i = 0; i < nodes; ++i) {
+            const auto at = static_cast<size_t>(i);
+            if (eliminated_[at] == 0 &&
+                (least < 0 || degree_[at] < degree_[static_cast<size_t>(least)])) {
+                least = i;
+            }
+        }
+        eliminated_[static_cast<size_t>(least)] = 1;
+        order_.push_back(least);
+        const size_t begin = later_.size();
+        for (size_t w = 0; w < words; ++w) {
+            for (uint64_t rest = neighbours(least)[w]; rest != 0; rest &= rest - 1) {
+                if (later_.size() == later_.capacity()) {
+                    order_.pop_back();
+                    return false;
+                }
+                later_.push_back(static_cast<int>(w * kWordBits) + std::countr_zero(rest));
+            }
+        }
+        later_begin_.push_back(later_.size());
+        const size_t needed = 1 + 2 * (later_.size() - begin);
+        if (static_cast<size_t>(used_) + needed > blocks_.size()) return false;
+        slot_of(least, least) = used_++;
+        for (size_t l = begin; l < later_.size(); ++l) {
+            const int j = later_[l];
+            slot_of(least, j) = used_++;
+            slot_of(j, least) = used_++;
+            // its neighbours now touch each other
+            uint64_t* of_j = neighbours(j);
+            for (size_t w = 0; w < words; ++w) of_j[w] |= neighbours(least)[w];
+            of_j[word(j)] &= ~bit(j);
+            of_j[word(least)] &= ~bit(least);
+            degree_[static_cast<size_t>(j)] = count(j);
+        }
+    }
+    nodes_ = nodes;
+    edges_.assign(edges.begin(), edges.end());
+    return true;
+}
+
+void BlockLu::set_identity() noexcept {
+    for (int i = 0; i < used_; ++i) blocks_[static_cast<size_t>(i)].setZero();
+    for (int i = 0; i < nodes_; ++i) block(slot(i, i)).setIdentity();
+}
+
+void BlockLu::solve(std::span<Vector> x) noexcept {
+    for (size_t k = 0; k < order_.size(); ++k) {
+        const int i = order_[k];
+        Block& diagonal = block(slot(i, i));
+        invert(diagonal);
+        const Vector x_i = diagonal * x[static_cast<size_t>(i)];
+        x[static_cast<size_t>(i)] = x_i;
+        const std::span later(later_.data() + later_begin_[k],
+                              later_begin_[k + 1] - later_begin_[k]);
+        for (const int m : later) {
+            Block& right = block(slot(i, m));
+            right = (diagonal * right).eval();
+        }
+        for (const int j : later) {
+            const Block& below = block(slot(j, i));
+            x[static_cast<size_t>(j)].noalias() -= below * x_i;
+            for (const int m : later) {
+                block(slot(j, m)).noalias() -= below.lazyProduct(block(slot(i, m)));
+            }
+        }
+    }
+    for (size_t k = order_.size(); k-- > 0;) {
+        const int i = order_[k];
+        for (size_t l = later_begin_[k]; l < later_begin_[k + 1]; ++l) {
+            const int m = later_[l];
+            x[static_cast<size_t>(i)].noalias() -= block(slot(i, m)) * x[static_cast<size_t>(m)];
+        }
+    }
+}
+
+}  // namespace dihaptic::contact

@@ -1,0 +1,65 @@
+// Sparse LU factorisation of a matrix of 6 x 6 blocks, one row a body, with a block wherever two
+// bodies touch. Bodies are eliminated in order of least degree, so that a wall or a chain fills
+// little; pivoting stays inside the diagonal blocks.
+//
+// Memory is reserved once; everything else allocates nothing.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace dihaptic::contact {
+
+class BlockLu {
+  public:
+    using Block = Eigen::Matrix<double, 6, 6>;
+    using Vector = Eigen::Matrix<double, 6, 1>;
+
+    void reserve(int nodes, int edges);
+
+    /// Finds the order of elimination and where fill-in arises, for a pattern of unordered pairs.
+    /// Does nothing when the pattern is the last one. False: larger than what was reserved.
+    bool analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept;
+
+    /// Where the block of two nodes is kept; valid until another pattern is analysed.
+    int slot(int row, int column) const noexcept {
+        return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
+                     static_cast<size_t>(column)];
+    }
+    Block& block(int slot) noexcept { return blocks_[static_cast<size_t>(slot)]; }
+    void set_identity() noexcept;
+
+    /// Solves for x in place; the blocks are used up.
+    void solve(std::span<Vector> x) noexcept;
+
+    int blocks() const noexcept { return used_; }
+
+  private:
+    bool same_pattern(int nodes, std::span<const std::pair<int, int>> edges) const noexcept;
+    int& slot_of(int row, int column) noexcept {
+        return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
+                     static_cast<size_t>(column)];
+    }
+    uint64_t* neighbours(int node) noexcept {
+        return &adjacency_[static_cast<size_t>(node) * words_];
+    }
+
+    int capacity_ = 0;
+    size_t words_ = 0;  // of a row of adjacency_
+    int nodes_ = 0;
+    int used_ = 0;
+    std::vector<std::pair<int, int>> edges_;  // the pattern analysed
+    std::vector<uint64_t> adjacency_;         // bit sets, by node
+    std::vector<int> degree_;
+    std::vector<char> eliminated_;
+    std::vector<int> order_;
+    std::vector<int> later_;  // for each node of the order: its neighbours eliminated later
+    std::vector<size_t> later_begin_;
+    std::vector<int> slot_;  // by row and column; -1: no block
+    std::vector<Block> blocks_;
+};
+
+}  // namespace dihaptic::contact

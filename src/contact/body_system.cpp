@@ -1,0 +1,208 @@
+#include "contact/body_system.h"
+
+#include <algorithm>
+
+namespace dihaptic::contact {
+namespace {
+
+/// L with L L' = A, for A positive semi-definite: a zero pivot has a zero column.
+Mat3 root(const Mat3& A) noexcept {
+    Mat3 L = Mat3::Zero();
+    const double least = 1e-14 * A.diagonal().maxCoeff();
+    for (int k = 0; k < 3; ++k) {
+        double pivot = A(k, k);
+        for (int i = 0; i < k; ++i) pivot -= L(k, i) * L(k, i);
+        if (pivot <= least) continue;
+        L(k, k) = std::sqrt(pivot);
+        for (int i = k + 1; i < 3; ++i) {
+            double sum = A(i, k);
+            for (int j = 0; j < k; ++j) sum -= L(i, j) * L(k, j);
+            L(i, k) = sum / L(k, k);
+        }
+    }
+    return L;
+}
+
+}  // namespace
+
+template <int Dim>
+void BodySystem<Dim>::reserve(int bodies, int contacts) {
+    rows_.reserve(static_cast<size_t>(contacts));
+    root_.reserve(static_cast<size_t>(bodies));
+    y_.reserve(static_cast<size_t>(bodies));
+    edges_.reserve(static_cast<size_t>(contacts));
+    lu_.reserve(bodies, contacts);
+}
+
+template <int Dim>
+bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
+    const size_t bodies = problem.bodies.size();
+    const size_t contacts = problem.contacts.size();
+    if (bodies > root_.capacity() || contacts > rows_.capacity()) return false;
+    root_.resize(bodies);
+    y_.resize(bodies);
+    rows_.resize(contacts);
+    edges_.clear();
+    for (size_t i = 0; i < bodies; ++i) {
+        root_[i].setZero();
+        root_[i].template topLeftCorner<3, 3>() = root(problem.bodies[i].inverse_mass);
+        root_[i].template bottomRightCorner<3, 3>() = root(problem.bodies[i].inverse_inertia);
+    }
+    for (size_t j = 0; j < contacts; ++j) {
+        const ProblemContact& contact = problem.contacts[j];
+        ContactRows& row = rows_[j];
+        row.a = contact.a;
+        row.b = contact.b;
+        Vec diagonal = Vec::Zero();
+        const auto fill = [&](Row<D>& H, int body, const Vec3& arm, double sign) {
+            if (body == kFixed) {
+                H.setZero();
+                return;
+            }
+            const auto& L = root_[static_cast<size_t>(body)];
+            const Row<D> J = contact_row<D>(contact, arm);
+            H.template leftCols<3>().noalias() =
+                sign * J.template leftCols<3>() * L.template topLeftCorner<3, 3>();
+            H.template rightCols<3>().noalias() =
+                sign * J.template rightCols<3>() * L.template bottomRightCorner<3, 3>();
+            diagonal += H.rowwise().squaredNorm();
+        };
+        fill(row.H_a, contact.a, contact.p_AC_W, -1);
+        fill(row.H_b, contact.b, contact.p_BC_W, 1);
+        const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
+        const double mean = diagonal.sum() / rows;
+        row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
+        row.H_a *= row.unit;
+        row.H_b *= row.unit;
+        row.q = row.unit * free_velocity<D>(problem, contact);
+        row.law.mu = contact.friction;
+        const double normal = diagonal[0] * row.unit * row.unit;
+        const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
+        row.law.a_n = normal > 0 ? 1 / normal : 1;
+        row.law.a_t = tangent > 0 ? 1 / tangent : 1;
+        if (contact.a != kFixed && contact.b != kFixed) {
+            const std::pair<int, int> edge = std::minmax(contact.a, contact.b);
+            if (edges_.empty() || edges_.back() != edge) edges_.push_back(edge);
+        }
+    }
+    if (!lu_.analyse(static_cast<int>(bodies), edges_)) return false;
+    for (ContactRows& row : rows_) {
+        if (row.a != kFixed) row.aa = lu_.slot(row.a, row.a);
+        if (row.b != kFixed) row.bb = lu_.slot(row.b, row.b);
+        if (row.a != kFixed && row.b != kFixed) {
+            row.ab = lu_.slot(row.a, row.b);
+            row.ba = lu_.slot(row.b, row.a);
+        }
+    }
+    return true;
+}
+
+template <int Dim>
+void BodySystem<Dim>::gather(std::span<const Vec> r) noexcept {
+    std::fill(y_.begin(), y_.end(), Vec6::Zero());
+    for (size_t j = 0; j < rows_.size(); ++j) {
+        const ContactRows& row = rows_[j];
+        if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * r[j];
+        if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * r[j];
+    }
+}
+
+template <int Dim>
+void BodySystem<Dim>::velocity(std::span<const Vec> r, std::span<Vec> u) noexcept {
+    gather(r);
+    for (size_t j = 0; j < rows_.size(); ++j) {
+        const ContactRows& row = rows_[j];
+        u[j] = row.q;
+        if (row.a != kFixed) u[j].noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
+        if (row.b != kFixed) u[j].noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+    }
+}
+
+template <int Dim>
+void BodySystem<Dim>::newton_step(std::span<const Linearised<D>> contacts,
+                                  std::span<Vec> d) noexcept {
+    lu_.set_identity();
+    std::fill(y_.begin(), y_.end(), Vec6::Zero());
+    for (size_t j = 0; j < rows_.size(); ++j) {
+        const ContactRows& row = rows_[j];
+        const Linearised<D>& contact = contacts[j];
+        const bool has_a = row.a != kFixed;
+        const bool has_b = row.b != kFixed;
+        if (has_a) y_[static_cast<size_t>(row.a)].noalias() -= row.H_a.transpose() * contact.c;
+        if (has_b) y_[static_cast<size_t>(row.b)].noalias() -= row.H_b.transpose() * contact.c;
+        if (contact.open) continue;
+        if (has_a) {
+            const Row<D> G_a = contact.G * row.H_a;
+            lu_.block(row.aa).noalias() += row.H_a.transpose() * G_a;
+            if (has_b) lu_.block(row.ba).noalias() += row.H_b.transpose() * G_a;
+        }
+        if (has_b) {
+            const Row<D> G_b = contact.G * row.H_b;
+            lu_.block(row.bb).noalias() += row.H_b.transpose() * G_b;
+            if (has_a) lu_.block(row.ab).noalias() += row.H_a.transpose() * G_b;
+        }
+    }
+    lu_.solve(y_);
+    for (size_t j = 0; j < rows_.size(); ++j) {
+        const ContactRows& row = rows_[j];
+        d[j] = -contacts[j].c;
+        if (contacts[j].open) continue;
+        Vec u = Vec::Zero();
+        if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
+        if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+        d[j].noalias() -= contacts[j].G * u;
+    }
+}
+
+template <int Dim>
+void BodySystem<Dim>::sweep(std::span<Vec> r, int sweeps) noexcept {
+    gather(r);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        for (size_t j = 0; j < rows_.size(); ++j) {
+            const ContactRows& row = rows_[j];
+            Vec u = row.q;
+            if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
+            if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+            Vec next = r[j];
+            next[0] -= row.law.a_n * u[0];
+            next.template tail<D - 1>() -= row.law.a_t * u.template tail<D - 1>();
+            law::Coulomb::project<D>(row.law, next, j);
+            const Vec change = next - r[j];
+            if (row.a != kFixed)
+                y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * change;
+            if (row.b != kFixed)
+                y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * change;
+            r[j] = next;
+        }
+    }
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> BodySystem<Dim>::delassus_block(size_t j, size_t k) const noexcept {
+    Eigen::Matrix<double, D, D> out = Eigen::Matrix<double, D, D>::Zero();
+    const ContactRows& row = rows_[j];
+    const ContactRows& column = rows_[k];
+    const auto add = [&](const Row<D>& H_j, int body_j, const Row<D>& H_k, int body_k) {
+        if (body_j != kFixed && body_j == body_k) out.noalias() += H_j * H_k.transpose();
+    };
+    add(row.H_a, row.a, column.H_a, column.a);
+    add(row.H_a, row.a, column.H_b, column.b);
+    add(row.H_b, row.b, column.H_a, column.a);
+    add(row.H_b, row.b, column.H_b, column.b);
+    return out;
+}
+
+template <int Dim>
+void BodySystem<Dim>::body_velocity(std::span<const Vec> r) noexcept {
+    gather(r);
+}
+
+template <int Dim>
+Vec6 BodySystem<Dim>::change(int body) const noexcept {
+    return root_[static_cast<size_t>(body)] * y_[static_cast<size_t>(body)];
+}
+
+template class BodySystem<3>;
+template class BodySystem<4>;
+
+}  // namespace dihaptic::contact

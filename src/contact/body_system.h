@@ -1,0 +1,73 @@
+// The contact problem in body space, scaled: u = H y + q, y = H' r, W = H H'. W is never formed;
+// Newton's equation is solved by a matrix of bodies instead (Woodbury):
+//
+//     (I + G H H') d = -c   <=>   (I + H' G H) y = -H' c,   d = -c - G H y
+//
+// H has inverse square roots of mass and inertia in it, and each contact's rows are divided by the
+// root of the mean diagonal of its block of W. So impulses are r = scale * r^, velocities
+// u = u^ / scale, and nothing depends on units.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/block_lu.h"
+#include "contact/law.h"
+#include "contact/rows.h"
+
+namespace dihaptic::contact {
+
+template <int Dim>
+class BodySystem {
+  public:
+    static constexpr int D = Dim;
+    using Vec = Eigen::Matrix<double, D, 1>;
+
+    void reserve(int bodies, int contacts);
+    /// False: larger than what was reserved.
+    bool assemble(const ContactProblem& problem) noexcept;
+
+    size_t size() const noexcept { return rows_.size(); }
+    const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
+    const Vec& q(size_t j) const noexcept { return rows_[j].q; }
+    /// Impulse over scaled impulse.
+    double unit(size_t j) const noexcept { return rows_[j].unit; }
+
+    /// u = W r + q.
+    void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
+    /// Solves (I + G W) d = -c.
+    void newton_step(std::span<const Linearised<D>> contacts, std::span<Vec> d) noexcept;
+    /// Projected Gauss-Seidel on Coulomb's law.
+    void sweep(std::span<Vec> r, int sweeps) noexcept;
+    /// Of contacts j (rows) and k (columns).
+    Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
+
+    /// Velocity changes of a body by impulses: linear, then angular.
+    void body_velocity(std::span<const Vec> r) noexcept;
+    Vec6 change(int body) const noexcept;
+
+  private:
+    struct ContactRows {
+        Row<D> H_a;
+        Row<D> H_b;
+        Vec q;
+        Scale law;
+        double unit = 1;
+        int a = kFixed;
+        int b = kFixed;
+        int aa = -1, bb = -1, ab = -1, ba = -1;  // blocks of the matrix of bodies
+    };
+
+    void gather(std::span<const Vec> r) noexcept;
+
+    std::vector<ContactRows> rows_;
+    std::vector<Eigen::Matrix<double, 6, 6>> root_;  // of the inverse mass matrix, by body
+    std::vector<Vec6> y_;
+    std::vector<std::pair<int, int>> edges_;
+    BlockLu lu_;
+};
+
+extern template class BodySystem<3>;
+extern template class BodySystem<4>;
+
+}  // namespace dihaptic::contact

@@ -1,0 +1,263 @@
+// The law of one contact as an equation that Newton's method can solve (Alart and Curnier 1991), in
+// a proximal step about the impulse r_k:
+//
+//     u^ = u + rho (r - r_k)
+//     Phi_N = r_N - max(0, r_N - a_N u^_N)
+//     Phi_T = r_T - P_disc(mu g)(r_T - a_T u^_T)      g = max(0, r_N - a_N u^_N)
+//
+// With A = dPhi/du^ and B = dPhi/dr, Newton's step solves A (W + rho) d + B d = -Phi. Multiplied by
+// K = (B + rho A)^-1, which has a closed form for every state of the contact, it becomes
+//
+//     (I + G W) d = -c        G = K A,  c = K Phi
+//
+//     open      G = 0                                c = r
+//     sticking  G = I / rho                          c = u^ / rho
+//     sliding   G = [ 1/rho        0             ]   along z = (r_T - a_T u^_T), unit vector
+//                   [ mu z/rho     beta (I - z z') ]  beta = a_T s / (1 - s + rho a_T s),
+//                                                    s = mu g / |r_T - a_T u^_T|
+//
+// rho regularises singular W (four coplanar contacts); at the fixed point r = r_k nothing of it is
+// left. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W
+// have a mean of 1.
+#pragma once
+
+#include "contact/polygon.h"
+#include "contact/problem.h"
+
+namespace dihaptic::contact {
+
+/// One contact of a scaled system.
+struct Scale {
+    double mu = 0;
+    double a_n = 1;  ///< 1 / W_NN
+    double a_t = 1;  ///< 1 / mean diagonal of W_TT
+};
+
+/// One contact's share of a Newton step.
+template <int D>
+struct Linearised {
+    Eigen::Matrix<double, D, D> G;
+    Eigen::Matrix<double, D, 1> c;
+    bool open = true;  ///< G is zero
+};
+
+/// The proximal step that an equation is linearised in.
+template <int D>
+struct Proximal {
+    double rho = 0;
+    Eigen::Matrix<double, D, 1> r_k;
+};
+
+namespace law {
+
+/// Sliding or sticking on the disc of radius `radius`; returns |Phi_T|^2 and fills the tangential
+/// part of G and c, without coupling to the normal. True in `slides` when on the rim.
+template <int D>
+double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<double, D, 1>& u,
+                      double radius, double a_t, double rho, Linearised<D>& out,
+                      Eigen::Matrix<double, D - 1, 1>& direction, bool& slides) noexcept {
+    using Tangent = Eigen::Matrix<double, D - 1, 1>;
+    auto G = out.G.template bottomRightCorner<D - 1, D - 1>();
+    auto c = out.c.template tail<D - 1>();
+    const Tangent r_t = r.template tail<D - 1>();
+    const Tangent u_t = u.template tail<D - 1>();
+    const Tangent z = r_t - a_t * u_t;
+    const double length = z.norm();
+    slides = true;
+    if (radius <= 0) {
+        direction.setZero();
+        G.setZero();
+        c = r_t;
+        return r_t.squaredNorm();
+    }
+    if (length <= radius) {
+        slides = false;
+        G = Eigen::Matrix<double, D - 1, D - 1>::Identity() / rho;
+        c = u_t / rho;
+        return (a_t * u_t).squaredNorm();
+    }
+    direction = z / length;
+    const double s = radius / length;
+    const double across = 1 - s + rho * a_t * s;
+    const Tangent phi = r_t - radius * direction;
+    const double along = direction.dot(phi);
+    G = (a_t * s / across) *
+        (Eigen::Matrix<double, D - 1, D - 1>::Identity() - direction * direction.transpose());
+    c = direction * along + (phi - direction * along) / across;
+    return phi.squaredNorm();
+}
+
+/// Coulomb's law: normal and tangential part at once.
+struct Coulomb {
+    template <int D>
+    static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                            const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
+                            size_t) noexcept {
+        const double g = r[0] - scale.a_n * u[0];
+        if (g <= 0) {
+            out.open = true;
+            out.G.setZero();
+            out.c = r;
+            return r.squaredNorm();
+        }
+        out.open = false;
+        Eigen::Matrix<double, D - 1, 1> z;
+        bool slides = false;
+        const double error = linearise_disc<D>(r, u, scale.mu * g, scale.a_t, rho, out, z, slides);
+        out.G(0, 0) = 1 / rho;
+        out.c[0] = u[0] / rho;
+        out.G.template topRightCorner<1, D - 1>().setZero();
+        if (slides) {
+            out.G.template bottomLeftCorner<D - 1, 1>() = scale.mu / rho * z;
+            out.c.template tail<D - 1>() += scale.mu * (1 - rho * scale.a_n) * u[0] / rho * z;
+        } else {
+            out.G.template bottomLeftCorner<D - 1, 1>().setZero();
+        }
+        const double phi_n = scale.a_n * u[0];
+        return phi_n * phi_n + error;
+    }
+    template <int D>
+    static double residual(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                           const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
+        return natural_map<D>(r, u, scale.mu).squaredNorm();
+    }
+    template <int D>
+    static void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r, size_t) noexcept {
+        if (r[0] <= 0) {
+            r.setZero();
+            return;
+        }
+        const double tangent = r.template tail<D - 1>().norm();
+        if (tangent > scale.mu * r[0]) r.template tail<D - 1>() *= scale.mu * r[0] / tangent;
+    }
+};
+
+/// Normal impulses with the tangential ones as they are: the contact projection of staggered
+/// projections.
+struct NormalOnly {
+    template <int D>
+    static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                            const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
+                            size_t) noexcept {
+        const double g = r[0] - scale.a_n * u[0];
+        out.open = g <= 0;
+        out.G.setZero();
+        out.c.setZero();
+        if (out.open) {
+            out.c[0] = r[0];
+            return r[0] * r[0];
+        }
+        out.G(0, 0) = 1 / rho;
+        out.c[0] = u[0] / rho;
+        const double phi = scale.a_n * u[0];
+        return phi * phi;
+    }
+    template <int D>
+    static double residual(const Scale&, const Eigen::Matrix<double, D, 1>& r,
+                           const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
+        const double error = r[0] - std::max(0.0, r[0] - u[0]);
+        return error * error;
+    }
+    template <int D>
+    static void project(const Scale&, Eigen::Matrix<double, D, 1>& r, size_t) noexcept {
+        r[0] = std::max(0.0, r[0]);
+    }
+};
+
+/// Tangential impulses on discs of fixed radius mu r_N: the friction projection of staggered
+/// projections. Contacts without load have no friction and drop out.
+struct FrictionOnly {
+    std::span<const double> normal;  ///< by contact, of the scaled system
+
+    template <int D>
+    double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                     const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
+                     size_t contact) const noexcept {
+        Eigen::Matrix<double, D - 1, 1> z;
+        bool slides = false;
+        const double radius = scale.mu * normal[contact];
+        out.open = radius <= 0;
+        out.G.setZero();
+        out.c.setZero();
+        return linearise_disc<D>(r, u, radius, scale.a_t, rho, out, z, slides);
+    }
+    template <int D>
+    double residual(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                    const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
+        Eigen::Matrix<double, D - 1, 1> x = (r - u).template tail<D - 1>();
+        const double radius = scale.mu * normal[contact];
+        const double length = x.norm();
+        if (length > radius) x *= radius / length;
+        return (r.template tail<D - 1>() - x).squaredNorm();
+    }
+    template <int D>
+    void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+                 size_t contact) const noexcept {
+        const double radius = scale.mu * normal[contact];
+        const double length = r.template tail<D - 1>().norm();
+        if (length > radius) r.template tail<D - 1>() *= radius / length;
+    }
+};
+
+/// Coulomb's law with the disc replaced by a polygon: Stewart and Trinkle's, multipliers
+/// eliminated. Without torsion only.
+struct Polygonal {
+    std::span<const Polygon> polygon;  ///< by contact
+
+    template <int D>
+    double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                     const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
+                     size_t contact) const noexcept {
+        static_assert(D == 3);
+        const double g = r[0] - scale.a_n * u[0];
+        if (g <= 0) {
+            out.open = true;
+            out.G.setZero();
+            out.c = r;
+            return r.squaredNorm();
+        }
+        out.open = false;
+        out.G.setZero();
+        out.G(0, 0) = 1 / rho;
+        out.c[0] = u[0] / rho;
+        const Eigen::Vector2d r_t = r.template tail<2>();
+        const Eigen::Vector2d u_t = u.template tail<2>();
+        const double radius = scale.mu * g;
+        const Polygon::Projection on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
+        // P = radius * per_radius + F z, with F the projector on the edge (none at a vertex):
+        // as a disc with s = 1 along the edge, and no turning
+        const Eigen::Vector2d phi = r_t - on.point;
+        if (on.inside) {
+            out.G(1, 1) = out.G(2, 2) = 1 / rho;
+            out.c.template tail<2>() = u_t / rho;
+        } else {
+            const double along = on.edge.dot(u_t);
+            out.c.template tail<2>() = phi - on.edge * on.edge.dot(phi) + on.edge * (along / rho);
+            out.c.template tail<2>() +=
+                scale.mu * (1 - rho * scale.a_n) * u[0] / rho * on.per_radius;
+            out.G.template bottomLeftCorner<2, 1>() = scale.mu / rho * on.per_radius;
+            out.G.template bottomRightCorner<2, 2>() = on.edge * on.edge.transpose() / rho;
+        }
+        const double phi_n = scale.a_n * u[0];
+        return phi_n * phi_n + phi.squaredNorm();
+    }
+    template <int D>
+    double residual(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                    const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
+        const double error = r[0] - std::max(0.0, r[0] - u[0]);
+        const Eigen::Vector2d x = (r - u).template tail<2>();
+        const Eigen::Vector2d on =
+            polygon[contact].project(x, scale.mu * std::max(0.0, r[0])).point;
+        return error * error + (r.template tail<2>() - on).squaredNorm();
+    }
+    template <int D>
+    void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+                 size_t contact) const noexcept {
+        r[0] = std::max(0.0, r[0]);
+        const Eigen::Vector2d x = r.template tail<2>();
+        r.template tail<2>() = polygon[contact].project(x, scale.mu * r[0]).point;
+    }
+};
+
+}  // namespace law
+}  // namespace dihaptic::contact

@@ -1,0 +1,190 @@
+// Semismooth Newton on a contact law (law.h), inside a proximal loop: each proximal step makes a
+// singular problem regular, and at convergence r = r_k leaves no regularisation in the answer.
+//
+// Full steps, no line search. A proximal step is done when its equation's error has fallen by 100;
+// done in few steps, the next has a tenth of the regularisation. One that does not converge is
+// undone, a few projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. When
+// all that takes too long, it starts again from zero impulses, twice, with more of both.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "contact/law.h"
+
+namespace dihaptic::contact {
+
+/// How an iterative solve ended.
+struct Outcome {
+    int iterations = 0;
+    double residual = std::numeric_limits<double>::infinity();  ///< as the tolerance counts it
+    bool converged = false;
+};
+
+/// Natural map of Coulomb's law, relative, in two units: those of the scaled system, in which no
+/// unit counts, and those of the problem as given.
+struct Residual {
+    double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
+    double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
+
+    /// Within tolerance as given, and by a margin within what units do not change.
+    bool within(double tolerance) const noexcept {
+        return scaled <= tolerance && given <= tolerance;
+    }
+    double largest() const noexcept { return std::max(scaled, given); }
+};
+
+template <class System>
+struct NewtonMemory {
+    using Vec = typename System::Vec;
+    std::vector<Vec> u, r_k, d, best;
+    std::vector<Linearised<System::D>> linearised;
+
+    void reserve(size_t contacts) {
+        for (auto* v : {&u, &r_k, &d, &best}) v->reserve(contacts);
+        linearised.reserve(contacts);
+    }
+    void resize(size_t contacts) {
+        for (auto* v : {&u, &r_k, &d, &best}) v->resize(contacts);
+        linearised.resize(contacts);
+    }
+};
+
+/// |q^| of a scaled system: the size of its problem.
+template <class System>
+double load(const System& system) noexcept {
+    double sum = 0;
+    for (size_t j = 0; j < system.size(); ++j) sum += system.q(j).squaredNorm();
+    return std::sqrt(sum);
+}
+
+/// Iterations aim so far below the tolerance that an answer at the edge of it is rare.
+constexpr double kTarget = 0.1;
+
+/// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
+/// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
+/// memory.u.
+template <class System, class Law, class Measure>
+Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
+                        double tolerance, NewtonMemory<System>& memory, const Measure& measure,
+                        size_t starts = 3) {
+    using Vec = typename System::Vec;
+    struct Start {
+        bool from_zero;
+        int sweeps;
+        double rho;
+        int most_steps;
+    };
+    constexpr Start kStarts[] = {{false, 0, 1e-3, 40}, {true, 0, 1e-2, 60}, {true, 30, 1e-1, 200}};
+    constexpr double kLeastRho = 1e-9;
+    constexpr double kMostRho = 1.0;
+    constexpr double kReduced = 1e-4;  // of the squared error
+    constexpr int kFewSteps = 4;
+    constexpr int kMostSteps = 12;
+    constexpr int kTrialSteps = 6;
+    constexpr int kRescueSweeps = 5;
+
+    const size_t n = system.size();
+    memory.resize(n);
+    Outcome out;
+    const auto judge = [&] {
+        system.velocity(r, memory.u);
+        const double residual = measure(std::span<const Vec>(r), std::span<const Vec>(memory.u));
+        if (residual < out.residual) {
+            out.residual = residual;
+            std::copy(r.begin(), r.end(), memory.best.begin());
+        }
+        return residual <= kTarget * tolerance;
+    };
+    const auto linearise = [&](double rho) {
+        double error = 0;
+        for (size_t j = 0; j < n; ++j) {
+            const Vec u = memory.u[j] + rho * (r[j] - memory.r_k[j]);
+            error += law.template linearise<System::D>(system.scale(j), r[j], u, rho,
+                                                       memory.linearised[j], j);
+        }
+        return error;
+    };
+    const auto restart_proximal = [&](double rho) {
+        std::copy(r.begin(), r.end(), memory.r_k.begin());
+        return linearise(rho);
+    };
+
+    std::copy(r.begin(), r.end(), memory.best.begin());
+    out.converged = judge();
+    for (const Start& start : std::span(kStarts).first(starts)) {
+        if (out.converged) break;
+        if (start.from_zero) {
+            for (Vec& impulse : r) impulse.setZero();
+            system.sweep(r, start.sweeps);
+            if (judge()) {
+                out.converged = true;
+                break;
+            }
+        }
+        double rho = start.rho;
+        double first = restart_proximal(rho);
+        int inner = 0;
+        for (int step = 0; step < start.most_steps; ++step) {
+            system.newton_step(memory.linearised, memory.d);
+            for (size_t j = 0; j < n; ++j) r[j] += memory.d[j];
+            ++out.iterations;
+            ++inner;
+            if (judge()) break;
+            const double error = linearise(rho);
+            if (error <= kReduced * first) {
+                if (inner <= kFewSteps) rho = std::max(rho / 10, kLeastRho);
+                first = restart_proximal(rho);
+                inner = 0;
+            } else if (inner >= kMostSteps || (inner >= kTrialSteps && error > 4 * first) ||
+                       !std::isfinite(error)) {
+                std::copy(memory.r_k.begin(), memory.r_k.end(), r.begin());
+                system.sweep(r, kRescueSweeps);
+                rho = std::min(rho * 10, kMostRho);
+                if (judge()) break;
+                first = restart_proximal(rho);
+                inner = 0;
+            }
+        }
+        out.converged = out.residual <= tolerance;
+    }
+    std::copy(memory.best.begin(), memory.best.end(), r.begin());
+    system.velocity(r, memory.u);
+    return out;
+}
+
+/// Residual of Coulomb's law. `size` is load(system).
+template <class System>
+Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
+                          std::span<const typename System::Vec> u, double size) noexcept {
+    using Vec = typename System::Vec;
+    double scaled = 0;
+    double given = 0;
+    double given_size = 0;
+    for (size_t j = 0; j < system.size(); ++j) {
+        const double mu = system.scale(j).mu;
+        const double unit = system.unit(j);
+        scaled += natural_map<System::D>(r[j], u[j], mu).squaredNorm();
+        const Vec r_given = r[j] * unit;
+        const Vec u_given = u[j] / unit;
+        given += natural_map<System::D>(r_given, u_given, mu).squaredNorm();
+        given_size += (system.q(j) / unit).squaredNorm();
+    }
+    return {size > 0 ? std::sqrt(scaled) / size : std::sqrt(scaled),
+            std::sqrt(given) / (1 + std::sqrt(given_size))};
+}
+
+/// Coulomb's law by proximal_newton.
+template <class System>
+Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
+               NewtonMemory<System>& memory) {
+    using Vec = typename System::Vec;
+    const double size = load(system);
+    return proximal_newton(system, law::Coulomb{}, r, tolerance, memory,
+                           [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+                               return coulomb_residual(system, impulse, u, size).largest();
+                           });
+}
+
+}  // namespace dihaptic::contact

@@ -1,0 +1,159 @@
+#include "contact/solver.h"
+
+#include "contact/body_system.h"
+#include "contact/delassus_system.h"
+#include "contact/newton.h"
+#include "contact/staggered_projections.h"
+
+namespace dihaptic::contact {
+namespace {
+
+constexpr int kMostStaggeredIterations = 200;
+constexpr int kLastSweeps = 500;
+
+template <class System>
+struct SolverMemory {
+    StaggeredMemory<System> staggered;  // its Newton part serves all
+    StewartTrinkleMemory<System> stewart_trinkle;
+    std::vector<typename System::Vec> r;
+
+    void reserve(size_t contacts, size_t lemke_contacts) {
+        staggered.reserve(contacts);
+        stewart_trinkle.reserve(contacts, lemke_contacts);
+        r.reserve(contacts);
+    }
+};
+
+/// Leaves the answer in memory.r.
+template <class System>
+void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
+                  SolverMemory<System>& memory, SolveStats& stats, SolveDetail* detail) {
+    using Vec = typename System::Vec;
+    const std::span<Vec> r(memory.r);
+    NewtonMemory<System>& newton_memory = memory.staggered.newton;
+    const auto cone_residual = [&] {
+        newton_memory.resize(r.size());
+        system.velocity(r, newton_memory.u);
+        return coulomb_residual(system, std::span<const Vec>(r),
+                                std::span<const Vec>(newton_memory.u), load(system));
+    };
+    for (size_t j = 0; j < r.size(); ++j)
+        law::Coulomb::project<System::D>(system.scale(j), r[j], j);
+
+    Outcome outcome;
+    if (solver == Solver::staggered_projections) {
+        outcome = staggered_projections(system, r, kTolerance, kMostStaggeredIterations,
+                                        memory.staggered);
+    } else if (solver == Solver::stewart_trinkle) {
+        StewartTrinkle<System> method(system, polygon, kTolerance, memory.stewart_trinkle);
+        const StewartTrinkleOutcome answer = method.solve(r);
+        outcome = answer;
+        if (detail != nullptr) *detail = {answer.route, answer.lcp_residual};
+    } else {
+        outcome = newton(system, r, kTolerance, newton_memory);
+    }
+    stats.iterations = outcome.iterations;
+    if (!outcome.converged && solver != Solver::newton) {
+        stats.fallback = true;
+        outcome = newton(system, r, kTolerance, newton_memory);
+        stats.iterations += outcome.iterations;
+    }
+    if (!outcome.converged) {
+        stats.fallback = true;
+        system.sweep(r, kLastSweeps);
+        stats.iterations += kLastSweeps;
+        if (cone_residual().largest() > outcome.residual)
+            std::copy(newton_memory.best.begin(), newton_memory.best.end(), r.begin());
+    }
+    // what is left of an error shall not pull: impulses end inside the cone
+    for (size_t j = 0; j < r.size(); ++j)
+        law::Coulomb::project<System::D>(system.scale(j), r[j], j);
+    const Residual residual = cone_residual();
+    stats.residual = residual.given;
+    stats.missed = !outcome.converged && !residual.within(kTolerance);
+}
+
+template <int D>
+struct BodyMemory {
+    BodySystem<D> system;
+    SolverMemory<BodySystem<D>> solver;
+
+    void reserve(int bodies, int contacts) {
+        system.reserve(bodies, contacts);
+        solver.reserve(static_cast<size_t>(contacts),
+                       static_cast<size_t>(std::min(contacts, ContactSolvers::kLemkeContacts)));
+    }
+
+    bool solve(Solver kind, const PolygonSettings& polygon, const ContactProblem& problem,
+               std::span<Impulse> r, SolveStats& stats, SolveDetail* detail) {
+        if (!system.assemble(problem)) return false;
+        solver.r.resize(r.size());
+        const auto spin_unit = [&](size_t j) { return problem.contacts[j].torsion_radius; };
+        for (size_t j = 0; j < r.size(); ++j) {
+            solver.r[j].template head<3>() = r[j].head<3>() / system.unit(j);
+            if constexpr (D == 4) {
+                solver.r[j][3] = spin_unit(j) > 0 ? r[j][3] / (spin_unit(j) * system.unit(j)) : 0;
+            }
+        }
+        solve_system(kind, polygon, system, solver, stats, detail);
+        for (size_t j = 0; j < r.size(); ++j) {
+            r[j].setZero();
+            r[j].head<3>() = solver.r[j].template head<3>() * system.unit(j);
+            if constexpr (D == 4) r[j][3] = solver.r[j][3] * spin_unit(j) * system.unit(j);
+        }
+        system.body_velocity(solver.r);
+        return true;
+    }
+};
+
+}  // namespace
+
+struct ContactSolvers::Memory {
+    BodyMemory<3> plain;
+    BodyMemory<4> torsional;
+    bool torsion = false;       // memory for it is reserved
+    bool last_torsion = false;  // the last solve had it
+};
+
+ContactSolvers::ContactSolvers() : memory_(std::make_unique<Memory>()) {}
+ContactSolvers::~ContactSolvers() = default;
+ContactSolvers::ContactSolvers(ContactSolvers&&) noexcept = default;
+ContactSolvers& ContactSolvers::operator=(ContactSolvers&&) noexcept = default;
+
+void ContactSolvers::reserve(int bodies, int contacts, bool torsion) {
+    memory_->plain.reserve(bodies, contacts);
+    memory_->torsion = torsion;
+    if (torsion) memory_->torsional.reserve(bodies, contacts);
+}
+
+bool ContactSolvers::solve(Solver solver, const PolygonSettings& polygon,
+                           const ContactProblem& problem, std::span<Impulse> r, SolveStats& stats,
+                           SolveDetail* detail) noexcept {
+    stats = {};
+    memory_->last_torsion = memory_->torsion && problem.has_torsion();
+    return memory_->last_torsion
+               ? memory_->torsional.solve(solver, polygon, problem, r, stats, detail)
+               : memory_->plain.solve(solver, polygon, problem, r, stats, detail);
+}
+
+Eigen::Matrix<double, 6, 1> ContactSolvers::velocity_change(int body) const noexcept {
+    return memory_->last_torsion ? memory_->torsional.system.change(body)
+                                 : memory_->plain.system.change(body);
+}
+
+Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const DelassusProblem& problem,
+                      SolveStats& stats, SolveDetail* detail) {
+    DelassusSystem system;
+    system.assemble(problem);
+    SolverMemory<DelassusSystem> memory;
+    memory.reserve(system.size(), std::min<size_t>(system.size(), ContactSolvers::kLemkeContacts));
+    memory.r.assign(system.size(), Vec3::Zero());
+    stats = {};
+    solve_system(solver, polygon, system, memory, stats, detail);
+    Eigen::VectorXd out(problem.q.size());
+    for (size_t j = 0; j < system.size(); ++j)
+        out.segment<3>(3 * static_cast<Eigen::Index>(j)) = memory.r[j] * system.unit(j);
+    return out;
+}
+
+}  // namespace dihaptic::contact

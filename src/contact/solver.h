@@ -1,0 +1,79 @@
+// The door to all contact solvers but Bullet's own: a problem and a start in, impulses and what was
+// achieved out.
+//
+// A solver that misses its tolerance hands over to Newton on the cone, and that to projected
+// Gauss-Seidel sweeps, which cannot fail to give something safe; who answered is told. Each has a
+// bound on counted work and none reads a clock, so that replay repeats every solve bit for bit.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "contact/problem.h"
+#include "contact/stewart_trinkle.h"
+
+namespace dihaptic::contact {
+
+enum class Solver { sequential_impulse, stewart_trinkle, staggered_projections, newton };
+constexpr auto enum_names(Solver) {
+    return std::array{"sequential_impulse", "stewart_trinkle", "staggered_projections", "newton"};
+}
+constexpr int kSolvers = 4;
+
+/// Success is a residual up to this: natural map of Coulomb's law over 1 + |q|, and in the units of
+/// the scaled system over |q^|; for Stewart-Trinkle of its own complementarity problem.
+constexpr double kTolerance = 1e-8;
+
+/// What a solve achieved.
+struct SolveStats {
+    int iterations = 0;
+    double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
+    bool fallback = false;  ///< another solver than the one asked for answered
+    bool missed = false;    ///< so did that: the best impulses found are in use
+
+    /// Of several problems of one step: the worst of each.
+    void join(const SolveStats& other) noexcept {
+        iterations = std::max(iterations, other.iterations);
+        residual = std::max(residual, other.residual);
+        fallback = fallback || other.fallback;
+        missed = missed || other.missed;
+    }
+};
+
+/// What there is to know about one solve beyond its statistics.
+struct SolveDetail {
+    StewartTrinkleRoute route = StewartTrinkleRoute::none;
+    double lcp_residual = 0;
+};
+
+class ContactSolvers {
+  public:
+    ContactSolvers();
+    ~ContactSolvers();
+    ContactSolvers(ContactSolvers&&) noexcept;
+    ContactSolvers& operator=(ContactSolvers&&) noexcept;
+
+    /// Memory for problems of so many bodies and contacts, with torsion or without. Stewart-Trinkle
+    /// keeps its last resort, Lemke's method, for problems up to `kLemkeContacts`.
+    void reserve(int bodies, int contacts, bool torsion);
+    static constexpr int kLemkeContacts = 60;
+
+    /// Solves from the start in r; leaves the impulses in r. Not for sequential_impulse. False:
+    /// more than what was reserved; nothing is changed.
+    bool solve(Solver solver, const PolygonSettings& polygon, const ContactProblem& problem,
+               std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept;
+    /// Change of a body's velocity by the impulses of the last solve: linear [m/s], angular
+    /// [rad/s].
+    Eigen::Matrix<double, 6, 1> velocity_change(int body) const noexcept;
+
+  private:
+    struct Memory;
+    std::unique_ptr<Memory> memory_;
+};
+
+/// The same for a problem without bodies. Allocates.
+Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const DelassusProblem& problem,
+                      SolveStats& stats, SolveDetail* detail = nullptr);
+
+}  // namespace dihaptic::contact

@@ -1,0 +1,105 @@
+// Staggered projections (Kaufman, Sueda, James and Pai 2008): Coulomb's law as two convex problems
+// that wait for each other,
+//
+//     friction:  the tangential impulses that dissipate most, on discs of radius mu r_N
+//     contact:   the normal impulses that keep bodies apart, with that friction
+//
+// repeated until they agree. Each is solved exactly, by the proximal Newton method, which for a
+// convex problem finds the active set; inexact inner solutions stall the outer loop at their own
+// error. Contacts without load are no part of the friction problem. Anderson acceleration of the
+// normal impulses shortens the loop. Every pair ends with a contact projection, so none leaves
+// bodies approaching; the best pair is the answer.
+#pragma once
+
+#include "contact/anderson.h"
+#include "contact/newton.h"
+
+namespace dihaptic::contact {
+
+template <class System>
+struct StaggeredMemory {
+    NewtonMemory<System> newton;
+    Anderson anderson;
+    std::vector<typename System::Vec> best;
+    std::vector<double> normal;  ///< that friction is solved for
+    std::vector<double> image;   ///< that contact answers
+
+    void reserve(size_t contacts) {
+        newton.reserve(contacts);
+        anderson.reserve(contacts);
+        best.reserve(contacts);
+        normal.reserve(contacts);
+        image.reserve(contacts);
+    }
+};
+
+/// Starts from r; leaves the best pair in r and its velocity in memory.newton.u.
+template <class System>
+Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
+                              int most_iterations, StaggeredMemory<System>& memory) {
+    using Vec = typename System::Vec;
+    constexpr double kInnerTolerance = 1e-11;  // of |q|; the outer loop cannot do better
+    const size_t n = system.size();
+    const double size = load(system);
+    const double inner = kInnerTolerance * size;
+    memory.best.resize(n);
+    memory.normal.resize(n);
+    memory.image.resize(n);
+    memory.anderson.start(n);
+    const auto solve = [&](const auto& law) {
+        proximal_newton(
+            system, law, r, inner, memory.newton,
+            [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+                double error = 0;
+                for (size_t j = 0; j < n; ++j)
+                    error += law.template residual<System::D>(system.scale(j), impulse[j], u[j], j);
+                return std::sqrt(error);
+            },
+            1);
+    };
+
+    Outcome out;
+    double last = std::numeric_limits<double>::infinity();
+    memory.newton.resize(n);
+    const auto judge = [&] {
+        const double residual = coulomb_residual(system, std::span<const Vec>(r),
+                                                 std::span<const Vec>(memory.newton.u), size)
+                                    .largest();
+        if (residual < out.residual) {
+            out.residual = residual;
+            std::copy(r.begin(), r.end(), memory.best.begin());
+        }
+        out.converged = residual <= tolerance;
+        return residual;
+    };
+    system.velocity(r, memory.newton.u);
+    std::copy(r.begin(), r.end(), memory.best.begin());
+    judge();
+    for (size_t j = 0; j < n; ++j) memory.normal[j] = std::max(0.0, r[j][0]);
+    if (!out.converged) {
+        solve(law::NormalOnly{});  // a first guess of the loads, with the friction of the start
+        for (size_t j = 0; j < n; ++j) memory.normal[j] = r[j][0];
+    }
+    while (!out.converged && out.iterations < most_iterations) {
+        ++out.iterations;
+        const law::FrictionOnly friction{memory.normal};
+        for (size_t j = 0; j < n; ++j) {
+            r[j][0] = memory.normal[j];
+            friction.project<System::D>(system.scale(j), r[j], j);
+        }
+        solve(friction);
+        solve(law::NormalOnly{});
+        const double residual = judge();
+        if (out.converged) break;
+        if (residual > 2 * last) memory.anderson.forget();
+        last = residual;
+        for (size_t j = 0; j < n; ++j) memory.image[j] = r[j][0];
+        memory.anderson.advance(memory.normal, memory.image);
+        for (double& value : memory.normal) value = std::max(0.0, value);
+    }
+    std::copy(memory.best.begin(), memory.best.end(), r.begin());
+    system.velocity(r, memory.newton.u);
+    return out;
+}
+
+}  // namespace dihaptic::contact

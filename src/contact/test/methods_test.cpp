@@ -1,0 +1,237 @@
+// The parts that solvers are made of: linear complementarity, sparse factorisation, friction
+// polygon, acceleration, the linearised law.
+#include <gtest/gtest.h>
+
+#include "contact/anderson.h"
+#include "contact/block_lu.h"
+#include "contact/delassus_system.h"
+#include "contact/lemke.h"
+#include "contact/stewart_trinkle.h"
+#include "problems.h"
+
+namespace dihaptic::contact {
+namespace {
+
+TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
+    Random random(1, "lcp");
+    Lemke lemke;
+    lemke.reserve(6);
+    for (int trial = 0; trial < 200; ++trial) {
+        const int n = 1 + trial % 6;
+        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+        for (double& x : A.reshaped()) x = random.uniform(-1, 1);
+        const Eigen::MatrixXd M = A * A.transpose() + 0.01 * Eigen::MatrixXd::Identity(n, n);
+        lemke.start(n);
+        Eigen::VectorXd q(n);
+        for (int i = 0; i < n; ++i) {
+            q[i] = random.uniform(-1, 1);
+            lemke.q(i) = q[i];
+            for (int j = 0; j < n; ++j) lemke.M(i, j) = M(i, j);
+        }
+        ASSERT_TRUE(lemke.solve(trial % 3));
+        // positive definite: the solution is the only one, found by trying all sets
+        for (int set = 0; set < 1 << n; ++set) {
+            Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
+            for (int j = 0; j < n; ++j) {
+                if (set >> j & 1) B.col(j) = -M.col(j);
+            }
+            const Eigen::VectorXd x = B.partialPivLu().solve(q);
+            if (x.minCoeff() < -1e-12) continue;
+            for (int j = 0; j < n; ++j) EXPECT_NEAR(lemke.z(j), set >> j & 1 ? x[j] : 0, 1e-9);
+            break;
+        }
+        // the set of a solved problem answers one close to it
+        for (int i = 0; i < n; ++i) lemke.q(i) *= 1.0001;
+        if (q.minCoeff() < 0) {
+            EXPECT_TRUE(lemke.try_last_basis());
+        }
+    }
+}
+
+TEST(LemkeTest, EndsOnDegenerateAndUnsolvableProblems) {
+    Lemke lemke;
+    lemke.reserve(4);
+    lemke.start(4);  // M = 0, all ratios alike
+    for (int i = 0; i < 4; ++i) lemke.q(i) = -1;
+    EXPECT_FALSE(lemke.solve(0));  // no z makes w positive
+    lemke.start(4);
+    for (int i = 0; i < 4; ++i) {
+        lemke.q(i) = -1;
+        for (int j = 0; j < 4; ++j) lemke.M(i, j) = 1;  // rank one, ties everywhere
+    }
+    ASSERT_TRUE(lemke.solve(0));
+    EXPECT_NEAR(lemke.z(0) + lemke.z(1) + lemke.z(2) + lemke.z(3), 1, 1e-12);
+}
+
+TEST(BlockLuTest, SolvesWhatADenseFactorisationSolves) {
+    Random random(2, "block lu");
+    BlockLu lu;
+    lu.reserve(20, 60);
+    for (int trial = 0; trial < 20; ++trial) {
+        const int n = 1 + trial;
+        std::vector<std::pair<int, int>> edges;
+        for (int i = 1; i < n; ++i) {
+            edges.emplace_back(static_cast<int>(random.uniform(0, i)), i);
+            if (i > 2) edges.emplace_back(i - 2, i);
+        }
+        ASSERT_TRUE(lu.analyse(n, edges));
+        lu.set_identity();
+        Eigen::MatrixXd A = Eigen::MatrixXd::Identity(6 * n, 6 * n);
+        const auto add = [&](int i, int j) {
+            BlockLu::Block B;
+            for (double& x : B.reshaped()) x = random.uniform(-1, 1);
+            lu.block(lu.slot(i, j)) += B;
+            A.block<6, 6>(6 * i, 6 * j) += B;
+        };
+        for (int i = 0; i < n; ++i) {
+            add(i, i);
+            lu.block(lu.slot(i, i)) += 10 * BlockLu::Block::Identity();
+            A.block<6, 6>(6 * i, 6 * i) += 10 * BlockLu::Block::Identity();
+        }
+        for (const auto& [i, j] : edges) {
+            add(i, j);
+            add(j, i);
+        }
+        std::vector<BlockLu::Vector> x(static_cast<size_t>(n));
+        Eigen::VectorXd b(6 * n);
+        for (int i = 0; i < n; ++i) {
+            for (double& value : x[static_cast<size_t>(i)]) value = random.uniform(-1, 1);
+            b.segment<6>(6 * i) = x[static_cast<size_t>(i)];
+        }
+        lu.solve(x);
+        const Eigen::VectorXd expected = A.partialPivLu().solve(b);
+        for (int i = 0; i < n; ++i)
+            EXPECT_LT((x[static_cast<size_t>(i)] - expected.segment<6>(6 * i)).norm(), 1e-10);
+    }
+}
+
+TEST(BlockLuTest, AChainFillsNothing) {
+    BlockLu lu;
+    lu.reserve(100, 100);
+    std::vector<std::pair<int, int>> chain;
+    for (int i = 0; i < 99; ++i) chain.emplace_back(i, i + 1);
+    ASSERT_TRUE(lu.analyse(100, chain));
+    EXPECT_EQ(lu.blocks(), 100 + 2 * 99);
+    EXPECT_FALSE(lu.analyse(101, chain));
+}
+
+TEST(PolygonTest, ProjectsToItsNearestPoint) {
+    Random random(3, "polygon");
+    for (int trial = 0; trial < 300; ++trial) {
+        const Polygon polygon{4 + trial % 9, random.uniform(-4, 4)};
+        const double radius = random.uniform(0.1, 2);
+        const Eigen::Vector2d x(random.uniform(-3, 3), random.uniform(-3, 3));
+        const Polygon::Projection on = polygon.project(x, radius);
+        double nearest = std::numeric_limits<double>::infinity();
+        bool inside = true;
+        for (int i = 0; i < polygon.directions; ++i) {
+            const Eigen::Vector2d a = radius * polygon.direction(i);
+            const Eigen::Vector2d edge = radius * polygon.direction(i + 1) - a;
+            const double t = std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0);
+            nearest = std::min(nearest, (x - a - t * edge).norm());
+            if (edge[0] * (x - a)[1] - edge[1] * (x - a)[0] < 0) inside = false;
+        }
+        EXPECT_EQ(on.inside, inside);
+        EXPECT_NEAR((on.point - x).norm(), inside ? 0 : nearest, 1e-12);
+        if (!inside) {
+            const double step = 1e-7;
+            const Eigen::Vector2d further = polygon.project(x, radius + step).point;
+            EXPECT_LT(((further - on.point) / step - on.per_radius).norm(), 1e-5);
+        }
+    }
+}
+
+TEST(AndersonTest, SolvesALinearIterationInAsManyStepsAsItHasUnknowns) {
+    const Eigen::Matrix3d A{{0.9, 0.05, 0}, {0.02, 0.8, 0.1}, {0, 0.3, 0.6}};
+    const Eigen::Vector3d b(1, 2, 3);
+    const Eigen::Vector3d solution = (Eigen::Matrix3d::Identity() - A).inverse() * b;
+    Anderson anderson;
+    anderson.reserve(3);
+    anderson.start(3);
+    std::vector<double> x(3, 0.0);
+    for (int i = 0; i < 5; ++i) {
+        const Eigen::Vector3d g = A * Eigen::Map<Eigen::Vector3d>(x.data()) + b;
+        anderson.advance(x, {g[0], g[1], g[2]});
+    }
+    EXPECT_LT((Eigen::Map<Eigen::Vector3d>(x.data()) - solution).norm(), 1e-8);
+}
+
+/// G and c of a law against differences of its equation: (I + G W) d = -c must be Newton's step.
+template <class Law>
+void check_linearisation(const Law& law, uint64_t seed) {
+    Random random(seed, "law");
+    for (int trial = 0; trial < 500; ++trial) {
+        const Scale scale{random.uniform(0.1, 1.5), random.uniform(0.5, 2), random.uniform(0.5, 2)};
+        const double rho = std::pow(10, random.uniform(-3, 0));
+        Vec3 r(random.uniform(-0.5, 2), random.uniform(-1, 1), random.uniform(-1, 1));
+        Vec3 u(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        const auto phi = [&](const Vec3& at_r, const Vec3& at_u) {
+            const double g = std::max(0.0, at_r[0] - scale.a_n * at_u[0]);
+            Vec3 out;
+            out[0] = at_r[0] - g;
+            const Eigen::Vector2d z = at_r.tail<2>() - scale.a_t * at_u.tail<2>();
+            out.tail<2>() = at_r.tail<2>() - law.project_tangent(z, scale.mu * g);
+            return out;
+        };
+        Mat3 A;
+        Mat3 B;
+        const double step = 1e-7;
+        for (int i = 0; i < 3; ++i) {
+            A.col(i) =
+                (phi(r, u + step * Vec3::Unit(i)) - phi(r, u - step * Vec3::Unit(i))) / (2 * step);
+            B.col(i) =
+                (phi(r + step * Vec3::Unit(i), u) - phi(r - step * Vec3::Unit(i), u)) / (2 * step);
+        }
+        Linearised<3> l;
+        law.law.template linearise<3>(scale, r, u, rho, l, 0);
+        const Mat3 K = (B + rho * A).inverse();
+        EXPECT_LT((l.G - K * A).norm(), 1e-4 * (1 + l.G.norm())) << trial;
+        EXPECT_LT((l.c - K * phi(r, u)).norm(), 1e-4 * (1 + l.c.norm())) << trial;
+    }
+}
+
+TEST(Law, CoulombsLinearisationIsItsDerivative) {
+    struct {
+        law::Coulomb law;
+        Eigen::Vector2d project_tangent(const Eigen::Vector2d& z, double radius) const {
+            return z.norm() <= radius ? z : Eigen::Vector2d(radius * z.normalized());
+        }
+    } cone;
+    check_linearisation(cone, 1);
+}
+
+TEST(Law, ThePolygonsLinearisationIsItsDerivative) {
+    const Polygon polygon{8, 0.3};
+    struct {
+        law::Polygonal law;
+        Eigen::Vector2d project_tangent(const Eigen::Vector2d& z, double radius) const {
+            return law.polygon[0].project(z, radius).point;
+        }
+    } of_polygon{{std::span(&polygon, 1)}};
+    check_linearisation(of_polygon, 2);
+}
+
+TEST(StewartTrinkleTest, LemkeAloneSolvesGrasps) {
+    Random random(4, "lemke alone");
+    int solved = 0;
+    for (int i = 0; i < 50; ++i) {
+        const DelassusProblem problem =
+            delassus(testing::random_problem(random, 1 + i % 3, 1 + i % 6));
+        DelassusSystem system;
+        system.assemble(problem);
+        StewartTrinkleMemory<DelassusSystem> memory;
+        memory.reserve(system.size(), system.size());
+        StewartTrinkle<DelassusSystem> method(system, {8, DirectionFrame::fixed}, kTolerance,
+                                              memory);
+        std::vector<Vec3> r(system.size(), Vec3::Zero());
+        const StewartTrinkleOutcome out = method.solve_by_lemke(r);
+        if (!out.converged) continue;
+        ++solved;
+        EXPECT_EQ(out.route, StewartTrinkleRoute::lemke);
+        EXPECT_LE(out.lcp_residual, kTolerance);
+    }
+    EXPECT_GE(solved, 48);
+}
+
+}  // namespace
+}  // namespace dihaptic::contact

@@ -1,0 +1,337 @@
+// All solvers through their door: closed forms, invariance, an independent reference, and what they
+// must never do.
+#include <gtest/gtest.h>
+
+#include "problems.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::contact {
+namespace {
+
+using testing::answer;
+using testing::Answer;
+using testing::block_on_plane;
+using testing::random_problem;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+class EachSolver : public ::testing::TestWithParam<Solver> {};
+INSTANTIATE_TEST_SUITE_P(Contact, EachSolver,
+                         ::testing::Values(Solver::stewart_trinkle, Solver::staggered_projections,
+                                           Solver::newton),
+                         [](const auto& which) {
+                             return std::string(
+                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
+                         });
+
+Vec3 tilted(double slope, double turn) {
+    return {std::sin(slope) * std::cos(turn), std::sin(slope) * std::sin(turn), std::cos(slope)};
+}
+
+TEST_P(EachSolver, HoldsABlockOnASlopeBelowTheFrictionAngle) {
+    for (double turn = 0; turn < 1.5; turn += 0.2) {
+        const ContactProblem problem = block_on_plane(tilted(26 * kDegree, turn), 0.5);
+        const Answer a = answer(GetParam(), problem);
+        EXPECT_LT((problem.bodies[0].v_W + a.change[0].head<3>()).norm(), 1e-10);
+        EXPECT_LT(a.change[0].tail<3>().norm(), 1e-8);
+    }
+}
+
+TEST_P(EachSolver, SlidesDownTheFallLineAsCoulombSays) {
+    const double slope = 30 * kDegree;
+    for (double turn = 0; turn < 1.5; turn += 0.1) {
+        const ContactProblem problem = block_on_plane(tilted(slope, turn), 0.5);
+        const Answer a = answer(GetParam(), problem);
+        const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
+        const double expected = 9.81e-3 * (std::sin(slope) - 0.5 * std::cos(slope));
+        EXPECT_NEAR(v.norm(), expected, 1e-8);
+        const Vec3 fall = Vec3(std::cos(slope) * std::cos(turn), std::cos(slope) * std::sin(turn),
+                               -std::sin(slope));
+        EXPECT_NEAR(v.dot(fall), expected, 1e-8);
+    }
+}
+
+TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
+    // half-way between two of n directions, friction is mu cos(pi / n)
+    const double slope = 30 * kDegree;
+    for (const int n : {4, 8, 16}) {
+        ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
+        const double half = std::numbers::pi / n;
+        for (ProblemContact& contact : problem.contacts) {
+            const Vec3 normal = contact.R_WC.col(0);
+            const Vec3 fall(std::cos(slope), 0, -std::sin(slope));
+            contact.R_WC.col(1) = Eigen::AngleAxisd(half, normal) * fall;
+            contact.R_WC.col(2) = normal.cross(contact.R_WC.col(1));
+        }
+        const Answer a = answer(Solver::stewart_trinkle, problem, {n, DirectionFrame::fixed});
+        EXPECT_FALSE(a.stats.fallback);
+        EXPECT_LE(a.detail.lcp_residual, 1e-8);
+        const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
+        EXPECT_NEAR(v.norm(), 9.81e-3 * (std::sin(slope) - 0.5 * std::cos(half) * std::cos(slope)),
+                    1e-8)
+            << n;
+    }
+}
+
+/// A block between two pads that press with 5 N each along x, carrying its weight.
+ContactProblem pinch(double mu, double press, double torsion_radius, double torque) {
+    const double h = 1e-3;
+    ContactProblem out;
+    out.bodies.push_back(testing::body(0.1, Vec3::Constant(0.1 * 0.04 * 0.04 / 6)));
+    out.bodies[0].v_W = Vec3(0, 0, -9.81 * h);
+    out.bodies[0].w_W = Vec3(torque * h / (0.1 * 0.04 * 0.04 / 6), 0, 0);
+    for (const double side : {-1.0, 1.0}) {
+        ProblemBody pad = testing::body(1, Vec3::Ones());
+        pad.inverse_mass = Vec3(1 / 1.0, 0, 0).asDiagonal();
+        pad.inverse_inertia.setZero();
+        pad.v_W = Vec3(-side * press * h / 1.0, 0, 0);
+        out.bodies.push_back(pad);
+        ProblemContact contact;
+        contact.a = side < 0 ? 1 : 2;
+        contact.b = 0;
+        contact.R_WC = testing::frame_of(Vec3(-side, 0, 0));
+        contact.p_BC_W = Vec3(side * 0.02, 0, 0);
+        contact.p_AC_W = Vec3(-side * 0.005, 0, 0);
+        contact.friction = mu;
+        contact.torsion_radius = torsion_radius;
+        out.contacts.push_back(contact);
+    }
+    return out;
+}
+
+TEST_P(EachSolver, BalancesAGrip) {
+    const double h = 1e-3;
+    const Answer a = answer(GetParam(), pinch(0.8, 5, 0, 0));
+    for (const Impulse& r : a.r) {
+        EXPECT_NEAR(r[0] / h, 5, 1e-4);
+        EXPECT_NEAR(r.segment<2>(1).norm() / h, 0.1 * 9.81 / 2, 1e-6);
+    }
+}
+
+TEST_P(EachSolver, SoftFingersLetGoAtTheirElliptic) {
+    // each finger's moment is up to mu r N sqrt(1 - (T / mu N)^2)
+    const double mu = 0.8, press = 5, radius = 0.006;
+    const double tangential = 0.1 * 9.81 / 2;
+    const double limit =
+        2 * mu * radius * press * std::sqrt(1 - std::pow(tangential / (mu * press), 2));
+    const auto turn = [&](double torque) {
+        const ContactProblem problem = pinch(mu, press, radius, torque);
+        const Answer a = answer(GetParam(), problem, {32, DirectionFrame::sliding});
+        EXPECT_FALSE(a.stats.missed);
+        return std::abs(problem.bodies[0].w_W.x() + a.change[0][3]);
+    };
+    // Stewart-Trinkle's limit surface is a polytope inside the ellipsoid
+    const double share = GetParam() == Solver::stewart_trinkle ? 0.9 : 0.999;
+    EXPECT_LT(turn(share * limit), 1e-7);
+    EXPECT_GT(turn(1.001 * limit), 1e-5);
+}
+
+TEST_P(EachSolver, AnswersRandomProblems) {
+    Random random(1, "random problems");
+    int fallbacks = 0;
+    for (int i = 0; i < 300; ++i) {
+        const ContactProblem problem = random_problem(random, 1 + i % 5, 1 + i % 12);
+        const Answer a = answer(GetParam(), problem);
+        EXPECT_FALSE(a.stats.missed) << i;
+        EXPECT_LE(natural_map_residual(problem, a.r), 2e-8) << i;
+        EXPECT_EQ(a.stats.residual, a.stats.residual);
+        fallbacks += a.stats.fallback;
+    }
+    EXPECT_LE(fallbacks, GetParam() == Solver::newton ? 0 : 10);
+}
+
+TEST_P(EachSolver, AnswersRandomProblemsWithTorsion) {
+    Random random(2, "random problems");
+    for (int i = 0; i < 100; ++i) {
+        const ContactProblem problem = random_problem(random, 1 + i % 4, 1 + i % 8, 0.005);
+        const Answer a = answer(GetParam(), problem);
+        EXPECT_FALSE(a.stats.missed) << i;
+        if (GetParam() == Solver::newton) {
+            EXPECT_LE(natural_map_residual(problem, a.r), 1e-8) << i;
+        }
+    }
+}
+
+TEST_P(EachSolver, AgreesWithAnIndependentReference) {
+    // velocities are unique where impulses need not be
+    Random random(3, "random problems");
+    int compared = 0;
+    for (int i = 0; i < 40; ++i) {
+        const ContactProblem problem = random_problem(random, 1 + i % 3, 1 + i % 6);
+        const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
+        if (natural_map_residual(problem, reference) > 1e-11) continue;  // too slow for this one
+        const Answer a = answer(GetParam(), problem);
+        const DelassusProblem d = delassus(problem);
+        Eigen::VectorXd difference(d.q.size());
+        for (size_t j = 0; j < reference.size(); ++j) {
+            difference.segment<3>(3 * static_cast<Eigen::Index>(j)) =
+                (a.r[j] - reference[j]).head<3>();
+        }
+        // Coulomb friction may have several solutions: those are told by the residual, not by this
+        if ((d.W * difference).norm() < 1e-6) ++compared;
+        EXPECT_LE(natural_map_residual(problem, a.r), 1e-8);
+    }
+    EXPECT_GE(compared, 30);
+}
+
+TEST_P(EachSolver, DoesNotCareHowTheWorldIsTurned) {
+    Random random(4, "random problems");
+    for (int i = 0; i < 50; ++i) {
+        const ContactProblem problem = random_problem(random, 2, 4);
+        const Mat3 R = Quat(Eigen::AngleAxisd(random.uniform(0, 3),
+                                              Vec3(1, random.uniform(-1, 1), 0.3).normalized()))
+                           .toRotationMatrix();
+        ContactProblem turned = problem;
+        for (ProblemBody& body : turned.bodies) {
+            body.inverse_mass = R * body.inverse_mass * R.transpose();
+            body.inverse_inertia = R * body.inverse_inertia * R.transpose();
+            body.v_W = R * body.v_W;
+            body.w_W = R * body.w_W;
+        }
+        for (ProblemContact& contact : turned.contacts) {
+            contact.R_WC = R * contact.R_WC;
+            contact.p_AC_W = R * contact.p_AC_W;
+            contact.p_BC_W = R * contact.p_BC_W;
+        }
+        const Answer a = answer(GetParam(), problem);
+        const Answer b = answer(GetParam(), turned);
+        for (size_t j = 0; j < a.r.size(); ++j) EXPECT_LT((a.r[j] - b.r[j]).norm(), 1e-7);
+    }
+}
+
+TEST_P(EachSolver, DoesNotCareAboutUnits) {
+    Random random(5, "random problems");
+    for (const double mass : {1e-3, 1e3}) {
+        for (const double length : {1e-3, 1e3}) {
+            for (int i = 0; i < 20; ++i) {
+                const ContactProblem problem = random_problem(random, 2, 4);
+                ContactProblem scaled = problem;
+                for (ProblemBody& body : scaled.bodies) {
+                    body.inverse_mass /= mass;
+                    body.inverse_inertia /= mass * length * length;
+                    body.v_W *= length;
+                }
+                for (ProblemContact& contact : scaled.contacts) {
+                    contact.p_AC_W *= length;
+                    contact.p_BC_W *= length;
+                    contact.bias *= length;
+                }
+                const Answer a = answer(GetParam(), problem);
+                const Answer b = answer(GetParam(), scaled);
+                EXPECT_FALSE(b.stats.missed);
+                const double unit = mass * length;
+                for (size_t j = 0; j < a.r.size(); ++j)
+                    EXPECT_LT((a.r[j] - b.r[j] / unit).norm(), 1e-6);
+            }
+        }
+    }
+}
+
+TEST_P(EachSolver, KeepsImpulsesInTheConeAndPassesThemOnWhole) {
+    Random random(6, "random problems");
+    for (int i = 0; i < 50; ++i) {
+        const ContactProblem problem = random_problem(random, 3, 8);
+        const Answer a = answer(GetParam(), problem);
+        Vec3 momentum = Vec3::Zero();
+        for (size_t k = 0; k < problem.bodies.size(); ++k)
+            momentum += problem.bodies[k].inverse_mass.inverse() * a.change[k].head<3>();
+        for (size_t j = 0; j < a.r.size(); ++j) {
+            const ProblemContact& contact = problem.contacts[j];
+            EXPECT_GE(a.r[j][0], 0);
+            EXPECT_LE(a.r[j].segment<2>(1).norm(), contact.friction * a.r[j][0] * (1 + 1e-12));
+            if (contact.a == kFixed) momentum -= contact.R_WC * a.r[j].head<3>();
+        }
+        EXPECT_LT(momentum.norm(), 1e-12);
+    }
+}
+
+TEST_P(EachSolver, TakesOddProblems) {
+    const auto fine = [&](const ContactProblem& problem) {
+        const Answer a = answer(GetParam(), problem);
+        EXPECT_FALSE(a.stats.missed);
+        for (const Impulse& r : a.r) EXPECT_TRUE(r.allFinite());
+    };
+    fine({});
+    fine(block_on_plane(Vec3::UnitZ(), 0));
+    fine(block_on_plane(Vec3::UnitZ(), 100));
+    ContactProblem still = block_on_plane(Vec3::UnitZ(), 0.8);
+    still.bodies[0].v_W.setZero();
+    fine(still);
+    ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // each contact given twice
+    for (size_t j = 0; j < 4; ++j) twice.contacts.push_back(twice.contacts[j]);
+    fine(twice);
+    ContactProblem held = block_on_plane(Vec3::UnitZ(), 0.8);  // may only rise
+    held.bodies[0].inverse_mass = Vec3(0, 0, 10).asDiagonal();
+    held.bodies[0].inverse_inertia.setZero();
+    fine(held);
+    ContactProblem heavy = block_on_plane(Vec3::UnitZ(), 0.8);  // a gram under a ton
+    heavy.bodies.push_back(testing::body(1000, Vec3::Constant(100)));
+    heavy.bodies[1].v_W = Vec3(0, 0, -0.01);
+    ProblemContact top;
+    top.a = 0;
+    top.b = 1;
+    top.p_AC_W = Vec3(0, 0, 0.02);
+    top.p_BC_W = Vec3(0, 0, -0.02);
+    top.R_WC = testing::frame_of(Vec3::UnitZ());
+    top.friction = 0.5;
+    heavy.contacts.push_back(top);
+    fine(heavy);
+}
+
+TEST_P(EachSolver, StopsAtAnEasyProblemThatItAlreadySolved) {
+    const ContactProblem problem = block_on_plane(tilted(0.2, 0.3), 0.5);
+    ContactSolvers solvers;
+    solvers.reserve(1, 4, false);
+    std::vector<Impulse> r(4, Impulse::Zero());
+    SolveStats stats;
+    ASSERT_TRUE(solvers.solve(GetParam(), {}, problem, r, stats));
+    EXPECT_GT(stats.iterations, 0);
+    ASSERT_TRUE(solvers.solve(GetParam(), {}, problem, r, stats));
+    EXPECT_EQ(stats.iterations, 0);
+}
+
+TEST_P(EachSolver, SaysWhenAProblemIsLargerThanItsMemory) {
+    ContactSolvers solvers;
+    solvers.reserve(1, 3, false);
+    std::vector<Impulse> r(4, Impulse::Constant(7));
+    SolveStats stats;
+    EXPECT_FALSE(solvers.solve(GetParam(), {}, block_on_plane(Vec3::UnitZ(), 0.5), r, stats));
+    EXPECT_EQ(r[0], Impulse::Constant(7));
+}
+
+TEST_P(EachSolver, AllocatesNothing) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Random random(7, "random problems");
+    ContactSolvers solvers;
+    solvers.reserve(8, 24, true);
+    std::vector<Impulse> r;
+    r.reserve(24);
+    for (int i = 0; i < 60; ++i) {
+        const ContactProblem problem =
+            random_problem(random, 1 + i % 6, 1 + i % 24, i % 3 == 0 ? 0.004 : 0);
+        r.assign(problem.contacts.size(), Impulse::Zero());
+        SolveStats stats;
+        dihaptic::testing::AllocationGuard guard;
+        solvers.solve(GetParam(), {8, i % 2 == 0 ? DirectionFrame::fixed : DirectionFrame::sliding},
+                      problem, r, stats);
+        EXPECT_EQ(guard.count(), 0u) << i;
+    }
+}
+
+TEST(StewartTrinkle, SolvesItsOwnProblemWithFixedDirections) {
+    Random random(8, "random problems");
+    int fallbacks = 0;
+    for (int i = 0; i < 200; ++i) {
+        const ContactProblem problem = random_problem(random, 1 + i % 4, 1 + i % 10);
+        const Answer a = answer(Solver::stewart_trinkle, problem, {8, DirectionFrame::fixed});
+        if (a.stats.fallback) {
+            ++fallbacks;
+            continue;
+        }
+        EXPECT_LE(a.detail.lcp_residual, 1e-8) << i;
+    }
+    EXPECT_LE(fallbacks, 2);
+}
+
+}  // namespace
+}  // namespace dihaptic::contact

@@ -1,0 +1,128 @@
+#include "dynamics/bullet/problem.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include "dynamics/bullet/shape.h"
+
+namespace dihaptic::dynamics {
+namespace {
+
+using contact::kFixed;
+
+Mat3 from_bullet(const btMatrix3x3& m) {
+    Mat3 out;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) out(i, j) = m[i][j];
+    }
+    return out;
+}
+
+/// Columns: the normal and two tangents, the same for the same normal.
+Mat3 contact_frame(const Vec3& normal) {
+    btVector3 first;
+    btVector3 second;
+    btPlaneSpace1(to_bullet(normal), first, second);
+    Mat3 R;
+    R.col(0) = normal;
+    R.col(1) = dynamics::from_bullet(first);
+    R.col(2) = normal.cross(R.col(1));
+    return R;
+}
+
+}  // namespace
+
+void ManifoldProblem::reserve(int bodies, int contacts) {
+    problem_.bodies.reserve(static_cast<size_t>(bodies));
+    problem_.contacts.reserve(static_cast<size_t>(contacts));
+    impulses_.reserve(static_cast<size_t>(contacts));
+    index_.assign(static_cast<size_t>(bodies), kFixed);
+    scratch_.reserve(static_cast<size_t>(bodies));
+}
+
+void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
+                            std::span<btPersistentManifold*> manifolds, double h, double recovery,
+                            bool warm_start) noexcept {
+    problem_.clear();
+    for (btCollisionObject* object : bodies) {
+        const btRigidBody& body = *btRigidBody::upcast(object);
+        index_[static_cast<size_t>(body.getUserIndex())] = static_cast<int>(problem_.bodies.size());
+        contact::ProblemBody& out = problem_.bodies.emplace_back();
+        const Vec3 moves = dynamics::from_bullet(body.getLinearFactor());
+        const Vec3 turns = dynamics::from_bullet(body.getAngularFactor());
+        out.inverse_mass = (body.getInvMass() * moves).asDiagonal();
+        out.inverse_inertia =
+            turns.asDiagonal() * from_bullet(body.getInvInertiaTensorWorld()) * turns.asDiagonal();
+        out.v_W = dynamics::from_bullet(body.getLinearVelocity());
+        out.w_W = dynamics::from_bullet(body.getAngularVelocity());
+    }
+    const auto index = [&](const btCollisionObject& object) {
+        return object.isStaticObject() ? kFixed
+                                       : index_[static_cast<size_t>(object.getUserIndex())];
+    };
+    for (btPersistentManifold* manifold : manifolds) {
+        // Bullet's normal points from its body 1 to its body 0
+        const btCollisionObject& a = *manifold->getBody1();
+        const btCollisionObject& b = *manifold->getBody0();
+        for (int i = 0; i < manifold->getNumContacts(); ++i) {
+            btManifoldPoint& point = manifold->getContactPoint(i);
+            contact::ProblemContact& out = problem_.contacts.emplace_back();
+            out.a = index(a);
+            out.b = index(b);
+            const Vec3 p_WC = 0.5 * (dynamics::from_bullet(point.getPositionWorldOnA()) +
+                                     dynamics::from_bullet(point.getPositionWorldOnB()));
+            out.p_AC_W = p_WC - dynamics::from_bullet(a.getWorldTransform().getOrigin());
+            out.p_BC_W = p_WC - dynamics::from_bullet(b.getWorldTransform().getOrigin());
+            out.R_WC = contact_frame(dynamics::from_bullet(point.m_normalWorldOnB));
+            const double gap = point.getDistance();
+            out.bias = (gap > 0 ? 1 : recovery) * gap / h;
+            out.friction = point.m_combinedFriction;
+            out.torsion_radius = torsion_radius(point);
+        }
+    }
+    impulses_.resize(problem_.contacts.size());
+    if (warm_start) {
+        read_impulses(manifolds);
+    } else {
+        for (contact::Impulse& impulse : impulses_) impulse.setZero();
+    }
+}
+
+void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) noexcept {
+    size_t j = 0;
+    for (btPersistentManifold* manifold : manifolds) {
+        for (int i = 0; i < manifold->getNumContacts(); ++i, ++j) {
+            btManifoldPoint& point = manifold->getContactPoint(i);
+            const Vec3 friction_W =
+                point.m_appliedImpulseLateral1 *
+                    dynamics::from_bullet(point.m_lateralFrictionDir1) +
+                point.m_appliedImpulseLateral2 * dynamics::from_bullet(point.m_lateralFrictionDir2);
+            const Mat3& R = problem_.contacts[j].R_WC;
+            impulses_[j] << point.m_appliedImpulse, R.col(1).dot(friction_W),
+                R.col(2).dot(friction_W), torsion_impulse(point);
+        }
+    }
+}
+
+void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const noexcept {
+    size_t j = 0;
+    for (btPersistentManifold* manifold : manifolds) {
+        for (int i = 0; i < manifold->getNumContacts(); ++i, ++j) {
+            btManifoldPoint& point = manifold->getContactPoint(i);
+            const Mat3& R = problem_.contacts[j].R_WC;
+            point.m_appliedImpulse = impulses_[j][0];
+            point.m_lateralFrictionDir1 = to_bullet(Vec3(R.col(1)));
+            point.m_lateralFrictionDir2 = to_bullet(Vec3(R.col(2)));
+            point.m_appliedImpulseLateral1 = impulses_[j][1];
+            point.m_appliedImpulseLateral2 = impulses_[j][2];
+            torsion_impulse(point) = impulses_[j][3];
+        }
+    }
+}
+
+double ManifoldProblem::judge(std::span<btPersistentManifold*> manifolds) noexcept {
+    read_impulses(manifolds);
+    scratch_.resize(problem_.bodies.size());
+    return contact::natural_map_residual(problem_, impulses_, scratch_);
+}
+
+}  // namespace dihaptic::dynamics
