@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "base/field_table.h"
 #include "recording/raw_log.h"
@@ -10,6 +11,12 @@
 
 namespace dihaptic::analysis {
 namespace {
+
+/// A file whose last line does not end.
+bool is_cut(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return in.seekg(-1, std::ios::end) && in.get() != '\n';
+}
 
 /// Every setting of settings.yaml, with the origin that settings.csv still has for it.
 void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
@@ -21,7 +28,8 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
     } catch (const Error&) {
         return;  // said where the inputs' checksums are
     }
-    const Table was = read_settings(folder);
+    Table was = read_settings(folder);
+    if (is_cut(folder.file("settings.csv")) && !was.rows.empty()) was.rows.pop_back();
     Table table = list_fields(settings, {});
     size_t lost = 0;
     for (auto& row : table.rows) {
@@ -55,11 +63,7 @@ Recovery recover_session(const recording::SessionFolder& folder,
     diagnostics.add(folder.changed(log.head().inputs, Severity::warning));
     mend_settings(folder, diagnostics);
     out.warnings = diagnostics.problems();
-    for (const Problem& warning : out.warnings) {
-        const std::string note = "recover: " + warning.text();
-        if (std::find(out.info.notes.begin(), out.info.notes.end(), note) == out.info.notes.end())
-            out.info.notes.push_back(note);
-    }
+    for (const Problem& warning : out.warnings) add_note(out.info, warning.text());
     out.figures = finish_session(folder, out.info, progress);
     return out;
 }

@@ -196,7 +196,8 @@ double last_time(const std::string& file, const std::string& column) {
 }
 
 /// What was made of a log before it was damaged is worth more than what can be made of it now.
-void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures) {
+void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures,
+                       const std::vector<std::string>& damage) {
     std::vector<Problem> problems;
     const auto keep = [&](const std::string& name, const std::string& what) {
         problems.push_back({Severity::error,
@@ -219,10 +220,18 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
                                    figures.duration));
         }
     }
-    if (!problems.empty()) throw Error(problems);
+    if (problems.empty()) return;
+    for (const std::string& what : damage)
+        problems.push_back({Severity::warning, {folder.raw_log(), 0}, "", what, ""});
+    throw Error(problems);
 }
 
 }  // namespace
+
+void add_note(recording::SessionInfo& info, const std::string& note) {
+    if (std::find(info.notes.begin(), info.notes.end(), note) == info.notes.end())
+        info.notes.push_back(note);
+}
 
 Table read_settings(const recording::SessionFolder& folder) {
     Table table;
@@ -248,8 +257,11 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     };
     const Reading reading = read(folder, info, part(0, 0.4));
     const SessionFigures& figures = reading.figures;
-    keep_longer_files(folder, figures);
+    const std::vector<std::string> damage =
+        recording::describe(figures.log, info.ticks, info.planned());
+    keep_longer_files(folder, figures, damage);
     if (figures.log.damaged(info.ticks)) info.state = recording::SessionState::recovered;
+    for (const std::string& what : damage) add_note(info, what);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 
     recording::NwbContent content;

@@ -40,6 +40,9 @@ struct SessionFigures {
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
 
+/// Adds a note, unless it is there: a session may be recovered more than once.
+void add_note(recording::SessionInfo& info, const std::string& note);
+
 /// Every setting of the session, with its origin: settings.csv, or no row when it is gone.
 Table read_settings(const recording::SessionFolder& folder);
 

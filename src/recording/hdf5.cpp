@@ -7,10 +7,13 @@ constexpr hsize_t kChunkRows = 4096;
 constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
 
 bool failed = false;  // a call, since the last create_file()
+std::string failure;  // why
 
-/// What the system said, in HDF5's stack of errors: "No space left on device".
-std::string reason() {
-    std::string out;
+/// Keeps what the system said, in HDF5's stack of errors: "No space left on device".
+void note_failure() {
+    if (failed) return;
+    failed = true;
+    failure = "HDF5 gives no reason";
     const auto look = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
         const std::string text = error->desc == nullptr ? "" : error->desc;
         const std::string key = "error message = '";
@@ -20,15 +23,12 @@ std::string reason() {
         *static_cast<std::string*>(data) = text.substr(begin, text.find('\'', begin) - begin);
         return 1;
     };
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &out);
-    return out;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &failure);
 }
 
 void check(herr_t status) {
-    if (status >= 0 && !failed) return;
-    failed = true;
-    const std::string why = reason();
-    throw WriteFailure(why.empty() ? "HDF5 says no more" : why);
+    if (status < 0) note_failure();
+    if (failed) throw WriteFailure(failure);
 }
 
 Id string_type() {
@@ -72,7 +72,7 @@ Id::Id(hid_t id) : id_(id) {
 }
 
 Id::~Id() {
-    if (id_ >= 0 && !failed && H5Idec_ref(id_) < 0) failed = true;
+    if (id_ >= 0 && !failed && H5Idec_ref(id_) < 0) note_failure();
 }
 
 Id& Id::operator=(Id&& other) noexcept {

@@ -49,9 +49,10 @@ std::string start_by_name(const std::string& path) {
 
 SessionFolder SessionFolder::open(const std::string& path) {
     std::error_code unreadable;  // then there is no raw.log either
-    const fs::path folder =
-        fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path() : fs::path(path);
-    SessionFolder session(folder.empty() ? "." : folder.string());
+    std::string folder =
+        fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
+    while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+    SessionFolder session(folder.empty() ? "." : folder);
     if (!fs::exists(session.raw_log(), unreadable)) {
         throw Error({path, 0}, "", "is not a session: there is no raw.log",
                     "Give the folder that 'dihaptic run' printed at its end.");
