@@ -2,16 +2,21 @@
 
 Usage: cli_test.py PROGRAM, from the project's folder.
 """
+import fcntl
 import glob
 import json
 import os
 import pathlib
+import pty
 import random
+import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 
@@ -100,7 +105,9 @@ class Commands(unittest.TestCase):
         for arguments in [["run", "gone.yaml"], ["run", "README.md"], ["replay", "/tmp"], ["recover", "/nowhere"],
                           ["run", "scenes/block-on-table.yaml", "--rig", "gone.yaml"],
                           ["run", "scenes/block-on-table.yaml", "--solver", "magic"],
-                          ["run", "scenes/block-on-table.yaml", "--out", "/proc/nowhere"]]:
+                          ["run", "scenes/block-on-table.yaml", "--out", "/proc/nowhere"],
+                          ["run", "scenes/block-on-table.yaml", "--out", ""],
+                          ["run", "scenes/block-on-table.yaml", "--participant", "S" * 300]]:
             result = dihaptic(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn("error:", result.stderr, arguments)
@@ -111,6 +118,153 @@ class Commands(unittest.TestCase):
         figures = json.loads(result.stdout)
         self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us"})
         self.assertEqual(set(figures["tick"][0]["awake"]), {"median_us", "p99_us", "max_us"})
+
+
+def with_largest_file(size):
+    """For preexec_fn: no file gets larger, as on a disk that gets full."""
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+SHORT = """bodies:
+  - {name: floor, shape: plane, fixed: yes}
+  - {name: thing, shape: mesh, file: block.obj, unit: mm, mass_g: 50}
+hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.1}, {name: rest, duration_s: 0.1}]}
+"""
+BLOCK = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+TICKS = 201
+MADE = ["session.nwb", "trials.csv", "phases.csv", "events.csv"]
+
+
+class Damage(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        pathlib.Path(folder.name + "/block.obj").write_text(BLOCK)
+        pathlib.Path(folder.name + "/short.yaml").write_text(SHORT)
+        self.out = folder.name + "/out"
+        result = dihaptic("run", folder.name + "/short.yaml", "--out", self.out, "--participant", "S07")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.folder = session_of(self.out)
+        self.assertIn("state: complete", self.read("session.yaml"))
+
+    def read(self, name):
+        return pathlib.Path(self.folder + name).read_text()
+
+    def flip(self, name, share):
+        path = pathlib.Path(self.folder + name)
+        data = bytearray(path.read_bytes())
+        data[int(len(data) * share)] ^= 1
+        path.write_bytes(data)
+
+    def test_a_damaged_chunk_costs_its_ticks_alone_and_is_told(self):
+        self.flip("raw.log", 0.6)
+        was = {name: pathlib.Path(self.folder + name).read_bytes() for name in MADE}
+        gap = "50 ticks missing from tick 100 on, between 0.099 s and 0.150 s"
+
+        replayed = dihaptic("replay", self.folder)
+        self.assertEqual(replayed.returncode, 1)
+        self.assertIn(gap, replayed.stdout)
+        self.assertIn("the first 100 ticks", replayed.stdout)
+
+        refused = dihaptic("recover", self.folder)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn(f"session.nwb: error: has more than the log can give now: {TICKS} ticks", refused.stderr)
+        self.assertIn("Move it away", refused.stderr)
+        self.assertIn(gap, refused.stderr)
+        self.assertEqual(was, {name: pathlib.Path(self.folder + name).read_bytes() for name in MADE})
+        self.assertIn("state: complete", self.read("session.yaml"))
+
+        os.rename(self.folder + "session.nwb", self.folder + "longer.nwb")
+        recovered = dihaptic("recover", self.folder)
+        self.assertEqual(recovered.returncode, 0, recovered.stderr)
+        self.assertIn(f"{TICKS - 50} frames", recovered.stdout)
+        self.assertIn(gap, recovered.stdout)
+        self.assertIn("state: recovered", self.read("session.yaml"))
+        self.assertIn("50 ticks missing", self.read("session.yaml"))
+        self.assertEqual(dihaptic("replay", self.folder).returncode, 1)
+
+    def test_a_log_that_was_cut_is_told_and_longer_tables_are_kept(self):
+        os.truncate(self.folder + "raw.log", os.path.getsize(self.folder + "raw.log") * 6 // 10)
+        lost = f"{TICKS - 100} ticks missing at the end, after 0.099 s: the session had {TICKS} ticks"
+        replayed = dihaptic("replay", self.folder)
+        self.assertEqual(replayed.returncode, 1)
+        self.assertIn(lost, replayed.stdout)
+        self.assertIn("an unfinished chunk, of about 50 ticks", replayed.stdout)
+        os.remove(self.folder + "session.nwb")
+        refused = dihaptic("recover", self.folder)
+        self.assertEqual(refused.returncode, 2)
+        for name in ["trials.csv", "phases.csv", "events.csv"]:
+            self.assertIn(name + ": error: has more than the log can give now", refused.stderr)
+            os.remove(self.folder + name)
+        recovered = dihaptic("recover", self.folder)
+        self.assertEqual(recovered.returncode, 0, recovered.stderr)
+        self.assertIn(lost, recovered.stdout)
+        self.assertIn("interrupted", self.read("trials.csv"))
+
+    def test_only_the_log_is_needed_and_nothing_that_is_cut_crashes(self):
+        random.seed(2)
+        names = [name for name in os.listdir(self.folder)]
+        self.assertEqual(len(names), 11, names)
+        whole = {name: pathlib.Path(self.folder + name).read_bytes() for name in names}
+        inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
+        for name in names:
+            size = len(whole[name])
+            lengths = {0, 1, size - 1, *range(100, min(size, 151), 10), *(random.randrange(size) for _ in range(4))}
+            for length in [None, *sorted(lengths)]:
+                for other, data in whole.items():
+                    pathlib.Path(self.folder + other).write_bytes(data)
+                pathlib.Path(self.folder + name).unlink() if length is None else os.truncate(self.folder + name, length)
+                where = f"{name} cut to {length}"
+                replayed = dihaptic("replay", self.folder)
+                for made in MADE:
+                    if os.path.exists(self.folder + made) and name == "raw.log":
+                        os.remove(self.folder + made)
+                recovered = dihaptic("recover", self.folder)
+                for result in [replayed, recovered]:
+                    self.assertIn(result.returncode, [0, 1, 2], where + result.stderr)
+                    self.assertNotIn("report this", result.stderr, where)
+                if name == "raw.log":
+                    self.assertNotEqual(replayed.returncode, 0, where)
+                    continue
+                self.assertEqual(replayed.returncode, 2 if name in inputs else 0, where + replayed.stderr)
+                self.assertEqual(recovered.returncode, 0, where + recovered.stderr)
+                self.assertIn(f"{TICKS} frames", recovered.stdout, where)
+                self.assertIn("the log is complete", recovered.stdout, where)
+                if name in inputs + ["session.yaml", "settings.csv"]:
+                    self.assertIn(f"/{name}: warning:", recovered.stderr, where)
+                for made in MADE:
+                    self.assertGreater(os.path.getsize(self.folder + made), 0, where)
+                self.assertTrue(self.read("session.yaml").endswith("...\n"), where)
+                if name in ["session.yaml", "settings.csv"]:
+                    again = dihaptic("recover", self.folder)  # it is mended now
+                    self.assertEqual(again.stderr.count("warning"), 0, where + again.stderr)
+
+    def test_changed_inputs_are_named(self):
+        with open(self.folder + "rig.yaml", "a") as rig:
+            rig.write("# moved a little\n")
+        replayed = dihaptic("replay", self.folder)
+        self.assertEqual(replayed.returncode, 2)
+        self.assertIn("rig.yaml: error: is not what it was when the session was recorded", replayed.stderr)
+        recovered = dihaptic("recover", self.folder)
+        self.assertEqual(recovered.returncode, 0, recovered.stderr)
+        self.assertIn("rig.yaml: warning: is not what it was", recovered.stderr)
+
+    def test_a_session_is_complete_only_with_all_of_its_files(self):
+        sizes = [os.path.getsize(self.folder + name) for name in ["raw.log", "session.nwb"]]
+        self.assertLess(*sizes)  # so there is a limit that the log keeps
+        out = self.out + "/full"
+        result = dihaptic("run", self.out + "/../short.yaml", "--out", out, preexec_fn=with_largest_file(sum(sizes) // 2))
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("session.nwb: error: cannot be written", result.stderr)
+        folder = session_of(out)
+        self.assertIn("state: running", pathlib.Path(folder + "session.yaml").read_text())
+        self.assertEqual(set(os.listdir(folder)), set(os.listdir(self.folder)) - set(MADE))
+        recovered = dihaptic("recover", folder)
+        self.assertEqual(recovered.returncode, 0, recovered.stderr)
+        self.assertIn(f"{TICKS} frames", recovered.stdout)
+
+    def test_replay_goes_to_100_percent(self):
+        self.assertIn("100 %", dihaptic("replay", self.folder).stderr)
 
 
 class Interruptions(unittest.TestCase):
@@ -126,6 +280,49 @@ class Interruptions(unittest.TestCase):
                 return os.path.getsize(logs[0])
             time.sleep(0.001)
         self.fail("no log")
+
+    def test_a_closed_terminal_ends_in_order(self):
+        with tempfile.TemporaryDirectory() as out:
+            master, slave = pty.openpty()
+            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, "--clock", "real"],
+                                       stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
+                                       preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+            os.close(slave)
+            self.wait_for_log(out, 300000)
+            os.close(master)
+            self.assertEqual(process.wait(timeout=60), 1)
+            folder = session_of(out)
+            self.assertTrue(os.path.exists(folder + "session.nwb"))
+            self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
+
+    def test_a_running_session_is_not_recovered(self):
+        with tempfile.TemporaryDirectory() as out:
+            process = self.start(out, "--clock", "real")
+            self.wait_for_log(out, 100000)
+            folder = session_of(out)
+            before = set(os.listdir(folder))
+            result = dihaptic("recover", folder)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("error: is in use", result.stderr)
+            self.assertEqual(set(os.listdir(folder)), before)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            self.assertEqual(dihaptic("recover", folder).returncode, 0)
+
+    def test_ticks_that_overruns_left_out_are_told(self):
+        with tempfile.TemporaryDirectory() as out:
+            process = self.start(out, "--clock", "real")
+            self.wait_for_log(out, 100000)
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(0.3)
+            process.send_signal(signal.SIGCONT)
+            time.sleep(0.2)
+            process.send_signal(signal.SIGINT)
+            stdout, _ = process.communicate(timeout=60)
+            told = re.compile(r"(\d+) ticks \(([0-9.]+) ms\) never were")
+            self.assertGreater(int(told.search(stdout).group(1)), 250, stdout)
+            recovered = dihaptic("recover", session_of(out)).stdout
+            self.assertEqual(told.search(recovered).group(0), told.search(stdout).group(0))
 
     def frames_of(self, text):
         return int(text.split(" frames")[0].split()[-1])
@@ -157,38 +354,46 @@ class Interruptions(unittest.TestCase):
             process.communicate()
             self.assertIn("state: running", pathlib.Path(folder + "session.yaml").read_text())
 
+            earlier = shutil.copytree(folder, out + "/earlier")
             result = dihaptic("recover", folder)
             self.assertEqual(result.returncode, 0, result.stderr)
             recovered = self.frames_of(result.stdout)
-            pathlib.Path(folder + "raw.log").write_bytes(snapshot)
-            before = self.frames_of(dihaptic("recover", folder).stdout)
+            pathlib.Path(earlier + "/raw.log").write_bytes(snapshot)
+            before = self.frames_of(dihaptic("recover", earlier).stdout)
             ticks = before + (killed_at - seen_at) * 1000
             self.assertGreater(recovered, ticks - 100 - 50)  # 50 ms for this script's own waits
             self.assertTrue(os.path.exists(folder + "session.nwb"))
 
     def test_killed_anywhere_it_recovers_and_replays(self):
         random.seed(1)
-        for _ in range(int(os.environ.get("DIHAPTIC_KILLS", 8))):
+        with tempfile.TemporaryDirectory() as out:
+            self.start(out).communicate(timeout=60)
+            whole = os.path.getsize(session_of(out) + "raw.log")
+        kills = 0
+        while kills < int(os.environ.get("DIHAPTIC_KILLS", 8)):
             with tempfile.TemporaryDirectory() as out:
                 process = self.start(out)
-                self.wait_for_log(out, random.randint(50_000, 9_000_000))
+                size = self.wait_for_log(out, random.uniform(0.01, 0.99) * whole)
                 process.kill()
                 process.communicate()
+                if process.returncode == 0:
+                    continue  # it was faster
+                kills += 1
                 folder = session_of(out)
+                self.assertIn("state: running", pathlib.Path(folder + "session.yaml").read_text())
                 recovered = dihaptic("recover", folder)
                 self.assertEqual(recovered.returncode, 0, recovered.stderr)
-                self.assertGreater(self.frames_of(recovered.stdout), 0)
+                self.assertGreater(self.frames_of(recovered.stdout), 9000 * size / whole - 100)
+                if size < 0.5 * whole:
+                    self.assertIn("without its end mark", recovered.stdout)
+                    self.assertIn("of 9.500 s planned", recovered.stdout)
                 self.assertIn("state: recovered", pathlib.Path(folder + "session.yaml").read_text())
                 replayed = dihaptic("replay", folder)
                 self.assertEqual(replayed.returncode, 0, replayed.stdout)
 
     def test_a_full_disk_is_told_and_what_was_written_is_kept(self):
-        def small_disk():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (500_000, 500_000))
-
         with tempfile.TemporaryDirectory() as out:
-            process = self.start(out, preexec_fn=small_disk)
+            process = self.start(out, preexec_fn=with_largest_file(500_000))
             _, stderr = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 2)
             self.assertIn("raw.log: error: cannot be written", stderr)
@@ -196,6 +401,24 @@ class Interruptions(unittest.TestCase):
             recovered = dihaptic("recover", session_of(out))
             self.assertEqual(recovered.returncode, 0, recovered.stderr)
             self.assertGreater(self.frames_of(recovered.stdout), 300)
+
+    def test_a_disk_that_is_full_for_the_nwb_file_leaves_a_session_to_recover(self):
+        with tempfile.TemporaryDirectory() as out:
+            self.assertEqual(dihaptic("run", "scenes/block-on-table.yaml", "--out", out).returncode, 0)
+            folder = session_of(out)
+            whole = os.path.getsize(folder + "session.nwb")
+            for share in [0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999]:
+                for name in MADE:
+                    pathlib.Path(folder + name).unlink(missing_ok=True)
+                limit = with_largest_file(int(whole * share))
+                result = dihaptic("recover", folder, preexec_fn=limit)
+                self.assertEqual(result.returncode, 2, f"{share} {result.returncode} {result.stderr}")
+                self.assertIn("session.nwb: error: cannot be written: File too large", result.stderr)
+                self.assertIn("'dihaptic recover " + folder.rstrip("/") + "'", result.stderr)
+                self.assertFalse(glob.glob(folder + "session.nwb*"), share)
+            recovered = dihaptic("recover", folder)
+            self.assertEqual(recovered.returncode, 0, recovered.stderr)
+            self.assertEqual(dihaptic("replay", folder).returncode, 0)
 
 
 if __name__ == "__main__":

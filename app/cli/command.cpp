@@ -11,8 +11,16 @@ std::atomic<bool> stop_requested{false};
 int exit_code = kOk;
 
 namespace {
+
 std::string typed;
+
+/// A terminal that is gone must not end the session: it is finished without progress.
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
 }
+
+}  // namespace
 
 std::string command_line() {
     return typed;
@@ -35,7 +43,7 @@ void ProgressLine::show(double share, const std::string& what) {
     if (!terminal_) {
         if (percent / 10 == shown_ / 10 && shown_ >= 0) return;
         shown_ = percent;
-        fmt::print(stderr, "{} {:3d} % {}\n", label_, percent, what);
+        say(fmt::format("{} {:3d} % {}\n", label_, percent, what));
         return;
     }
     constexpr int kBar = 24;
@@ -46,12 +54,11 @@ void ProgressLine::show(double share, const std::string& what) {
     const size_t width = line.size();
     if (width < width_) line.append(width_ - width, ' ');
     width_ = width;
-    fmt::print(stderr, "\r{}", line);
-    std::fflush(stderr);
+    say("\r" + line);
 }
 
 void ProgressLine::clear() {
-    if (terminal_ && width_ > 0) fmt::print(stderr, "\r{:{}}\r", "", width_);
+    if (terminal_ && width_ > 0) say(fmt::format("\r{:{}}\r", "", width_));
     width_ = 0;
 }
 

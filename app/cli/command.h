@@ -9,7 +9,7 @@
 
 namespace dihaptic::cli {
 
-/// Set by Ctrl-C: what runs comes to an orderly end.
+/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: what runs comes to an orderly end.
 extern std::atomic<bool> stop_requested;
 
 /// What the program returns: success, some result was bad, the input was bad.

@@ -1,4 +1,6 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -12,12 +14,32 @@ void on_interrupt(int) {
     dihaptic::cli::stop_requested.store(true);
 }
 
+int nowhere = -1;
+bool is_terminal[3] = {};
+
+/// The terminal is gone: the session ends in order, and what is said of it goes nowhere.
+void on_hangup(int) {
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+        if (is_terminal[stream]) dup2(nowhere, stream);
+    }
+    on_interrupt(SIGHUP);
+}
+
+void handle_signals() {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        is_terminal[stream] = isatty(stream) != 0;
+    if (std::signal(SIGHUP, on_hangup) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+    std::signal(SIGXFSZ, SIG_IGN);  // a quota is a full disk: writing fails, and says so
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     using namespace dihaptic;
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    handle_signals();
     cli::remember_command_line(argc, argv);
 
     CLI::App app(

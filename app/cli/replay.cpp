@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include "base/plural.h"
 #include "command.h"
-#include "experiment/session_run.h"
+#include "experiment/replay.h"
 
 namespace dihaptic::cli {
 
@@ -18,17 +19,25 @@ void add_replay(CLI::App& app) {
             result = experiment::replay_session(*session, stop_requested,
                                                 [&](double share) { line.show(share); });
         }
-        if (result.different_ticks == 0) {
-            fmt::print("{} ticks, every force and position identical to the bit, in {:.2f} s\n",
-                       result.ticks, result.elapsed);
-            return;
+        print(result.warnings);
+        for (const std::string& line : result.log) fmt::print("{}\n", line);
+        const std::string ticks = counted(result.ticks, "tick");
+        if (result.different_ticks > 0) {
+            fmt::print(
+                "{} of {} differ, the first at {:.3f} s: the session was recorded by another "
+                "version or build\n",
+                result.different_ticks, ticks, result.first_difference);
+        } else {
+            fmt::print("{}{}, every force and position identical to the bit, in {:.2f} s\n",
+                       result.good() ? "" : "the first ", ticks, result.elapsed);
         }
-        fmt::print(
-            "{} of {} ticks differ, the first at {:.3f} s: the session was recorded by another "
-            "version or build, "
-            "or its files were changed\n",
-            result.different_ticks, result.ticks, result.first_difference);
-        exit_code = kFailed;
+        if (result.interrupted) fmt::print("interrupted: the rest was not compared\n");
+        if (result.damaged) {
+            fmt::print(
+                "not all of the session could be compared: a replay needs every tick from the "
+                "first one, and the log lacks some\n");
+        }
+        if (!result.good()) exit_code = kFailed;
     });
 }
 

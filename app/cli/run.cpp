@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/plural.h"
 #include "base/table.h"
 #include "command.h"
 #include "summary.h"
@@ -34,7 +35,7 @@ void run_one(const Options& options) {
         result = experiment::run_session(plan, options.run, stop_requested,
                                          [&](double share) { line.show(share); });
     }
-    print_summary(finish(result.folder), plan, result);
+    print_summary(finish(result), plan, result);
     if (result.interrupted) exit_code = kFailed;
 }
 
@@ -67,8 +68,8 @@ void run_batch(const Options& options) {
             const experiment::Plan plan = experiment::make_plan(one.request);
             const experiment::RunResult result =
                 experiment::run_session(plan, one.run, stop_requested, {});
-            const analysis::SessionFigures figures =
-                analysis::finish_session(recording::SessionFolder::open(result.folder), {});
+            const analysis::SessionFigures figures = analysis::finish_session(
+                recording::SessionFolder::open(result.folder), result.info, {});
             double grip = 0;
             double force = 0;
             for (const analysis::PhaseFigures& phase : figures.phases) {
@@ -98,7 +99,8 @@ void run_batch(const Options& options) {
     const std::string table = options.run.out + "/summary.csv";
     fs::create_directories(options.run.out);
     write_csv(summary, table);
-    fmt::print("{} movements, {} refused; summary: {}\n", summary.rows.size(), refused, table);
+    fmt::print("{}, {} refused; summary: {}\n",
+               counted(static_cast<int64_t>(summary.rows.size()), "movement"), refused, table);
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/plural.h"
 #include "command.h"
 
 namespace dihaptic::cli {
@@ -15,9 +16,9 @@ std::string number(double value, int decimals) {
 
 }  // namespace
 
-analysis::SessionFigures finish(const std::string& folder) {
+analysis::SessionFigures finish(const experiment::RunResult& result) {
     ProgressLine line("writing session.nwb");
-    return analysis::finish_session(recording::SessionFolder::open(folder),
+    return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info,
                                     [&](double share) { line.show(share); });
 }
 
@@ -25,8 +26,9 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
     fmt::print("movement {}: {:.2f} s, closed to {:.1f} mm at {:.2f} s, block {:.1f} mm wide\n",
                report.file, report.duration, report.site.aperture * 1e3, report.site.start,
                report.block_width * 1e3);
-    fmt::print("bridged {:.1f} % of it, {} faults{}\n", 100 * report.bridged_share,
-               report.faults.size(), report.faults.empty() ? "" : ":");
+    fmt::print("bridged {:.1f} % of it, {}{}\n", 100 * report.bridged_share,
+               counted(static_cast<int64_t>(report.faults.size()), "fault"),
+               report.faults.empty() ? "" : ":");
     for (size_t i = 0; i < report.faults.size() && i < most_lines; ++i) {
         fmt::print("  {}\n", hand::describe(report.faults[i], report.fingers));
     }
@@ -56,7 +58,7 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;
         const servo::StatusText text = servo::describe(static_cast<servo::Status>(1u << bit));
-        fmt::print("note: in {} of {} ticks {}{}\n", ticks, figures.frames, text.what,
+        fmt::print("note: in {} of {} {}{}\n", ticks, counted(figures.frames, "tick"), text.what,
                    text.remedy.empty() ? "" : ": " + text.remedy);
     }
     fmt::print(
@@ -66,8 +68,11 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         result.tick_times.quantile(0.5), result.tick_times.quantile(0.99),
         result.tick_times.quantile(1), plan.settings.tick() * 1e6);
     if (result.overruns > 0 || result.dropped > 0) {
-        fmt::print("{} overruns, {} frames not recorded\n", result.overruns, result.dropped);
+        fmt::print("{}, {} not recorded\n", counted(result.overruns, "overrun"),
+                   counted(result.dropped, "frame"));
     }
+    if (figures.log.left_out > 0)
+        fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
     if (result.interrupted) fmt::print("interrupted: what was done until then is complete\n");
     fmt::print("session: {}\n", result.folder);
 }

@@ -13,6 +13,6 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
 void print_movement(const experiment::MovementReport& report, size_t most_lines);
 
 /// Finishes the session's files, with progress.
-analysis::SessionFigures finish(const std::string& folder);
+analysis::SessionFigures finish(const experiment::RunResult& result);
 
 }  // namespace dihaptic::cli

@@ -1,18 +1,25 @@
 #include "analysis/session_report.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <map>
 
 #include "analysis/events.h"
 #include "analysis/grasp_trace.h"
+#include "base/plural.h"
 #include "recording/nwb.h"
 #include "recording/raw_log.h"
 #include "scene/scene.h"
 
 namespace dihaptic::analysis {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,21 +42,35 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     bool carried = held && weight > 0;
     for (size_t i = range.first; i < range.last && carried; ++i)
         carried = !trace.samples()[i].on_support;
-    out.slip = held ? trace.slip(range) : kNaN;
+    // after damage to the log it may not be known where the object was
+    const bool known = trace.samples()[range.first].X_WB.p.allFinite();
+    out.slip = held && known ? trace.slip(range) : kNaN;
     out.weight_felt = carried ? trace.weight_felt(range) / weight : kNaN;
     return out;
+}
+
+/// The object's weight [N]; 0 when scene.yaml is not what it was, or cannot be read.
+double weight_of(const std::string& object, const recording::SessionFolder& folder,
+                 const recording::Setup& setup) {
+    if (object.empty() || !folder.changed(setup.inputs, Severity::warning).empty()) return 0;
+    try {
+        Diagnostics diagnostics;
+        const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+        const int i = scene.find(object);
+        if (diagnostics.has_errors() || i < 0) return 0;
+        return scene::mass(scene.bodies[static_cast<size_t>(i)]) * scene.gravity.norm();
+    } catch (const Error&) {
+        return 0;
+    }
 }
 
 Reading read(const recording::SessionFolder& folder, const recording::SessionInfo& info,
              const std::function<void(double)>& progress) {
     recording::RawLogReader log(folder.raw_log());
-    Diagnostics diagnostics;
-    const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
-    diagnostics.throw_if_errors();
-    const int object = info.object.empty() ? -1 : scene.find(info.object);
-    const double weight =
-        object < 0 ? 0
-                   : scene::mass(scene.bodies[static_cast<size_t>(object)]) * scene.gravity.norm();
+    const std::vector<std::string>& bodies = log.head().bodies;
+    const auto found = std::find(bodies.begin(), bodies.end(), info.object);
+    const int object = found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+    const double weight = weight_of(info.object, folder, log.head());
 
     std::vector<std::string> names;
     for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
@@ -71,8 +92,6 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         figure.name = i < names.size() ? names[i] : std::to_string(phase);
         figures.phases.push_back(figure);
     };
-    const auto size = static_cast<double>(std::filesystem::file_size(folder.raw_log()));
-    int64_t expected = 0;
     while (const servo::Frame* frame = log.next()) {
         if (frame->phase != phase || frame->trial != trial) {
             close_phase();
@@ -82,20 +101,17 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         }
         trace.add(*frame);
         events.add(*frame);
-        figures.missing += frame->sequence - expected;
-        expected = frame->sequence + 1;
         ++figures.frames;
         figures.duration = seconds(frame->time);
         figures.status |= frame->status;
         for (int bit = 0; bit < servo::kStatusBits; ++bit) {
             figures.status_ticks[static_cast<size_t>(bit)] += (frame->status >> bit) & 1u;
         }
-        if (progress && figures.frames % 5000 == 0)
-            progress(std::min(0.99, static_cast<double>(figures.frames) * 1000 / size));
+        if (progress && figures.frames % 5000 == 0) progress(log.share());
     }
     close_phase();
-    figures.complete = log.complete();
-    figures.damaged_bytes = log.damaged_bytes();
+    figures.log = log.health();
+    figures.tick = log.head().tick;
     out.events = events.events();
     return out;
 }
@@ -144,8 +160,9 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
             grip = std::fmax(grip, phase->peak_grip);
             force = std::max(force, phase->peak_force);
         }
-        const bool done = phases.back()->name == info.phases.back().name && figures.complete &&
-                          info.state != recording::SessionState::interrupted;
+        const bool ended = figures.log.complete || figures.log.last_tick + 1 == info.ticks;
+        const bool done = ended && !info.interrupted && !info.phases.empty() &&
+                          phases.back()->name == info.phases.back().name;
         table.rows.push_back({phases.front()->start, phases.back()->end, info.title,
                               info.participant.id, 1.0, static_cast<double>(trial), 1.0,
                               static_cast<double>(trial), done ? "done" : "interrupted", grip,
@@ -164,13 +181,66 @@ Table event_table(const std::vector<Event>& events) {
     return table;
 }
 
-Table read_csv_settings(const recording::SessionFolder& folder) {
-    // settings.csv is this program's own: three cells a line, quoted where they must be
+/// The latest time that a table of a session tells of [s].
+double last_time(const std::string& file, const std::string& column) {
+    if (!fs::exists(file)) return 0;
+    const auto rows = read_csv(file);
+    if (rows.empty()) return 0;
+    const auto at = std::find(rows[0].begin(), rows[0].end(), column);
+    const auto i = static_cast<size_t>(at - rows[0].begin());
+    double last = 0;
+    for (const auto& row : rows) {
+        if (i < row.size()) last = std::max(last, std::strtod(row[i].c_str(), nullptr));
+    }
+    return last;
+}
+
+/// What was made of a log before it was damaged is worth more than what can be made of it now.
+void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures,
+                       const std::vector<std::string>& damage) {
+    std::vector<Problem> problems;
+    const auto keep = [&](const std::string& name, const std::string& what) {
+        problems.push_back({Severity::error,
+                            {folder.file(name), 0},
+                            "",
+                            "has more than the log can give now: " + what,
+                            "Move it away first to have it replaced."});
+    };
+    const int64_t ticks = recording::ticks_in_nwb(folder);
+    if (ticks > figures.frames) {
+        keep("session.nwb", fmt::format("{}; the log has {}", counted(ticks, "tick"),
+                                        counted(figures.frames, "tick")));
+    }
+    const std::pair<const char*, const char*> tables[] = {
+        {"trials.csv", "stop_time"}, {"phases.csv", "stop_time"}, {"events.csv", "time_s"}};
+    for (const auto& [name, column] : tables) {
+        const double last = last_time(folder.file(name), column);
+        if (last > figures.duration + figures.tick / 2) {
+            keep(name, fmt::format("it goes to {:.3f} s; the log ends at {:.3f} s", last,
+                                   figures.duration));
+        }
+    }
+    if (problems.empty()) return;
+    for (const std::string& what : damage)
+        problems.push_back({Severity::warning, {folder.raw_log(), 0}, "", what, ""});
+    throw Error(problems);
+}
+
+}  // namespace
+
+void add_note(recording::SessionInfo& info, const std::string& note) {
+    if (std::find(info.notes.begin(), info.notes.end(), note) == info.notes.end())
+        info.notes.push_back(note);
+}
+
+Table read_settings(const recording::SessionFolder& folder) {
     Table table;
     table.columns = {{"setting", "name and unit"},
                      {"value", "as used"},
                      {"origin", "file and line, or default"}};
-    for (std::vector<std::string>& row : read_csv(folder.file("settings.csv"))) {
+    const std::string file = folder.file("settings.csv");
+    if (!fs::exists(file)) return table;
+    for (std::vector<std::string>& row : read_csv(file)) {
         row.resize(3);
         table.rows.push_back({row[0], row[1], row[2]});
     }
@@ -178,31 +248,33 @@ Table read_csv_settings(const recording::SessionFolder& folder) {
     return table;
 }
 
-}  // namespace
-
-SessionFigures read_figures(const recording::SessionFolder& folder,
-                            const std::function<void(double)>& progress) {
-    return read(folder, folder.read_info(), progress).figures;
-}
-
-SessionFigures finish_session(const recording::SessionFolder& folder,
+SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress) {
-    recording::NwbContent content;
-    content.info = folder.read_info();
     const auto part = [&](double from, double to) {
         return [=](double share) {
             if (progress) progress(from + share * (to - from));
         };
     };
-    const Reading reading = read(folder, content.info, part(0, 0.4));
-    content.trials = trial_table(reading.figures, content.info);
-    content.phases = phase_table(reading.figures);
-    content.settings = read_csv_settings(folder);
+    const Reading reading = read(folder, info, part(0, 0.4));
+    const SessionFigures& figures = reading.figures;
+    const std::vector<std::string> damage =
+        recording::describe(figures.log, info.ticks, info.planned());
+    keep_longer_files(folder, figures, damage);
+    if (figures.log.damaged(info.ticks)) info.state = recording::SessionState::recovered;
+    for (const std::string& what : damage) add_note(info, what);
+    if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
+
+    recording::NwbContent content;
+    content.info = info;
+    content.trials = trial_table(figures, info);
+    content.phases = phase_table(figures);
+    content.settings = read_settings(folder);
+    recording::write_nwb(folder, content, part(0.4, 1));
     write_csv(content.trials, folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
     write_csv(event_table(reading.events), folder.file("events.csv"));
-    recording::write_nwb(folder, content, part(0.4, 1));
-    return reading.figures;
+    folder.write_info(info);
+    return figures;
 }
 
 }  // namespace dihaptic::analysis

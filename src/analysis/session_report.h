@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/table.h"
+#include "recording/log_health.h"
 #include "recording/session.h"
 
 namespace dihaptic::analysis {
@@ -26,20 +27,23 @@ struct PhaseFigures {
 struct SessionFigures {
     std::vector<PhaseFigures> phases;
     int64_t frames = 0;
-    int64_t missing = 0;                ///< sequence numbers that the log does not have
-    int64_t damaged_bytes = 0;          ///< at the log's end
-    bool complete = false;              ///< the log has its end mark
+    recording::LogHealth log;           ///< what is missing
+    double tick = 0;                    ///< period of the clock [s]
     double duration = 0;                ///< [s]
     uint32_t status = 0;                ///< all status bits that occurred
     std::vector<int64_t> status_ticks;  ///< by bit
 };
 
-/// Reads the log and computes the figures; writes nothing.
-SessionFigures read_figures(const recording::SessionFolder& folder,
-                            const std::function<void(double)>& progress = {});
-
-/// Writes trials.csv, phases.csv, events.csv and session.nwb. Throws Error when it cannot.
-SessionFigures finish_session(const recording::SessionFolder& folder,
+/// Writes session.nwb, trials.csv, phases.csv and events.csv, and at last session.yaml with `info`,
+/// whose state they have then; it is `recovered` when the log is damaged. Throws Error when it
+/// cannot, or when those that are there tell of more than the log does now.
+SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
+
+/// Adds a note, unless it is there: a session may be recovered more than once.
+void add_note(recording::SessionInfo& info, const std::string& note);
+
+/// Every setting of the session, with its origin: settings.csv, or no row when it is gone.
+Table read_settings(const recording::SessionFolder& folder);
 
 }  // namespace dihaptic::analysis

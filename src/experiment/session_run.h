@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 
 #include "experiment/plan.h"
 #include "recording/recorder.h"
@@ -21,6 +22,8 @@ struct RunOptions {
 
 struct RunResult {
     std::string folder;
+    recording::SessionInfo info;  ///< as it is to be once the session's other files are there
+    std::optional<recording::SessionLock> lock;  ///< nobody else recovers it until then
     bool interrupted = false;
     double simulated = 0;  ///< session time reached [s]
     double elapsed = 0;    ///< wall time of the ticks [s]
@@ -34,19 +37,9 @@ struct RunResult {
 using Progress = std::function<void(double share)>;
 
 /// Runs to the end of the driver's movement, or until `stop`. Throws Error when the disk gives up;
-/// what was written stays and can be recovered.
+/// what was written stays and can be recovered. The session's state stays `running`:
+/// analysis::finish_session() makes its other files, and it what it is to be.
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress);
-
-/// A replay, compared tick by tick with what was recorded.
-struct ReplayResult {
-    int64_t ticks = 0;
-    int64_t different_ticks = 0;   ///< any force or position that differs in any bit
-    double first_difference = -1;  ///< session time [s]
-    double elapsed = 0;
-};
-/// Re-runs a session from the device input in its raw log. Throws Error when it cannot.
-ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
-                            const Progress& progress);
 
 }  // namespace dihaptic::experiment

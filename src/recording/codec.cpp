@@ -18,7 +18,7 @@ constexpr bool kIsField =
 
 class Writer {
   public:
-    explicit Writer(std::span<std::byte> out) : out_(out) {}
+    Writer(std::span<std::byte> out, Bodies bodies) : out_(out), bodies_(bodies) {}
 
     template <class T>
     void operator()(const char*, const T& value, const char*) {
@@ -32,8 +32,11 @@ class Writer {
     }
     template <class T>
     void changed(const char*, const std::vector<T>& list, const std::vector<uint16_t>& which) {
-        (*this)("", static_cast<uint16_t>(which.size()), "");
-        for (const uint16_t i : which) {
+        const bool all = bodies_ == Bodies::all;
+        const auto count = static_cast<uint16_t>(all ? list.size() : which.size());
+        (*this)("", count, "");
+        for (uint16_t n = 0; n < count; ++n) {
+            const uint16_t i = all ? n : which[n];
             (*this)("", i, "");
             T::visit(list[i], *this);
         }
@@ -48,6 +51,7 @@ class Writer {
         used_ += size;
     }
     std::span<std::byte> out_;
+    Bodies bodies_;
     size_t used_ = 0;
     bool fits_ = true;
 };
@@ -142,15 +146,14 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     Frame frame;
     frame.fingers.resize(layout.fingers);
     frame.bodies.resize(layout.bodies);
-    for (size_t i = 0; i < layout.bodies; ++i) frame.changed.push_back(static_cast<uint16_t>(i));
     frame.contacts.resize(contacts);
     std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.bodies +
                                  256 * contacts);
-    return encode(frame, bytes);
+    return encode(frame, bytes, Bodies::all);
 }
 
-size_t encode(const Frame& frame, std::span<std::byte> out) noexcept {
-    Writer writer(out);
+size_t encode(const Frame& frame, std::span<std::byte> out, Bodies bodies) noexcept {
+    Writer writer(out, bodies);
     Frame::visit(frame, writer);
     return writer.size();
 }

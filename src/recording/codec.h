@@ -20,9 +20,13 @@ struct Layout {
 /// Bytes of the largest frame with so many contacts.
 size_t most_bytes(const Layout& layout, size_t contacts);
 
+/// Which bodies an encoded frame has: all of them make it readable without the frames before.
+enum class Bodies { changed, all };
+
 /// Writes the frame into `out` and returns how many bytes it took, or 0 when it does not fit.
 /// Allocates nothing.
-size_t encode(const servo::Frame& frame, std::span<std::byte> out) noexcept;
+size_t encode(const servo::Frame& frame, std::span<std::byte> out,
+              Bodies bodies = Bodies::changed) noexcept;
 
 /// Reads a frame onto the one before it; false when the bytes are no frame of this layout.
 bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame);

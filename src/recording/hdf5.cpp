@@ -1,18 +1,34 @@
 #include "recording/hdf5.h"
 
-#include "base/diagnostics.h"
-
 namespace dihaptic::recording::hdf5 {
 namespace {
 
 constexpr hsize_t kChunkRows = 4096;
 constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
 
+bool failed = false;  // a call, since the last create_file()
+std::string failure;  // why
+
+/// Keeps what the system said, in HDF5's stack of errors: "No space left on device".
+void note_failure() {
+    if (failed) return;
+    failed = true;
+    failure = "HDF5 gives no reason";
+    const auto look = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
+        const std::string text = error->desc == nullptr ? "" : error->desc;
+        const std::string key = "error message = '";
+        const size_t from = text.find(key);
+        if (from == std::string::npos) return 0;
+        const size_t begin = from + key.size();
+        *static_cast<std::string*>(data) = text.substr(begin, text.find('\'', begin) - begin);
+        return 1;
+    };
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &failure);
+}
+
 void check(herr_t status) {
-    if (status < 0) {
-        throw Error("session.nwb cannot be written",
-                    "Free some space, then run 'dihaptic recover' on the session's folder.");
-    }
+    if (status < 0) note_failure();
+    if (failed) throw WriteFailure(failure);
 }
 
 Id string_type() {
@@ -56,7 +72,7 @@ Id::Id(hid_t id) : id_(id) {
 }
 
 Id::~Id() {
-    if (id_ >= 0) H5Idec_ref(id_);
+    if (id_ >= 0 && !failed && H5Idec_ref(id_) < 0) note_failure();
 }
 
 Id& Id::operator=(Id&& other) noexcept {
@@ -65,8 +81,34 @@ Id& Id::operator=(Id&& other) noexcept {
 }
 
 Id create_file(const std::string& path) {
+    H5dont_atexit();
+    failed = false;
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
     return Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+void flush(hid_t file) {
+    check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+}
+
+void close(Id file) {
+    flush(file);
+    { const Id last = std::move(file); }
+    check(0);
+}
+
+int64_t rows_of(const std::string& file, const std::string& dataset) {
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t data = opened < 0 ? -1 : H5Dopen2(opened, dataset.c_str(), H5P_DEFAULT);
+    const hid_t space = data < 0 ? -1 : H5Dget_space(data);
+    hsize_t extent[H5S_MAX_RANK] = {};
+    const int rank = space < 0 ? -1 : H5Sget_simple_extent_dims(space, extent, nullptr);
+    if (space >= 0) H5Sclose(space);
+    if (data >= 0) H5Dclose(data);
+    if (opened >= 0) H5Fclose(opened);
+    return rank < 1 ? -1 : static_cast<int64_t>(extent[0]);
 }
 
 Id create_group(hid_t parent, const std::string& name) {

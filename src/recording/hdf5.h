@@ -3,12 +3,23 @@
 
 #include <hdf5.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace dihaptic::recording::hdf5 {
 
-/// Owns an identifier of any kind. Throws Error when HDF5 gave an invalid one.
+// HDF5 crashes when it closes, at the program's end at the latest, what it could not write for lack
+// of space. So once a call has failed nothing is closed any more until the next create_file(), and
+// at the program's end neither. What that leaks is small, and the file gives its space back when it
+// is cut to nothing, as write_nwb() does.
+
+/// Why a file could not be written.
+struct WriteFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Owns an identifier of any kind. Throws WriteFailure when HDF5 gave an invalid one.
 class Id {
   public:
     Id() = default;
@@ -25,6 +36,13 @@ class Id {
 };
 
 Id create_file(const std::string& path);
+/// Writes everything that is buffered. Call it while all that was made is open: closing cannot
+/// throw.
+void flush(hid_t file);
+/// Closes the file, after everything in it. Throws WriteFailure unless the whole file was written.
+void close(Id file);
+/// Rows of a dataset in a file; -1: there is no such dataset, or it cannot be read.
+int64_t rows_of(const std::string& file, const std::string& dataset);
 Id create_group(hid_t parent, const std::string& name);
 
 void write_attribute(hid_t object, const std::string& name, const std::string& value);

@@ -1,9 +1,13 @@
 #include "recording/nwb.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -254,15 +258,11 @@ void write_head(hid_t file, const SessionInfo& info) {
     write_dataset(file, "file_create_date", std::vector<std::string>{iso_now()});
 }
 
-}  // namespace
-
-void write_nwb(const SessionFolder& folder, const NwbContent& content,
-               const std::function<void(double)>& progress) {
-    RawLogReader log(folder.raw_log());
-    const auto size = static_cast<double>(std::filesystem::file_size(folder.raw_log()));
-    const std::string part = folder.nwb() + ".part";
+/// The whole file, under any name.
+void write_file(const std::string& name, RawLogReader& log, const NwbContent& content,
+                const std::function<void(double)>& progress) {
+    Id file = hdf5::create_file(name);
     {
-        const Id file = hdf5::create_file(part);
         write_head(file, content.info);
         for (const char* group : {"analysis", "processing"}) create_group(file, group);
         const Id stimulus = create_group(file, "stimulus");
@@ -271,12 +271,9 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
 
         const Id acquisition = create_group(file, "acquisition");
         FrameExporter exporter(acquisition, log.head());
-        const double frame_bytes = 1000;  // about: for the progress only
-        double done = 0;
         while (const servo::Frame* frame = log.next()) {
             exporter.add(*frame);
-            done += frame_bytes;
-            if (progress && frame->sequence % 1000 == 0) progress(std::min(0.99, done / size));
+            if (progress && frame->sequence % 1000 == 0) progress(0.99 * log.share());
         }
         exporter.close();
 
@@ -288,9 +285,51 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
                             "Every setting of the session, and where it came from.");
+        hdf5::flush(file);
     }
-    std::filesystem::rename(part, folder.nwb());
+    hdf5::close(std::move(file));
+}
+
+/// Until then a file system may keep to itself that there is no room.
+void sync(const std::string& file) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
+    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const std::string why = std::strerror(errno);
+    if (descriptor >= 0) ::close(descriptor);
+    if (!synced) throw hdf5::WriteFailure(why);
+}
+
+/// A file in the making, which goes unless it got its name.
+struct Part {
+    std::string name;
+    ~Part() {
+        std::error_code gone;
+        std::filesystem::resize_file(name, 0, gone);  // HDF5 may still hold it open
+        std::filesystem::remove(name, gone);
+    }
+};
+
+}  // namespace
+
+void write_nwb(const SessionFolder& folder, const NwbContent& content,
+               const std::function<void(double)>& progress) {
+    RawLogReader log(folder.raw_log());
+    const Part part{folder.nwb() + ".part"};
+    try {
+        write_file(part.name, log, content, progress);
+        sync(part.name);
+        if (std::rename(part.name.c_str(), folder.nwb().c_str()) != 0)
+            throw hdf5::WriteFailure(std::strerror(errno));
+    } catch (const hdf5::WriteFailure& e) {
+        throw Error({folder.nwb(), 0}, "", "cannot be written: " + std::string(e.what()),
+                    "raw.log has all of it: free some space, then run 'dihaptic recover " +
+                        folder.path() + "'.");
+    }
     if (progress) progress(1);
+}
+
+int64_t ticks_in_nwb(const SessionFolder& folder) {
+    return hdf5::rows_of(folder.nwb(), "acquisition/status/data");
 }
 
 }  // namespace dihaptic::recording

@@ -26,8 +26,11 @@ struct NwbContent {
 };
 
 /// Writes the file from the folder's raw.log, replacing it only when it is whole. `progress` gets
-/// the share done. Throws Error when it cannot be written.
+/// the share done. Throws Error when it cannot be written; then what was there stays.
 void write_nwb(const SessionFolder& folder, const NwbContent& content,
                const std::function<void(double)>& progress);
+
+/// Ticks in the folder's session.nwb; -1: there is none that can be read.
+int64_t ticks_in_nwb(const SessionFolder& folder);
 
 }  // namespace dihaptic::recording

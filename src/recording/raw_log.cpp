@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -114,7 +115,8 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std
     in_.read(magic, kMagicSize);
     if (!in_ || std::memcmp(magic, kMagic, kMagicSize) != 0)
         throw Error({file, 0}, "", "is not a log of Dihaptic", remedy);
-    if (!read_chunk() || kind_ != kHead)
+    end_ = kMagicSize;
+    if (!read_chunk_at(end_) || kind_ != kHead)
         throw Error({file, 0}, "", "has no readable head", "Nothing of it can be recovered.");
     const Node text =
         parse_yaml({reinterpret_cast<const char*>(chunk_.data()), chunk_.size()}, file);
@@ -132,31 +134,111 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std
     chunk_.clear();
 }
 
-bool RawLogReader::read_chunk() {
-    const auto start = static_cast<int64_t>(in_.tellg());
+bool RawLogReader::read_chunk_at(int64_t at) {
     ChunkHeader header{};
+    in_.clear();
+    in_.seekg(at);
     in_.read(reinterpret_cast<char*>(&header), sizeof(header));
-    const int64_t left = size_ - start - static_cast<int64_t>(sizeof(header));
-    bool good = in_.good() && header.size <= kMostPayload && header.size <= left;
-    if (good) {
-        chunk_.resize(header.size);
-        in_.read(reinterpret_cast<char*>(chunk_.data()), header.size);
-        good = in_.good() && checksum(header.kind, chunk_) == header.checksum;
-    }
-    if (!good) {
-        damaged_ = size_ - start;
+    const int64_t left = size_ - at - static_cast<int64_t>(sizeof(header));
+    if (!in_.good() || header.size > kMostPayload || header.size > left) return false;
+    chunk_.resize(header.size);
+    at_ = 0;
+    in_.read(reinterpret_cast<char*>(chunk_.data()), header.size);
+    if (in_.fail() || checksum(header.kind, chunk_) != header.checksum) {
+        chunk_.clear();
         return false;
     }
     kind_ = header.kind;
-    at_ = 0;
+    skipped_ += at - end_;
+    end_ = at + static_cast<int64_t>(sizeof(header)) + header.size;
     return true;
+}
+
+int64_t RawLogReader::find_kind(int64_t from) {
+    constexpr int64_t kBlock = 1 << 16;
+    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may lie across two blocks
+    std::string block;
+    for (; from + kOverlap < size_; from += kBlock - kOverlap) {
+        block.resize(static_cast<size_t>(std::min(kBlock, size_ - from)));
+        in_.clear();
+        in_.seekg(from);
+        in_.read(block.data(), static_cast<std::streamsize>(block.size()));
+        size_t found = std::string::npos;
+        for (const uint32_t kind : {kData, kDone}) {
+            const std::string_view letters(reinterpret_cast<const char*>(&kind), sizeof(kind));
+            found = std::min(found, block.find(letters));
+        }
+        if (found != std::string::npos) return from + static_cast<int64_t>(found);
+    }
+    return -1;
+}
+
+bool RawLogReader::read_chunk() {
+    for (int64_t at = end_; at >= 0; at = find_kind(at + 1)) {
+        if (read_chunk_at(at)) return true;
+    }
+    ended_ = true;
+    note_tail(size_ - end_);
+    note_unfinished_chunk();
+    return false;
+}
+
+void RawLogReader::note_tail(int64_t bytes) {
+    health_.tail_bytes = bytes;
+    health_.tail_ticks = ticks_in(bytes);
+}
+
+int64_t RawLogReader::ticks_in(int64_t bytes) const {
+    return health_.frames == 0 ? 0 : bytes * health_.frames / frame_bytes_;
+}
+
+void RawLogReader::note_unfinished_chunk() {
+    ChunkHeader header{};
+    in_.clear();
+    in_.seekg(end_);
+    in_.read(reinterpret_cast<char*>(&header), sizeof(header));
+    const int64_t there = size_ - end_ - static_cast<int64_t>(sizeof(header));
+    const bool known = header.kind == kData || header.kind == kDone;
+    if (there < 0) {
+        health_.unfinished = size_ > end_;
+    } else if (known && header.size <= kMostPayload && header.size > there) {
+        health_.unfinished = true;
+        health_.tail_ticks = ticks_in(header.size);  // as many as it was to have
+    }
+}
+
+void RawLogReader::note_frame() {
+    const Time period = from_seconds(head_.tick);
+    const Time last = health_.frames > 0 ? health_.last_time : -period;
+    const int64_t missing = frame_.sequence - health_.last_tick - 1;
+    health_.left_out += (frame_.time - last) / period - missing - 1;
+    if (missing > 0) {
+        health_.gaps.push_back(
+            {health_.last_tick + 1, missing, health_.last_time, frame_.time, skipped_});
+        // bodies that are not in this frame may have moved in those that are missing
+        for (size_t i = 0; i < frame_.bodies.size(); ++i) {
+            if (std::find(frame_.changed.begin(), frame_.changed.end(), i) != frame_.changed.end())
+                continue;
+            servo::BodyFrame& body = frame_.bodies[i];
+            const Vec3 unknown = Vec3::Constant(servo::kUnmeasured);
+            body = {
+                {Quat(Eigen::Vector4d::Constant(servo::kUnmeasured)), unknown}, unknown, unknown};
+        }
+    }
+    skipped_ = 0;
+    ++health_.frames;
+    health_.last_tick = frame_.sequence;
+    health_.last_time = frame_.time;
 }
 
 const servo::Frame* RawLogReader::next() {
     while (at_ >= chunk_.size()) {
-        if (complete_ || damaged_ > 0 || !read_chunk()) return nullptr;
-        if (kind_ == kDone) complete_ = true;
-        if (kind_ != kData) chunk_.clear();
+        if (ended_ || !read_chunk()) return nullptr;
+        if (kind_ == kData) continue;
+        chunk_.clear();
+        if (kind_ != kDone) continue;
+        health_.complete = ended_ = true;
+        note_tail(skipped_);
     }
     uint32_t length = 0;
     const std::span<const std::byte> rest = std::span(chunk_).subspan(at_);
@@ -168,6 +250,8 @@ const servo::Frame* RawLogReader::next() {
                     "It was written by a faulty program: report it.");
     }
     at_ += sizeof(length) + length;
+    frame_bytes_ += static_cast<int64_t>(sizeof(length) + length);
+    note_frame();
     return &frame_;
 }
 

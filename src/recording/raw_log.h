@@ -3,9 +3,13 @@
 //
 //   "DIHAPTIC LOG 1\n", then chunks:
 //   chunk   u32 kind, u32 bytes of payload, u32 CRC-32 of kind, bytes and payload, payload
-//   kinds   head: YAML (layout, tick, names, schema)     first chunk
+//   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h)
 //           done: i64 number of frames                   last chunk of a session that ended
+//
+// A damaged chunk is left out: the reader goes on at the next one, which it knows by its kind,
+// spelt out, and its checksum. The first frame of a chunk that was written in place has all bodies;
+// what is not known of a body after a gap is NaN.
 //
 // It holds nothing but what the session computed, so that the same session gives the same file.
 #pragma once
@@ -17,11 +21,13 @@
 
 #include "base/field.h"
 #include "recording/codec.h"
+#include "recording/log_health.h"
+#include "recording/setup.h"
 
 namespace dihaptic::recording {
 
 /// What a log is about.
-struct LogHead {
+struct LogHead : Setup {
     double tick = 1e-3;  ///< [s]
     std::vector<std::string> fingers;
     std::vector<std::string> bodies;  ///< of the scene
@@ -32,6 +38,7 @@ struct LogHead {
         v("tick", tick, Field::of(Quantity::time).positive().required());
         v("fingers", fingers);
         v("bodies", bodies);
+        Setup::visit(v);
     }
 };
 
@@ -69,24 +76,33 @@ class RawLogReader {
     const LogHead& head() const { return head_; }
     /// The next frame, valid until the next call; null at the end of what can be read.
     const servo::Frame* next();
-    /// After next() gave null: the log has its end mark.
-    bool complete() const { return complete_; }
-    /// After next() gave null: bytes at the end that are no whole chunk.
-    int64_t damaged_bytes() const { return damaged_; }
+    /// What was found so far; the end is known after next() gave null.
+    const LogHealth& health() const { return health_; }
+    /// Share of the file that was read.
+    double share() const { return static_cast<double>(end_) / static_cast<double>(size_); }
 
   private:
     bool read_chunk();
+    bool read_chunk_at(int64_t at);
+    int64_t find_kind(int64_t from);
+    void note_frame();
+    void note_tail(int64_t bytes);
+    void note_unfinished_chunk();
+    int64_t ticks_in(int64_t bytes) const;
 
     std::string file_;
     std::ifstream in_;
     int64_t size_ = 0;
+    int64_t end_ = 0;      // of the last whole chunk
+    int64_t skipped_ = 0;  // bytes between it and the one before
     LogHead head_;
     uint32_t kind_ = 0;
     std::vector<std::byte> chunk_;
     size_t at_ = 0;
     servo::Frame frame_;
-    bool complete_ = false;
-    int64_t damaged_ = 0;
+    LogHealth health_;
+    int64_t frame_bytes_ = 0;  // of all frames read
+    bool ended_ = false;
 };
 
 }  // namespace dihaptic::recording

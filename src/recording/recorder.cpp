@@ -30,17 +30,19 @@ Recorder::~Recorder() {
 }
 
 void Recorder::record(const servo::Frame& frame) {
-    const size_t size = encode(frame, encoded_);
+    const bool whole = whole_next_ || frame.time - last_whole_ >= kFlushEvery;
+    const size_t size = encode(frame, encoded_, whole ? Bodies::all : Bodies::changed);
     const std::span<const std::byte> bytes(encoded_.data(), size);
-    if (writing_ == Writing::in_thread) {
-        if (size == 0 || !ring_.push(bytes)) dropped_.fetch_add(1, std::memory_order_relaxed);
-        return;
+    bool taken = size > 0;
+    if (taken && writing_ == Writing::in_thread) {
+        taken = ring_.push(bytes);
+    } else if (taken) {
+        if (whole) log_.flush();
+        log_.add(bytes);
     }
-    log_.add(bytes);
-    if (frame.time - last_flush_ >= kFlushEvery) {
-        log_.flush();
-        last_flush_ = frame.time;
-    }
+    if (!taken) dropped_.fetch_add(1, std::memory_order_relaxed);
+    whole_next_ = !taken;  // the next must not build on a frame that is not there
+    if (whole) last_whole_ = frame.time;
 }
 
 void Recorder::drain() {

@@ -15,7 +15,8 @@ namespace dihaptic::recording {
 enum class Writing { in_place, in_thread };
 
 /// A chunk is handed to the operating system at least this often: more than that a crash cannot
-/// lose.
+/// lose. As often a frame has all bodies, whether they changed or not: what follows a damaged chunk
+/// can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 
 class Recorder {
@@ -23,8 +24,9 @@ class Recorder {
     Recorder(const std::string& file, const LogHead& head, Writing writing);
     ~Recorder();
 
-    /// Records a frame. In a thread: neither waits nor allocates; a frame that finds the ring full
-    /// is dropped and counted. In place: throws Error when the disk is full.
+    /// Records a frame; one with more contacts than there is room for is dropped and counted. In a
+    /// thread: neither waits nor allocates; a frame that finds the ring full is dropped and counted
+    /// too. In place: throws Error when the disk is full.
     void record(const servo::Frame& frame);
     /// True once writing has failed: stop the session, then finish() says why.
     bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
@@ -42,7 +44,8 @@ class Recorder {
     Writing writing_;
     std::vector<std::byte> encoded_;   // servo's side
     std::vector<std::byte> received_;  // thread's side
-    Time last_flush_{0};
+    Time last_whole_{0};
+    bool whole_next_ = true;
     Ring ring_;
     std::atomic<int64_t> dropped_{0};
     std::atomic<bool> failed_{false};

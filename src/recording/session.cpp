@@ -1,23 +1,59 @@
 #include "recording/session.h"
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <zlib.h>
 
+#include <cerrno>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "base/field_writer.h"
 #include "base/table.h"
 
 namespace dihaptic::recording {
 namespace fs = std::filesystem;
+namespace {
+
+/// What session.yaml ends with (YAML's mark of a document's end): without it, it was cut off.
+constexpr const char* kEnd = "...\n";
+
+std::string text_of(const std::string& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+std::string iso(const std::tm& local) {
+    const std::string offset = fmt::format("{:%z}", local);  // +hhmm
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
+}
+
+/// When a session began, by its folder's name; "" when it was renamed.
+std::string start_by_name(const std::string& path) {
+    const std::string name = fs::weakly_canonical(path).filename().string();
+    std::tm local{};
+    if (strptime(name.c_str(), "%Y-%m-%d_%H%M%S", &local) == nullptr) return "";
+    local.tm_isdst = -1;
+    if (mktime(&local) == -1) return "";
+    return iso(local);
+}
+
+}  // namespace
 
 SessionFolder SessionFolder::open(const std::string& path) {
-    const fs::path folder =
-        fs::is_regular_file(path) ? fs::path(path).parent_path() : fs::path(path);
-    SessionFolder session(folder.empty() ? "." : folder.string());
-    if (!fs::exists(session.raw_log())) {
+    std::error_code unreadable;  // then there is no raw.log either
+    std::string folder =
+        fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
+    while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+    SessionFolder session(folder.empty() ? "." : folder);
+    if (!fs::exists(session.raw_log(), unreadable)) {
         throw Error({path, 0}, "", "is not a session: there is no raw.log",
                     "Give the folder that 'dihaptic run' printed at its end.");
     }
@@ -31,7 +67,20 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
     std::string tidy;
     for (const char c : name)
         tidy += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '-';
-    const std::string stem = fmt::format("{}/{:%Y-%m-%d_%H%M%S}_{}", parent, local, tidy);
+    const std::string own = fmt::format("{:%Y-%m-%d_%H%M%S}_{}", local, tidy);
+    const std::string stem = parent + "/" + own;
+    if (parent.empty()) {
+        throw Error({"--out", 0}, "", "names no folder",
+                    "Name one, or leave --out away: sessions go to 'sessions' then.");
+    }
+    constexpr size_t kLongest = 250;  // 255 to most file systems; "_2" may follow
+    if (own.size() > kLongest) {
+        throw Error(
+            "the session's folder would be named for its date, experiment and participant "
+            "in " +
+                fmt::format("{} characters; {} are allowed", own.size(), kLongest),
+            "Shorten --participant, or the experiment file's name.");
+    }
     try {
         fs::create_directories(parent);
         // two sessions within a second get different names
@@ -48,15 +97,118 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
 }
 
 SessionInfo SessionFolder::read_info() const {
+    const std::string name = file("session.yaml");
+    const Node root = read_yaml(name);
     SessionInfo info;
     Diagnostics diagnostics;
-    read_fields(info, read_yaml(file("session.yaml")), diagnostics);
+    if (!text_of(name).ends_with(kEnd)) {
+        diagnostics.error({name, 0}, "", "is cut off: it does not end with '...'",
+                          "Recover the session with 'dihaptic recover'.");
+    }
+    read_fields(info, root, diagnostics);
     diagnostics.throw_if_errors();
     return info;
 }
 
+SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostics) const {
+    std::string why;
+    try {
+        return read_info();
+    } catch (const Error& e) {
+        why = e.problems().front().what;
+    }
+    // the whole lines that can be read; a line that was cut may say something else than it did
+    SessionInfo info;
+    std::string text = text_of(file("session.yaml"));
+    for (size_t end = text.rfind('\n'); end != std::string::npos; end = text.rfind('\n')) {
+        text.resize(end);
+        try {
+            Diagnostics ignored;  // it is known to be damaged
+            read_fields(info, parse_yaml(text, ""), ignored);
+            break;
+        } catch (const Error&) {
+            info = {};
+        }
+    }
+    static_cast<Setup&>(info) = setup;
+    const bool when = !info.started.empty();
+    if (!when) info.started = start_by_name(path_);
+    std::string lost;
+    const auto lose = [&](const char* what, bool is_lost) {
+        if (is_lost) lost += (lost.empty() ? "" : ", ") + std::string(what);
+    };
+    lose("how many ticks it had", info.ticks == 0);
+    lose("its beginning", info.started.empty());
+    lose("command", info.command.empty());
+    lose("participant", info.participant.id.empty());
+    lose("notes", true);
+    if (info.started.empty()) info.started = "1970-01-01T00:00:00+00:00";
+    diagnostics.warning({file("session.yaml"), 0}, "",
+                        why + ". It is made anew from raw.log" +
+                            (when ? "" : " and the folder's name") +
+                            "; not known any more: " + lost,
+                        "Add by hand what you know.");
+    return info;
+}
+
 void SessionFolder::write_info(const SessionInfo& info) const {
-    write_file(to_yaml(write_fields(info)), file("session.yaml"));
+    write_file(to_yaml(write_fields(info)) + kEnd, file("session.yaml"));
+}
+
+InputFile SessionFolder::input(const std::string& name) const {
+    std::ifstream in(file(name), std::ios::binary);
+    std::vector<char> block(1 << 16);
+    uLong crc = crc32_z(0, nullptr, 0);
+    while (in) {
+        in.read(block.data(), static_cast<std::streamsize>(block.size()));
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()),
+                      static_cast<size_t>(in.gcount()));
+    }
+    if (!in.eof() || in.bad())
+        throw Error({file(name), 0}, "", "cannot be read", "Check the name and the folder.");
+    return {name, fmt::format("{:08x}", crc)};
+}
+
+std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs,
+                                            Severity severity) const {
+    std::vector<Problem> out;
+    for (const InputFile& recorded : inputs) {
+        std::string what;
+        try {
+            if (input(recorded.file).checksum != recorded.checksum)
+                what = "is not what it was when the session was recorded";
+        } catch (const Error& e) {
+            what = e.problems().front().what;
+        }
+        if (!what.empty()) {
+            out.push_back({severity,
+                           {file(recorded.file), 0},
+                           "",
+                           what,
+                           "Put the recorded one back: a backup has it, or another session of the "
+                           "same experiment."});
+        }
+    }
+    return out;
+}
+
+SessionLock::SessionLock(const SessionFolder& folder)
+    : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC)) {
+    // a file system without locks has none to wait for
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        return;
+    ::close(descriptor_);
+    throw Error({folder.path(), 0}, "", "is in use: another dihaptic records or recovers it",
+                "Wait until that has ended, or end it.");
+}
+
+SessionLock::~SessionLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+SessionLock& SessionLock::operator=(SessionLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
 }
 
 std::string iso_now() {
@@ -64,8 +216,7 @@ std::string iso_now() {
     const std::time_t whole = std::chrono::system_clock::to_time_t(now);
     std::tm local{};
     localtime_r(&whole, &local);
-    const std::string offset = fmt::format("{:%z}", local);  // +hhmm
-    return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
+    return iso(local);
 }
 
 std::string program_version() {

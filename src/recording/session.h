@@ -1,16 +1,19 @@
 // A session is a folder. While it runs:
 //
 //   session.yaml                       who, when, with what; state: running
-//   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved, every setting with
-//   its origin raw.log                            every tick
+//   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved
+//   settings.csv                       every setting with its origin
+//   raw.log                            every tick
 //
-// and at its end (or by `dihaptic recover`) session.nwb, trials.csv and events.csv.
+// and at its end (or by `dihaptic recover`) session.nwb, trials.csv, phases.csv and events.csv.
+// Last of all session.yaml gets another state than running: then all of them are there.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "base/field_reader.h"
+#include "recording/setup.h"
 
 namespace dihaptic::recording {
 
@@ -34,64 +37,27 @@ struct Participant {
     }
 };
 
-/// A named stretch of a trial, by the session's clock.
-struct PhaseInfo {
-    std::string name;
-    double start = 0;  ///< from the trial's beginning [s]
-    double end = 0;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("start", start, Field::of(Quantity::time));
-        v("end", end, Field::of(Quantity::time));
-    }
-};
-
-/// What held a finger, and what its force was limited by.
-struct DeviceRecord {
-    std::string finger;
-    std::string model;
-    double peak_force = 0;  ///< [N]
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("finger", finger, Field::text().required());
-        v("model", model);
-        v("peak_force", peak_force, Field::of(Quantity::force));
-    }
-};
-
-struct SessionInfo {
-    std::string title;
+struct SessionInfo : Setup {
     SessionState state = SessionState::running;
-    std::string program;     ///< name and version
-    std::string started;     ///< ISO 8601 with offset
-    std::string command;     ///< as typed
-    std::string experiment;  ///< name of the file
-    std::string clock;       ///< virtual or real
-    std::string seed;        ///< of everything random
+    int ticks = 0;             ///< that the session had, once it ended; 0: not known
+    bool interrupted = false;  ///< ended before its time
+    std::string program;       ///< name and version
+    std::string started;       ///< ISO 8601 with offset
+    std::string command;       ///< as typed
     Participant participant;
-    std::string object;  ///< the body that summaries are about
-    std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;   ///< of every trial
-    std::vector<std::string> notes;  ///< warnings given at the start
+    std::vector<std::string> notes;  ///< warnings given at the start, and what recovering found
     std::string finished;            ///< what became of it, in words
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("title", title);
         v("state", state);
+        v("ticks", ticks);
+        v("interrupted", interrupted);
         v("program", program);
         v("started", started);
         v("command", command);
-        v("experiment", experiment);
-        v("clock", clock);
-        v("seed", seed);
         v("participant", participant);
-        v("object", object);
-        v("devices", devices);
-        v("phases", phases);
+        Setup::visit(v);
         v("notes", notes);
         v("finished", finished);
     }
@@ -112,11 +78,33 @@ class SessionFolder {
     std::string nwb() const { return file("session.nwb"); }
 
     SessionInfo read_info() const;
+    /// What is left of session.yaml, completed from the log's head; what that cannot tell is warned
+    /// of.
+    SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
     void write_info(const SessionInfo& info) const;
+
+    /// A frozen input as it is now; throws Error when it cannot be read.
+    InputFile input(const std::string& name) const;
+    /// Which of the inputs are no longer what they were, or gone: a problem each.
+    std::vector<Problem> changed(const std::vector<InputFile>& inputs, Severity severity) const;
 
   private:
     explicit SessionFolder(std::string path) : path_(std::move(path)) {}
     std::string path_;
+};
+
+/// Held by the program that writes a session's files: a second one is refused. It ends with its
+/// program, however that ends.
+class SessionLock {
+  public:
+    /// Throws Error when another program has it.
+    explicit SessionLock(const SessionFolder& folder);
+    ~SessionLock();
+    SessionLock(SessionLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    SessionLock& operator=(SessionLock&& other) noexcept;
+
+  private:
+    int descriptor_ = -1;
 };
 
 /// Now, as ISO 8601 with offset.

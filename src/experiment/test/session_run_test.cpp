@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "experiment/replay.h"
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
@@ -80,14 +81,81 @@ TEST(Session, ARealClockSessionReplaysToTheBit) {
     EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
 }
 
-TEST(Session, ReplaySeesAForceThatWasChanged) {
+/// Writes the session's log anew, with frames and a head that were changed.
+void rewrite_log(const std::string& folder, const std::function<bool(servo::Frame&)>& change,
+                 const std::function<void(recording::LogHead&)>& change_head = {}) {
+    const std::string file = folder + "/raw.log";
+    fs::rename(file, file + ".old");
+    recording::RawLogReader old(file + ".old");
+    recording::LogHead head = old.head();
+    if (change_head) change_head(head);
+    recording::RawLogWriter log(file, head);
+    std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 100));
+    while (const servo::Frame* recorded = old.next()) {
+        servo::Frame frame = *recorded;
+        if (!change(frame)) continue;
+        const size_t size = recording::encode(frame, bytes, recording::Bodies::all);
+        log.add(std::span(bytes).first(size));
+    }
+    log.finish();
+}
+
+TEST(Session, ReplaySeesForcesThatDiffer) {
     const testing::TemporaryFolder folder;
     const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
-    // another stiffness than the recorded one
+    rewrite_log(result.folder, [](servo::Frame& frame) {
+        if (frame.sequence >= 100 && frame.sequence < 103) frame.fingers[0].f_sent_W.x() += 1e-15;
+        return true;
+    });
+    const ReplayResult replay = replay_session(result.folder, kGoOn, {});
+    EXPECT_EQ(replay.different_ticks, 3);
+    EXPECT_NEAR(replay.first_difference, 0.1, 1e-9);
+    EXPECT_EQ(replay.ticks, result.ticks);
+    EXPECT_FALSE(replay.good());
+}
+
+TEST(Session, ReplayRefusesInputsThatWereChangedAndNamesThem) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
     std::string settings = testing::read_file(result.folder + "/settings.yaml");
     settings.replace(settings.find("stiffness_N_m: 800"), 18, "stiffness_N_m: 801");
     std::ofstream(result.folder + "/settings.yaml") << settings;
-    EXPECT_GT(replay_session(result.folder, kGoOn, {}).different_ticks, 100);
+    try {
+        replay_session(result.folder, kGoOn, {});
+        FAIL();
+    } catch (const Error& e) {
+        ASSERT_EQ(e.problems().size(), 1u);
+        EXPECT_EQ(e.problems()[0].place.file, result.folder + "/settings.yaml");
+    }
+}
+
+TEST(Session, ReplayEndsAtAGapAndSaysWhatIsMissing) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
+    const int64_t ticks = result.ticks;
+    rewrite_log(result.folder, [&](servo::Frame& frame) {
+        return frame.sequence < 200 || (frame.sequence >= 207 && frame.sequence < ticks - 10);
+    });
+    const ReplayResult replay = replay_session(result.folder, kGoOn, {});
+    EXPECT_EQ(replay.ticks, 200);
+    EXPECT_EQ(replay.different_ticks, 0);
+    EXPECT_TRUE(replay.damaged);
+    ASSERT_EQ(replay.log.size(), 2u);
+    EXPECT_EQ(replay.log[0].find("7 ticks missing from tick 200 on"), 0u) << replay.log[0];
+    EXPECT_EQ(replay.log[1].find("10 ticks missing at the end"), 0u) << replay.log[1];
+}
+
+TEST(Session, ReplayNeedsNoSessionYaml) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
+    fs::remove(result.folder + "/session.yaml");
+    double shown = 0;
+    const ReplayResult replay =
+        replay_session(result.folder, kGoOn, [&](double share) { shown = share; });
+    EXPECT_TRUE(replay.good());
+    EXPECT_EQ(replay.ticks, result.ticks);
+    EXPECT_EQ(replay.warnings.size(), 1u);
+    EXPECT_EQ(shown, 1);
 }
 
 TEST(Session, FreezesItsInputsSoThatItNeedsNoOtherFile) {
@@ -127,8 +195,11 @@ TEST(Session, StopsInOrderWhenAsked) {
     const std::atomic<bool> stop{true};
     const RunResult result = run_session(make_plan(request), options, stop, {});
     EXPECT_TRUE(result.interrupted);
-    EXPECT_EQ(recording::SessionFolder::open(result.folder).read_info().state,
-              recording::SessionState::interrupted);
+    // its other files are not there yet
+    const recording::SessionInfo info = recording::SessionFolder::open(result.folder).read_info();
+    EXPECT_EQ(info.state, recording::SessionState::running);
+    EXPECT_TRUE(info.interrupted);
+    EXPECT_EQ(result.info.state, recording::SessionState::interrupted);
 }
 
 /// Largest change of any sent force from tick to tick, over the largest allowed.

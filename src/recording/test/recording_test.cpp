@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <set>
 #include <thread>
 
 #include "recording/recorder.h"
@@ -83,8 +84,8 @@ TEST(RawLog, ReadsBackWhatWasWritten) {
     RawLogReader reader(folder.file("raw.log"));
     EXPECT_EQ(reader.head().fingers, head().fingers);
     EXPECT_EQ(count(reader), 1000);
-    EXPECT_TRUE(reader.complete());
-    EXPECT_EQ(reader.damaged_bytes(), 0);
+    EXPECT_TRUE(reader.health().complete);
+    EXPECT_EQ(reader.health().tail_bytes, 0);
 }
 
 TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
@@ -98,25 +99,149 @@ TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
         RawLogReader reader(folder.write("cut.log", whole.substr(0, cut)));
         const int64_t n = count(reader);
         EXPECT_GE(n, last);
-        EXPECT_FALSE(reader.complete());
+        EXPECT_FALSE(reader.health().complete);
         last = n;
     }
     EXPECT_GE(last, 250);  // at most a chunk of 50 ms is lost
 }
 
-TEST(RawLog, ADamagedByteEndsItThereAndIsNeverTakenForData) {
-    const testing::TemporaryFolder folder;
+/// 300 frames in six chunks of 50; body 1 moves in frame 0 and in frame 120 alone.
+std::string log_of_300(const testing::TemporaryFolder& folder) {
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
-    for (int i = 0; i < 300; ++i) recorder.record(frame(i));
+    for (int i = 0; i < 300; ++i) {
+        servo::Frame f = frame(i);
+        f.bodies[1].X_WB.p.x() = i < 120 ? 1 : 2;
+        if (i == 120) f.changed = {1, 2};
+        recorder.record(f);
+    }
     recorder.finish();
-    const std::string whole = testing::read_file(folder.file("raw.log"));
-    for (size_t at = whole.size() / 2; at < whole.size(); at += 4999) {
+    return testing::read_file(folder.file("raw.log"));
+}
+
+TEST(RawLog, ADamagedByteCostsItsChunkAloneAndIsNeverTakenForData) {
+    const testing::TemporaryFolder folder;
+    const std::string whole = log_of_300(folder);
+    std::set<size_t> lost_chunks;
+    for (size_t at = whole.find("DATA"); at < whole.size() - 20; at += 499) {
+        SCOPED_TRACE(at);
         std::string damaged = whole;
         damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
         RawLogReader reader(folder.write("damaged.log", damaged));
-        EXPECT_LT(count(reader), 300);
-        EXPECT_GT(reader.damaged_bytes(), 0);
+        int64_t n = 0;
+        while (const servo::Frame* f = reader.next()) {
+            ++n;
+            EXPECT_EQ(f->grip_force, 0.1 * static_cast<double>(f->sequence));
+            EXPECT_EQ(f->bodies[1].X_WB.p.x(), f->sequence < 120 ? 1 : 2) << f->sequence;
+        }
+        EXPECT_EQ(n, 250);
+        const LogHealth& health = reader.health();
+        EXPECT_TRUE(health.complete);
+        EXPECT_TRUE(health.damaged(0));
+        if (health.last_tick == 249) {
+            EXPECT_TRUE(health.gaps.empty());
+            EXPECT_GT(health.tail_bytes, 0);
+            EXPECT_NEAR(static_cast<double>(health.tail_ticks), 50, 5);
+            lost_chunks.insert(250);
+            continue;
+        }
+        ASSERT_EQ(health.gaps.size(), 1u);
+        const Gap& gap = health.gaps[0];
+        EXPECT_EQ(gap.ticks, 50);
+        EXPECT_EQ(gap.first % 50, 0);
+        EXPECT_EQ(gap.after - gap.before, std::chrono::milliseconds(gap.first == 0 ? 50 : 51));
+        EXPECT_GT(gap.damaged_bytes, 0);
+        lost_chunks.insert(static_cast<size_t>(gap.first));
     }
+    EXPECT_EQ(lost_chunks.size(), 6u);
+}
+
+TEST(RawLog, GoesOnAfterBytesThatAreNoChunk) {
+    const testing::TemporaryFolder folder;
+    const std::string whole = log_of_300(folder);
+    const size_t second = whole.find("DATA", whole.find("DATA") + 4);
+    // bytes in between, some of which look like a chunk's beginning, and across the reader's blocks
+    for (const size_t length : {1u, 3u, 5u, 65535u, 65536u, 140000u}) {
+        std::string junk(length, 'D');
+        if (length > 4) junk.replace(length - 5, 4, "DATA");
+        RawLogReader reader(
+            folder.write("junk.log", whole.substr(0, second) + junk + whole.substr(second)));
+        EXPECT_EQ(count(reader), 300) << length;
+    }
+}
+
+TEST(RawLog, WhatIsNotKnownOfABodyAfterAGapIsNaN) {
+    const testing::TemporaryFolder folder;
+    RawLogWriter writer(folder.file("raw.log"), head());
+    std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
+    for (const int i : {0, 1, 4, 5}) {  // body 1 does not change: it may have, in 2 and 3
+        const size_t size = encode(frame(i), bytes);
+        writer.add(std::span(bytes).first(size));
+    }
+    writer.finish();
+    RawLogReader reader(folder.file("raw.log"));
+    reader.next();
+    EXPECT_TRUE(reader.next()->bodies[1].X_WB.p.allFinite());
+    for (int i = 0; i < 2; ++i) {
+        const servo::Frame* after = reader.next();
+        EXPECT_TRUE(after->bodies[1].X_WB.p.hasNaN());
+        EXPECT_TRUE(after->bodies[1].X_WB.R.coeffs().hasNaN());
+        EXPECT_TRUE(after->bodies[2].X_WB.p.allFinite());
+    }
+    EXPECT_EQ(reader.health().missing(), 2);
+    EXPECT_EQ(reader.health().gaps[0].damaged_bytes, 0);
+}
+
+TEST(RawLog, TellsAnUnfinishedChunkFromADamagedOneAndHowMuchItHeld) {
+    const testing::TemporaryFolder folder;
+    const std::string whole = log_of_300(folder);
+    size_t last = 0;
+    for (size_t at = whole.find("DATA"); at != std::string::npos; at = whole.find("DATA", at + 1))
+        last = at;
+    RawLogReader cut(folder.write("cut.log", whole.substr(0, last + 1000)));
+    EXPECT_EQ(count(cut), 250);
+    EXPECT_TRUE(cut.health().unfinished);
+    EXPECT_EQ(cut.health().tail_bytes, 1000);
+    EXPECT_NEAR(static_cast<double>(cut.health().tail_ticks), 50, 5);
+    std::string damaged = whole;
+    damaged.resize(damaged.size() - 20);
+    damaged[last + 100] ^= 1;
+    damaged[last + 4] = 5;  // its size is wrong too
+    RawLogReader reader(folder.write("damaged.log", damaged));
+    EXPECT_EQ(count(reader), 250);
+    EXPECT_FALSE(reader.health().unfinished);
+}
+
+TEST(RawLog, CountsTheTicksThatTheServoLeftOut) {
+    const testing::TemporaryFolder folder;
+    Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
+    for (int i = 0; i < 100; ++i) {
+        servo::Frame f = frame(i);
+        f.time += std::chrono::milliseconds(i >= 50 ? 7 : 0);
+        recorder.record(f);
+    }
+    recorder.finish();
+    RawLogReader reader(folder.file("raw.log"));
+    EXPECT_EQ(count(reader), 100);
+    EXPECT_EQ(reader.health().left_out, 7);
+    EXPECT_EQ(reader.health().missing(), 0);
+    EXPECT_FALSE(reader.health().damaged(100));
+    EXPECT_EQ(describe_left_out(7, 1e-3).substr(0, 16), "7 ticks (7.0 ms)");
+}
+
+TEST(LogHealth, SaysWhereTicksAreMissingAndInProperGrammar) {
+    LogHealth health;
+    health.frames = 98;
+    health.last_tick = 98;
+    health.last_time = std::chrono::milliseconds(98);
+    health.complete = true;
+    health.gaps = {{10, 1, std::chrono::milliseconds(9), std::chrono::milliseconds(11), 700}};
+    EXPECT_EQ(describe(health, 100, 0),
+              (std::vector<std::string>{
+                  "1 tick missing from tick 10 on, between 0.009 s and 0.011 s: 700 bytes of the "
+                  "log are damaged there",
+                  "1 tick missing at the end, after 0.098 s: the session had 100 ticks"}));
+    health.gaps.clear();
+    EXPECT_TRUE(describe(health, 99, 0).empty());
 }
 
 TEST(RawLog, RefusesOtherFilesAndOtherVersions) {
@@ -204,6 +329,25 @@ TEST(SessionFolder, NamesAreUniqueAndTidy) {
     EXPECT_NE(a.path().find("my-exp----x_S01"), std::string::npos) << a.path();
 }
 
+TEST(SessionFolder, SaysWhichNameIsTooLongOrMissing) {
+    const testing::TemporaryFolder folder;
+    const auto message = [](const std::string& parent, const std::string& name) {
+        try {
+            SessionFolder::create(parent, name);
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string("none");
+    };
+    EXPECT_NE(message("", "x").find("--out: error: names no folder"), std::string::npos)
+        << message("", "x");
+    const std::string longest = message(folder.path(), "x_" + std::string(300, 'S'));
+    EXPECT_NE(longest.find("--participant"), std::string::npos) << longest;
+    EXPECT_EQ(longest.find("--out"), std::string::npos) << longest;
+    EXPECT_EQ(message(folder.path(), "x_" + std::string(220, 'S')), "none");
+    EXPECT_EQ(message(folder.path(), "x_J\xC3\xBCrgen O'Neill/\n*?"), "none");
+}
+
 TEST(SessionFolder, SaysWhatIsNoSession) {
     EXPECT_THROW(SessionFolder::open("/tmp"), Error);
 }
@@ -222,6 +366,82 @@ TEST(SessionFolder, KeepsItsInfo) {
     EXPECT_EQ(back.participant.id, "S07");
     EXPECT_EQ(back.phases[0].start, 1.5);
     EXPECT_EQ(back.notes, info.notes);
+}
+
+/// A session's folder with an info, and a log of as good as nothing.
+SessionFolder small_session(const testing::TemporaryFolder& folder, const SessionInfo& info) {
+    const auto session = SessionFolder::create(folder.path(), "x");
+    session.write_info(info);
+    RawLogWriter(session.raw_log(), head()).finish();
+    return session;
+}
+
+TEST(SessionFolder, AnInfoThatWasCutAnywhereGivesWhatItStillSays) {
+    const testing::TemporaryFolder folder;
+    SessionInfo info;
+    info.title = "A title";
+    info.ticks = 1234;
+    info.command = "dihaptic run \"my file.yaml\" --participant S07";
+    info.participant.id = "S07";
+    info.phases = {{"reach", 0, 1.5}, {"hold", 1.5, 2}};
+    info.notes = {"one: two", "three"};
+    recording::Setup setup;
+    setup.title = "From the log";
+    setup.phases = info.phases;
+    const SessionFolder session = small_session(folder, info);
+    const std::string whole = testing::read_file(session.file("session.yaml"));
+    int knew = 0;
+    for (size_t cut = 0; cut < whole.size(); ++cut) {
+        SCOPED_TRACE(cut);
+        std::ofstream(session.file("session.yaml")) << whole.substr(0, cut);
+        EXPECT_THROW(session.read_info(), Error);
+        Diagnostics diagnostics;
+        const SessionInfo back = session.read_info(setup, diagnostics);
+        EXPECT_EQ(diagnostics.problems().size(), 1u);
+        EXPECT_EQ(back.title, "From the log");
+        EXPECT_EQ(back.phases.size(), 2u);
+        EXPECT_TRUE(back.ticks == 0 || back.ticks == 1234) << back.ticks;
+        EXPECT_TRUE(back.participant.id.empty() || back.participant.id == "S07");
+        EXPECT_EQ(back.started.substr(0, 10), iso_now().substr(0, 10));  // by the folder's name
+        knew += back.participant.id == "S07";
+    }
+    EXPECT_GT(knew, 100);
+    std::filesystem::remove(session.file("session.yaml"));
+    Diagnostics diagnostics;
+    EXPECT_EQ(session.read_info(setup, diagnostics).title, "From the log");
+    EXPECT_EQ(diagnostics.problems().size(), 1u);
+    std::ofstream(session.file("session.yaml")) << whole;
+    EXPECT_EQ(session.read_info(setup, diagnostics).title, "A title");
+    EXPECT_EQ(diagnostics.problems().size(), 1u);
+}
+
+TEST(SessionFolder, NamesInputsThatWereChangedOrAreGone) {
+    const testing::TemporaryFolder folder;
+    const SessionFolder session = small_session(folder, {});
+    std::vector<InputFile> inputs;
+    for (const char* name : {"a", "b", "c"}) {
+        std::ofstream(session.file(name)) << name;
+        inputs.push_back(session.input(name));
+    }
+    EXPECT_TRUE(session.changed(inputs, Severity::error).empty());
+    std::ofstream(session.file("b")) << "B";
+    std::filesystem::remove(session.file("c"));
+    const auto problems = session.changed(inputs, Severity::error);
+    ASSERT_EQ(problems.size(), 2u);
+    EXPECT_EQ(problems[0].place.file, session.file("b"));
+    EXPECT_EQ(problems[1].place.file, session.file("c"));
+}
+
+TEST(SessionLock, IsHeldByOne) {
+    const testing::TemporaryFolder folder;
+    const SessionFolder session = small_session(folder, {});
+    {
+        SessionLock first(session);
+        EXPECT_THROW(SessionLock{session}, Error);
+        const SessionLock moved(std::move(first));
+        EXPECT_THROW(SessionLock{session}, Error);
+    }
+    EXPECT_NO_THROW(SessionLock{session});
 }
 
 TEST(Session, TimesCarryTheirOffset) {

@@ -1,0 +1,13 @@
+// Counts in messages: "1 tick", "2 ticks".
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace dihaptic {
+
+inline std::string counted(int64_t n, const std::string& noun) {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,111 @@
+#include "experiment/replay.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <chrono>
+
+#include "experiment/phase_director.h"
+#include "recording/raw_log.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+using Wall = std::chrono::steady_clock;
+
+/// Equal to the bit, so that a NaN equals itself.
+template <class Vector>
+bool same_bits(const Vector& a, const Vector& b) {
+    for (Eigen::Index i = 0; i < a.size(); ++i) {
+        if (std::bit_cast<uint64_t>(a[i]) != std::bit_cast<uint64_t>(b[i])) return false;
+    }
+    return true;
+}
+
+bool same(const servo::Frame& frame, const servo::Frame& recorded) {
+    bool out = frame.sequence == recorded.sequence;
+    for (size_t i = 0; i < frame.fingers.size(); ++i) {
+        const servo::FingerFrame& a = frame.fingers[i];
+        const servo::FingerFrame& b = recorded.fingers[i];
+        out = out && same_bits(a.f_sent_W, b.f_sent_W) && same_bits(a.f_asked_W, b.f_asked_W) &&
+              same_bits(a.p_WP, b.p_WP);
+    }
+    for (size_t i = 0; i < frame.bodies.size(); ++i) {
+        const Pose& a = frame.bodies[i].X_WB;
+        const Pose& b = recorded.bodies[i].X_WB;
+        out = out && same_bits(a.p, b.p) && same_bits(a.R.coeffs(), b.R.coeffs());
+    }
+    return out;
+}
+
+std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& setup,
+                                                        const devices::Context& context) {
+    std::vector<devices::DeviceConfig> configs;
+    for (const recording::DeviceRecord& device : setup.devices) {
+        Node options = Node::mapping();
+        options.set("peak_force_N", Node::of(fmt::format("{}", device.peak_force)));
+        configs.push_back({device.finger, {}, options});
+    }
+    return devices::find_backend("replay")->make(configs, context);
+}
+
+}  // namespace
+
+ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
+                            const Progress& progress) {
+    const auto folder = recording::SessionFolder::open(path);
+    recording::RawLogReader log(folder.raw_log());
+    const recording::LogHead& head = log.head();
+    Diagnostics diagnostics;
+    const recording::SessionInfo info = folder.read_info(head, diagnostics);
+    ReplayResult result;
+    result.warnings = diagnostics.problems();
+    diagnostics.add(folder.changed(head.inputs, Severity::error));
+    diagnostics.throw_if_errors();
+    const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    servo::Settings settings;
+    read_fields(settings, read_yaml(folder.file("settings.yaml")), diagnostics);
+    diagnostics.throw_if_errors();
+
+    const servo::Frame* recorded = log.next();
+    devices::Context context;
+    context.tick = settings.tick();
+    context.recording = [&](Time, std::span<devices::Reading> readings) {
+        if (recorded == nullptr) return false;
+        for (size_t i = 0; i < readings.size(); ++i) {
+            const servo::FingerFrame& finger = recorded->fingers[i];
+            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, 0};
+        }
+        return true;
+    };
+    servo::Servo servo(scene, settings, replaying_devices(head, context),
+                       rig::poses(rig, scene::finger_names(scene)));
+    servo.activate();
+
+    PhaseDirector director(head.phases, settings.tick());
+    const auto begin = Wall::now();
+    while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
+        if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)
+            result.first_difference = seconds(recorded->time);
+        ++result.ticks;
+        if (progress && result.ticks % 2000 == 0) progress(log.share());
+        recorded = log.next();
+    }
+    servo.deactivate();
+    result.elapsed = std::chrono::duration<double>(Wall::now() - begin).count();
+    result.interrupted = stop.load();
+    if (result.interrupted) return result;
+
+    while (log.next() != nullptr) continue;  // for what is missing after the first gap
+    const recording::LogHealth& health = log.health();
+    result.log = recording::describe(health, info.ticks, head.planned());
+    // of a session that was recovered it is known that it has no end; of others that is news
+    const bool recovered = info.state == recording::SessionState::recovered;
+    result.damaged = !health.gaps.empty() || health.last_tick + 1 < info.ticks ||
+                     (!recovered && health.damaged(info.ticks));
+    if (progress) progress(1);
+    return result;
+}
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,78 @@
+// What a session is about, known before its first tick. It stands in session.yaml, and in the head
+// of raw.log, so that the log alone can be replayed and recovered.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+
+namespace dihaptic::recording {
+
+/// A named stretch of a trial, by the session's clock.
+struct PhaseInfo {
+    std::string name;
+    double start = 0;  ///< from the trial's beginning [s]
+    double end = 0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("start", start, Field::of(Quantity::time));
+        v("end", end, Field::of(Quantity::time));
+    }
+};
+
+/// What held a finger, and what its force was limited by.
+struct DeviceRecord {
+    std::string finger;
+    std::string model;
+    double peak_force = 0;  ///< [N]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("finger", finger, Field::text().required());
+        v("model", model);
+        v("peak_force", peak_force, Field::of(Quantity::force));
+    }
+};
+
+/// A frozen input, as it was when the session began.
+struct InputFile {
+    std::string file;      ///< in the session's folder
+    std::string checksum;  ///< CRC-32, in hexadecimal
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("file", file, Field::text().required());
+        v("checksum", checksum, Field::text().required());
+    }
+};
+
+struct Setup {
+    std::string title;
+    std::string experiment;  ///< name of the file
+    std::string clock;       ///< virtual or real
+    std::string seed;        ///< of everything random
+    std::string object;      ///< the body that summaries are about
+    std::vector<DeviceRecord> devices;
+    std::vector<PhaseInfo> phases;  ///< of every trial
+    std::vector<InputFile> inputs;
+
+    /// How long the session was to be [s]; 0: not known.
+    double planned() const { return phases.empty() ? 0 : phases.back().end; }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("title", title);
+        v("experiment", experiment);
+        v("clock", clock);
+        v("seed", seed);
+        v("object", object);
+        v("devices", devices);
+        v("phases", phases);
+        v("inputs", inputs);
+    }
+};
+
+}  // namespace dihaptic::recording
