@@ -2,10 +2,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+
+#include "base/text_file.h"
 
 namespace dihaptic {
 
@@ -101,7 +100,14 @@ YAML::Node emit(const Node& node) {
 
 Node parse_yaml(const std::string& text, const std::string& file) {
     try {
-        Node root = convert(YAML::Load(text), file);
+        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+        if (documents.size() > 1) {
+            throw Error({file, std::max(0, documents[1].Mark().line) + 1}, "",
+                        "a second YAML document starts here (after '---')",
+                        "Keep one document a file.");
+        }
+        Node root = documents.empty() ? Node{} : convert(documents.front(), file);
+        root.place.file = file;
         if (root.place.line == 0) root.place.line = 1;
         return root;
     } catch (const YAML::Exception& e) {
@@ -111,15 +117,7 @@ Node parse_yaml(const std::string& text, const std::string& file) {
 }
 
 Node read_yaml(const std::string& file) {
-    errno = 0;
-    std::ifstream in(file);
-    std::ostringstream text;
-    if (in) text << in.rdbuf();
-    if (!in || in.bad() || text.fail()) {
-        const std::string why = errno != 0 ? std::strerror(errno) : "it is empty or not a file";
-        throw Error({file, 0}, "", "cannot be read: " + why, "Check the name and the folder.");
-    }
-    return parse_yaml(text.str(), file);
+    return parse_yaml(read_text_file(file), file);
 }
 
 std::string to_yaml(const Node& node) {

@@ -122,7 +122,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name: a\ninner: 3\n", "inner: must have keys of its own"},
         Bad{"name: a\nlist: 3\n", "list: must be a list"},
         Bad{"name: a\nlist: [{stiffness_N_m: 0}]\n", "stiffness_N_m: must be positive, is 0"},
-        Bad{"name: [a]\n", "name: must be a single word or text"}));
+        Bad{"name: [a]\n", "name: must be a single word or text"},
+        Bad{"name: ''\n", "test.yaml:1: error: name: is empty"},
+        Bad{"name: a\ncount:\n", "must be a number, is nothing"}));
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
     const Read in("cuont: 3\nfruit: plum\n");
@@ -177,6 +179,17 @@ TEST(Node, RefusesAKeyGivenTwice) {
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(),
                      "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
+    }
+}
+
+TEST(Node, RefusesASecondDocument) {
+    try {
+        parse_yaml("a: 1\n---\nb: 2\n", "two.yaml");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("two.yaml:3: error: a second YAML document"),
+                  std::string::npos)
+            << e.what();
     }
 }
 
