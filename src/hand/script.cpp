@@ -31,8 +31,13 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
                                         [&](const FingerPlace& f) { return f.name == place.name; });
         if (found == fingers_.end()) {
             throw Error(
+                place.place, "name",
                 fmt::format("the hand's finger '{}' is not among the scene's fingers", place.name),
                 fmt::format("Known: {}.", fmt::join(fingers, ", ")));
+        }
+        if (fingers.size() > 1 && place.side.norm() == 0) {
+            throw Error(place.place, "side", fmt::format("'{}' has no direction", place.name),
+                        "Write where it is from the hand's centre, e.g. side: [-1, 0, 0].");
         }
         *found = place;
         if (found->side.norm() > 0) found->side.normalize();
@@ -54,6 +59,11 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
         time += step.duration;
         aperture = segment.aperture1;
         centre = segment.centre1;
+    }
+    if (time > kLongestScript) {
+        throw Error(spec.place, "script",
+                    fmt::format("lasts {:.6g} s, where {:g} s are the most", time, kLongestScript),
+                    "Make it several experiments.");
     }
     if (segments_.empty()) {
         Segment rest;
