@@ -132,7 +132,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                      {"trial_num", "number in the session, from 1"},
                      {"block_num", "number, from 1"},
                      {"trial_num_in_block", "number, from 1"},
-                     {"outcome", "done or interrupted"},
+                     {"outcome", "done, interrupted, or diverged"},
                      {"peak_grip_N", "largest grip force"},
                      {"peak_force_N", "largest force on any finger"}};
     std::map<int, std::vector<const PhaseFigures*>> by_trial;
@@ -148,8 +148,11 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                           info.state != recording::SessionState::interrupted;
         table.rows.push_back({phases.front()->start, phases.back()->end, info.title,
                               info.participant.id, 1.0, static_cast<double>(trial), 1.0,
-                              static_cast<double>(trial), done ? "done" : "interrupted", grip,
-                              force});
+                              static_cast<double>(trial),
+                              figures.diverged() ? "diverged"
+                              : done             ? "done"
+                                                 : "interrupted",
+                              grip, force});
     }
     return table;
 }
@@ -179,6 +182,13 @@ Table read_csv_settings(const recording::SessionFolder& folder) {
 }
 
 }  // namespace
+
+const PhaseFigures* SessionFigures::phase(const std::string& name) const {
+    for (const PhaseFigures& phase : phases) {
+        if (phase.name == name) return &phase;
+    }
+    return nullptr;
+}
 
 SessionFigures read_figures(const recording::SessionFolder& folder,
                             const std::function<void(double)>& progress) {
