@@ -28,7 +28,8 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
     fmt::print("bridged {:.1f} % of it, {} faults{}\n", 100 * report.bridged_share,
                report.faults.size(), report.faults.empty() ? "" : ":");
     for (size_t i = 0; i < report.faults.size() && i < most_lines; ++i) {
-        fmt::print("  {}\n", hand::describe(report.faults[i], report.fingers));
+        fmt::print("  line {}: {}\n", report.faults[i].line,
+                   hand::describe(report.faults[i], report.fingers));
     }
     if (report.faults.size() > most_lines) {
         fmt::print("  and {} more, in movement-faults.csv\n", report.faults.size() - most_lines);
@@ -56,8 +57,9 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;
         const servo::StatusText text = servo::describe(static_cast<servo::Status>(1u << bit));
-        fmt::print("note: in {} of {} ticks {}{}\n", ticks, figures.frames, text.what,
-                   text.remedy.empty() ? "" : ": " + text.remedy);
+        fmt::print("{}: in {} of {} ticks {}{}\n",
+                   (1u << bit) == servo::kNotFinite ? "WARNING" : "note", ticks, figures.frames,
+                   text.what, text.remedy.empty() ? "" : ": " + text.remedy);
     }
     fmt::print(
         "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "
