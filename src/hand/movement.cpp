@@ -138,6 +138,8 @@ Columns read_header(const std::string& file, const std::string& header, Diagnost
                           key.empty() ? "a column has no name" : "is not a column of a movement",
                           kHeaderRemedy);
     }
+    // after a repeated column, the one that is missing is what the repetition was meant to be
+    if (diagnostics.has_errors()) return columns;
     if (columns.time < 0)
         diagnostics.error(place, "time_ms", "this column is missing", kHeaderRemedy);
     if (columns.fingers.empty())

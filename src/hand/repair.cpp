@@ -325,7 +325,7 @@ std::string describe(const Fault& fault, const std::vector<std::string>& fingers
     std::string text = fmt::format("{:.3f} to {:.3f} s: {}{}, {:.0f} ms", fault.start, fault.end,
                                    who, enum_name(fault.kind), (fault.end - fault.start) * 1e3);
     if (!fault.column.empty() && std::isfinite(fault.value)) {
-        text += fmt::format(", {} is off by {:.4g} mm", fault.column, fault.value * 1e3);
+        text += fmt::format(", {} is off by {:.5g} mm", fault.column, fault.value * 1e3);
     }
     if (std::isfinite(fault.distance))
         text += fmt::format(", {:.1f} mm apart", fault.distance * 1e3);
