@@ -40,9 +40,17 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-Node convert(const YAML::Node& in, const std::string& file) {
+/// An alias (*name) inside what it names never ends, and aliases of aliases double at each step.
+constexpr int kDeepest = 32;
+constexpr size_t kMostNodes = 1'000'000;
+
+Node convert(const YAML::Node& in, const std::string& file, size_t& count, int depth = 0) {
     Node out;
     out.place = {file, in.Mark().line + 1};
+    if (depth > kDeepest || ++count > kMostNodes) {
+        throw Error(out.place, "", "is nested too deeply, or too large",
+                    "Write it out without aliases (*name).");
+    }
     switch (in.Type()) {
         case YAML::NodeType::Scalar:
             out.kind = Node::Kind::scalar;
@@ -50,7 +58,7 @@ Node convert(const YAML::Node& in, const std::string& file) {
             break;
         case YAML::NodeType::Sequence:
             out.kind = Node::Kind::sequence;
-            for (const auto& item : in) out.items.push_back(convert(item, file));
+            for (const auto& item : in) out.items.push_back(convert(item, file, count, depth + 1));
             break;
         case YAML::NodeType::Map:
             out.kind = Node::Kind::mapping;
@@ -61,7 +69,7 @@ Node convert(const YAML::Node& in, const std::string& file) {
                 if (out.find(key) != nullptr) {
                     throw Error(at, key, "is given twice", "Keep one of the two lines.");
                 }
-                Node value = convert(entry.second, file);
+                Node value = convert(entry.second, file, count, depth + 1);
                 value.place = at;
                 out.entries.push_back({key, std::move(value)});
             }
@@ -106,7 +114,8 @@ Node parse_yaml(const std::string& text, const std::string& file) {
                         "a second YAML document starts here (after '---')",
                         "Keep one document a file.");
         }
-        Node root = documents.empty() ? Node{} : convert(documents.front(), file);
+        size_t count = 0;
+        Node root = documents.empty() ? Node{} : convert(documents.front(), file, count);
         root.place.file = file;
         if (root.place.line == 0) root.place.line = 1;
         return root;

@@ -1,5 +1,6 @@
 #include "base/field_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/field_table.h"
@@ -179,6 +180,21 @@ TEST(Node, RefusesAKeyGivenTwice) {
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(),
                      "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
+    }
+}
+
+TEST(Node, RefusesAliasesWithoutEnd) {
+    std::string doubling = "a: &a0 [x, x]\n";
+    for (int i = 0; i < 30; ++i) doubling += fmt::format("a{1}: &a{1} [*a{0}, *a{0}]\n", i, i + 1);
+    for (const std::string& yaml : {std::string("a: &a\n  - *a\n"), doubling}) {
+        try {
+            parse_yaml(yaml, "alias.yaml");
+            FAIL();
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find("is nested too deeply, or too large"),
+                      std::string::npos)
+                << e.what();
+        }
     }
 }
 

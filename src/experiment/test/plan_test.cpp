@@ -184,6 +184,16 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"a finger without direction",
             [](Files& f) { f.experiment += "hand: {fingers: [{name: thumb, side: [0, 0, 0]}]}\n"; },
             "experiment.yaml:3: error: side: 'thumb' has no direction"},
+        Bad{"a finger given twice",
+            [](Files& f) {
+                f.experiment +=
+                    "hand: {fingers: [{name: thumb, side: [1, 0, 0]}, {name: thumb, "
+                    "side: [1, 0, 0]}]}\n";
+            },
+            "experiment.yaml:3: error: name: 'thumb' is given twice"},
+        Bad{"tremor's band upside down",
+            [](Files& f) { f.experiment += "hand: {tremor: {low_Hz: 20, high_Hz: 10}}\n"; },
+            "experiment.yaml:3: error: tremor: its band goes from 20 Hz down to 10 Hz"},
         Bad{"negative aperture",
             [](Files& f) {
                 f.experiment += "hand: {script: [{name: a, duration_s: 1, aperture_mm: -5}]}\n";
