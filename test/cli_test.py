@@ -2,6 +2,7 @@
 
 Usage: cli_test.py PROGRAM, from the project's folder.
 """
+import csv
 import fcntl
 import glob
 import json
@@ -47,10 +48,33 @@ class Commands(unittest.TestCase):
         self.assertRegex(dihaptic("--version").stdout, r"^dihaptic \d+\.\d+\.\d+\n$")
 
     def test_wrong_use_fails_and_says_how(self):
-        for arguments in [["fly"], ["run"], ["run", "scenes/block-on-table.yaml", "--clock", "sundial"], []]:
+        for arguments in [["fly"], ["rnu"], ["run"], ["run", "scenes/block-on-table.yaml", "--clock", "sundial"], []]:
             result = dihaptic(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertIn("--help", result.stderr, arguments)
+
+    def test_an_unknown_command_is_named(self):
+        self.assertIn("error: 'foo' is no command. There are run, replay", dihaptic("foo").stderr)
+        self.assertIn("Did you mean check? See dihaptic --help.", dihaptic("chekc", "x").stderr)
+
+    def test_numbers_of_options_have_ranges(self):
+        for rate in ["nan", "0", "-1", "1e9", "fast"]:
+            for command in [["run", "scenes/block-on-table.yaml"], ["bench", "grasp"]]:
+                result = dihaptic(*command, f"--rate={rate}")
+                self.assertEqual(result.returncode, 2, rate)
+                self.assertIn(f"--rate: must be a number from 100 to 10000, is '{rate}'", result.stderr)
+        for seed in ["-1", "1.5", "99999999999999999999999"]:
+            result = dihaptic("run", "scenes/block-on-table.yaml", "--seed", seed)
+            self.assertEqual(result.returncode, 2, seed)
+            self.assertIn(f"--seed: must be a whole number from 0 to 18446744073709551615, is '{seed}'", result.stderr)
+
+    def test_a_simulation_that_diverges_is_told_and_fails(self):
+        with tempfile.TemporaryDirectory() as out:
+            result = dihaptic("run", "scenes/block-on-table.yaml", "--out", out, "--coupling", "dual_spring",
+                              "--set", "coupling.stiffness_N_m=1e6", "--set", "coupling.body_mass_g=0.0001")
+            self.assertEqual(result.returncode, 1, result.stdout)
+            self.assertRegex(result.stdout, r"WARNING: in \d+ of \d+ ticks the simulation diverged")
+            self.assertIn("diverged", pathlib.Path(session_of(out) + "trials.csv").read_text())
 
     def test_run_prints_figures_and_the_folder_and_leaves_all_files(self):
         with tempfile.TemporaryDirectory() as out:
@@ -77,17 +101,41 @@ class Commands(unittest.TestCase):
     def test_a_folder_of_movements_runs_as_a_batch(self):
         with tempfile.TemporaryDirectory() as folder:
             text = pathlib.Path("movements/reach-to-grasp.csv").read_text()
-            for name in ["a.csv", "b.csv"]:
-                pathlib.Path(f"{folder}/{name}").write_text(text)
-            pathlib.Path(f"{folder}/broken.csv").write_text(text.replace("0.000,", "x,", 1))
+            lines = text.splitlines()
+            # b: the index was seen in one line of twelve
+            thin = [line if i % 12 < 2 else ",".join(line.split(",")[:4] + [""] * 3 + ["0"]) for i, line in enumerate(lines)]
+            late = lines[:-1] + ["1e303" + lines[-1][lines[-1].index(","):]]
+            for name, content in [("a", text), ("b", "\n".join(thin)), ("broken", text.replace("0.000,", "x,", 1)),
+                                  ("late", "\n".join(late))]:
+                pathlib.Path(f"{folder}/{name}.csv").write_text(content)
             out = folder + "/out"
             result = dihaptic("run", "experiments/reach-to-grasp.yaml", "--movement", folder, "--out", out)
             self.assertEqual(result.returncode, 1)
-            self.assertIn("broken.csv:2: error: time: 'x' is not a number", result.stderr)
-            self.assertIn("3 movements, 1 refused", result.stdout)
-            rows = pathlib.Path(out + "/summary.csv").read_text().splitlines()
-            self.assertEqual(len(rows), 4)
-            self.assertIn("refused", rows[3])
+            self.assertIn("broken.csv:2: error: time_ms: 'x' is not a number", result.stderr)
+            self.assertRegex(result.stderr, r"late.csv:\d+: error: time_ms: time jumps from")
+            self.assertIn("4 movements, 2 refused", result.stdout)
+            self.assertRegex(result.stdout, r"b.csv +[\d.]+ +[\d.]+ %! ")
+            with open(out + "/summary.csv") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([row["outcome"] for row in rows], ["done", "done", "refused", "refused"])
+            self.assertEqual([row["mostly_bridged"] for row in rows], ["no", "yes", "", ""])
+            with open(rows[0]["session"] + "/phases.csv") as file:
+                (grasp,) = [row for row in csv.DictReader(file) if row["phase"] == "grasp"]
+            self.assertEqual(rows[0]["grasp_mean_grip_N"], grasp["mean_grip_N"])
+            self.assertEqual(rows[0]["grasp_peak_grip_N"], grasp["peak_grip_N"])
+
+    def test_a_batch_that_is_killed_keeps_the_rows_of_what_was_done(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for i in range(40):
+                shutil.copy("movements/reach-to-grasp.csv", f"{folder}/{i:02d}.csv")
+            out = folder + "/out"
+            process = subprocess.Popen([PROGRAM, "run", "experiments/reach-to-grasp.yaml", "--movement", folder, "--out", out],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            for _ in range(3):
+                process.stdout.readline()  # the head, and two movements
+            process.kill()
+            process.communicate()
+            self.assertGreaterEqual(len(pathlib.Path(out + "/summary.csv").read_text().splitlines()), 2)
 
     def test_check(self):
         files = glob.glob("scenes/*.yaml") + glob.glob("rigs/*.yaml") + glob.glob("experiments/*.yaml")
@@ -98,8 +146,23 @@ class Commands(unittest.TestCase):
             pathlib.Path(bad).write_text("bodies:\n  - {name: b, shape: box, size_mm: [1, 1, 1], mass_g: -5}\n")
             result = dihaptic("check", bad, files[0])
             self.assertEqual(result.returncode, 2)
-            self.assertIn("bad.yaml:2: error: mass_g: must be positive", result.stderr)
+            self.assertIn("bad.yaml:2: error: mass_g: must be positive", result.stdout)
             self.assertIn("not usable", result.stdout)
+            self.assertLess(result.stdout.index("mass_g"), result.stdout.index("not usable"))
+            self.assertEqual(result.stderr, "")
+
+    def test_check_names_a_line_once_and_shows_no_raw_bytes(self):
+        result = dihaptic("check", "movements/reach-to-grasp.csv")
+        self.assertRegex(result.stdout, r"reach-to-grasp.csv:\d+: warning: [\d.]+ to")
+        self.assertNotIn("(line", result.stdout)
+        with tempfile.TemporaryDirectory() as folder:
+            junk = folder + "/junk.csv"
+            pathlib.Path(junk).write_bytes(bytes(range(256)))
+            result = dihaptic("check", junk, folder)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("junk.csv: error: is not a text file", result.stdout)
+            self.assertIn(folder + ": error: is a folder. Name a file in it.", result.stdout)
+            self.assertTrue(result.stdout.replace("\n", "").isprintable())
 
     def test_bad_input_fails_with_file_and_remedy(self):
         for arguments in [["run", "gone.yaml"], ["run", "README.md"], ["replay", "/tmp"], ["recover", "/nowhere"],

@@ -20,6 +20,7 @@ void add_common(CLI::App& command, Options& options) {
     command.add_option("--coupling", options.coupling,
                        "coupling of handle and proxy: implicit, dual_spring");
     command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")
+        ->check(rate_range())
         ->capture_default_str();
     command.add_flag("--json", options.json, "one JSON object on standard output, nothing else");
 }

@@ -20,7 +20,7 @@ void add_check(CLI::App& app) {
         for (const std::string& file : *files) {
             Diagnostics diagnostics;
             const std::string what = experiment::check_file(file, diagnostics);
-            print(diagnostics.problems());
+            print(diagnostics.problems(), stdout);
             const auto warnings =
                 std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),
                               [](const Problem& p) { return p.severity == Severity::warning; });

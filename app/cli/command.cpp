@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
+#include <limits>
 
 namespace dihaptic::cli {
 
@@ -62,8 +64,34 @@ void ProgressLine::clear() {
     width_ = 0;
 }
 
-void print(const std::vector<Problem>& problems) {
-    for (const Problem& problem : problems) fmt::print(stderr, "{}\n", problem.text());
+void print(const std::vector<Problem>& problems, std::FILE* to) {
+    for (const Problem& problem : problems) fmt::print(to, "{}\n", problem.text());
+}
+
+namespace {
+
+template <class Number>
+CLI::Validator range(Number low, Number high, const char* kind) {
+    const auto check = [=](const std::string& text) {
+        Number value{};
+        const char* const last = text.data() + text.size();
+        const auto [end, status] = std::from_chars(text.data(), last, value);
+        // written so that nan is refused too
+        if (status == std::errc() && end == last && value >= low && value <= high)
+            return std::string();
+        return fmt::format("must be a {} from {} to {}, is '{}'", kind, low, high, text);
+    };
+    return {check, fmt::format("{} to {}", low, high)};
+}
+
+}  // namespace
+
+CLI::Validator rate_range() {
+    return range(100.0, 10000.0, "number");
+}
+
+CLI::Validator seed_range() {
+    return range(uint64_t{0}, std::numeric_limits<uint64_t>::max(), "whole number");
 }
 
 }  // namespace dihaptic::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cstdio>
 #include <string>
 
 #include "base/diagnostics.h"
@@ -44,7 +45,11 @@ class ProgressLine {
 std::string command_line();
 void remember_command_line(int argc, char** argv);
 
-/// Prints problems on standard error, warnings and errors alike.
-void print(const std::vector<Problem>& problems);
+/// Prints problems, warnings and errors alike.
+void print(const std::vector<Problem>& problems, std::FILE* to = stderr);
+
+/// What --rate takes, and --seed.
+CLI::Validator rate_range();
+CLI::Validator seed_range();
 
 }  // namespace dihaptic::cli

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -35,6 +36,21 @@ void handle_signals() {
     std::signal(SIGXFSZ, SIG_IGN);  // a quota is a full disk: writing fails, and says so
 }
 
+/// Names the word that is no command, which the parser would leave to a guess.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == argv[1]) return;
+        commands.push_back(command->get_name());
+    }
+    const std::string guess = dihaptic::nearest(argv[1], commands);
+    throw dihaptic::Error(fmt::format("'{}' is no command", argv[1]),
+                          (guess.empty() ? fmt::format("There are {}.", fmt::join(commands, ", "))
+                                         : fmt::format("Did you mean {}?", guess)) +
+                              " See dihaptic --help.");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,6 +72,7 @@ int main(int argc, char** argv) {
     cli::add_check(app);
     cli::add_bench(app);
     try {
+        refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         const int code = app.exit(e);

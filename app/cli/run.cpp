@@ -35,11 +35,52 @@ void run_one(const Options& options) {
         result = experiment::run_session(plan, options.run, stop_requested,
                                          [&](double share) { line.show(share); });
     }
-    print_summary(finish(result), plan, result);
-    if (result.interrupted) exit_code = kFailed;
+    const analysis::SessionFigures figures = finish(result);
+    print_summary(figures, plan, result);
+    if (result.interrupted || figures.diverged()) exit_code = kFailed;
 }
 
-/// A folder of movements: a session each, and a summary row each.
+/// One movement of a batch: its row, printed and kept.
+std::vector<Table::Cell> run_movement(const Options& options, const std::string& name) {
+    const experiment::Plan plan = experiment::make_plan(options.request);
+    const experiment::RunResult result =
+        experiment::run_session(plan, options.run, stop_requested, {});
+    const analysis::SessionFigures figures =
+        analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    double force = 0;
+    for (const analysis::PhaseFigures& phase : figures.phases)
+        force = std::max(force, phase.peak_force);
+    const analysis::PhaseFigures* grasp = figures.phase("grasp");
+    const double grip = grasp != nullptr ? grasp->mean_grip : NAN;
+    const double peak = grasp != nullptr ? grasp->peak_grip : NAN;
+    const auto limited = figures.ticks_with(servo::kForceLimited);
+    const experiment::MovementReport& report = *plan.movement;
+    const bool guessed = report.bridged_share > hand::kMuchBridged;
+    const char* outcome = figures.diverged()   ? "diverged"
+                          : result.interrupted ? "interrupted"
+                                               : "done";
+    if (figures.diverged()) exit_code = kFailed;
+    fmt::print("{:28s} {:7.2f} {:6.1f} %{} {:6d} {:5.1f} mm {:8.3f} {:8.3f} {:8.3f} {:8d}  {}{}\n",
+               name, report.duration, 100 * report.bridged_share, guessed ? '!' : ' ',
+               report.faults.size(), report.block_width * 1e3, grip, peak, force, limited,
+               figures.diverged() ? "DIVERGED " : "", result.folder);
+    return {name,
+            outcome,
+            report.duration,
+            100 * report.bridged_share,
+            guessed ? "yes" : "no",
+            static_cast<double>(report.faults.size()),
+            report.block_width * 1e3,
+            grip,
+            peak,
+            force,
+            static_cast<double>(limited),
+            static_cast<double>(figures.ticks_with(servo::kRateLimited)),
+            result.folder};
+}
+
+/// A folder of movements: a session each, and a summary row each. The summary is written anew after
+/// every movement: whatever becomes of the next, it has those before.
 void run_batch(const Options& options) {
     std::vector<std::string> files;
     for (const auto& entry : fs::directory_iterator(options.request.movement)) {
@@ -51,13 +92,26 @@ void run_batch(const Options& options) {
                     "Name a movement, or a folder of them.");
 
     Table summary;
-    summary.columns = {
-        {"movement", ""},           {"outcome", ""},      {"duration_s", ""},
-        {"bridged_percent", ""},    {"faults", ""},       {"block_mm", ""},
-        {"peak_grip_N", ""},        {"peak_force_N", ""}, {"force_limited_ticks", ""},
-        {"rate_limited_ticks", ""}, {"session", ""}};
-    fmt::print("{:28s} {:>7s} {:>8s} {:>7s} {:>8s} {:>8s} {:>8s}  {}\n", "movement", "s", "bridged",
-               "faults", "block", "grip N", "force N", "session");
+    summary.columns = {{"movement", ""},
+                       {"outcome", "done, interrupted, diverged, or refused"},
+                       {"duration_s", ""},
+                       {"bridged_percent", ""},
+                       {"mostly_bridged", ""},
+                       {"faults", ""},
+                       {"block_mm", ""},
+                       {"grasp_mean_grip_N", "of the phase grasp"},
+                       {"grasp_peak_grip_N", "of the phase grasp"},
+                       {"peak_force_N", "of the whole session"},
+                       {"force_limited_ticks", ""},
+                       {"rate_limited_ticks", ""},
+                       {"session", ""}};
+    const std::string table = options.run.out + "/summary.csv";
+    std::error_code failed;
+    fs::create_directories(options.run.out, failed);
+    write_csv(summary, table);
+    fmt::print("{:28s} {:>7s} {:>8s}  {:>6s} {:>8s} {:>8s} {:>8s} {:>8s} {:>8s}  {}\n", "movement",
+               "s", "bridged", "faults", "block", "grip N", "peak N", "force N", "limited",
+               "session");
     size_t refused = 0;
     for (const std::string& file : files) {
         if (stop_requested) break;
@@ -65,40 +119,23 @@ void run_batch(const Options& options) {
         one.request.movement = file;
         const std::string name = fs::path(file).filename().string();
         try {
-            const experiment::Plan plan = experiment::make_plan(one.request);
-            const experiment::RunResult result =
-                experiment::run_session(plan, one.run, stop_requested, {});
-            const analysis::SessionFigures figures = analysis::finish_session(
-                recording::SessionFolder::open(result.folder), result.info, {});
-            double grip = 0;
-            double force = 0;
-            for (const analysis::PhaseFigures& phase : figures.phases) {
-                grip = std::fmax(grip, phase.peak_grip);
-                force = std::max(force, phase.peak_force);
-            }
-            const auto ticks = [&](servo::Status bit) {
-                return static_cast<double>(figures.status_ticks[static_cast<size_t>(
-                    std::countr_zero(static_cast<unsigned>(bit)))]);
-            };
-            const experiment::MovementReport& report = *plan.movement;
-            summary.rows.push_back(
-                {name, "done", report.duration, 100 * report.bridged_share,
-                 static_cast<double>(report.faults.size()), report.block_width * 1e3, grip, force,
-                 ticks(servo::kForceLimited), ticks(servo::kRateLimited), result.folder});
-            fmt::print("{:28s} {:7.2f} {:6.1f} % {:7d} {:5.1f} mm {:8.3f} {:8.3f}  {}\n", name,
-                       report.duration, 100 * report.bridged_share, report.faults.size(),
-                       report.block_width * 1e3, grip, force, result.folder);
-        } catch (const Error& e) {
+            summary.rows.push_back(run_movement(one, name));
+        } catch (const std::exception& e) {
             ++refused;
-            summary.rows.push_back({name, "refused", NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, ""});
+            std::vector<Table::Cell> row(summary.columns.size(), NAN);
+            row.front() = name;
+            row[1] = "refused";
+            summary.rows.push_back(row);
             fmt::print("{:28s} refused\n", name);
             fmt::print(stderr, "{}\n", e.what());
         }
         std::fflush(stdout);
+        write_csv(summary, table);
     }
-    const std::string table = options.run.out + "/summary.csv";
-    fs::create_directories(options.run.out);
-    write_csv(summary, table);
+    fmt::print(
+        "\ngrip, peak: mean and largest grip force of the grasp; force: largest on any finger; "
+        "limited: ticks in which\na force was cut to the largest allowed; !: more than half of the "
+        "movement is bridged\n");
     fmt::print("{}, {} refused; summary: {}\n",
                counted(static_cast<int64_t>(summary.rows.size()), "movement"), refused, table);
     if (refused > 0 || stop_requested) exit_code = kFailed;
@@ -136,7 +173,7 @@ void add_run(CLI::App& app) {
                         "coupling of handle and proxy: implicit, dual_spring");
     command->add_option("--proxy", "what a finger is in the world: rigid")
         ->check(CLI::IsMember({"rigid"}));
-    command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(CLI::PositiveNumber);
+    command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
     command
         ->add_option("--clock", options->clock,
                      "virtual: as fast as the machine goes, the same every time; real: real time")
@@ -145,6 +182,7 @@ void add_run(CLI::App& app) {
     command->add_option("--out", options->run.out, "folder for session folders")
         ->capture_default_str();
     command->add_option("--seed", options->request.seed, "of everything random")
+        ->check(seed_range())
         ->capture_default_str();
     command->add_option("--set", options->request.set,
                         "any setting, e.g. coupling.stiffness_N_m=600; may be repeated");

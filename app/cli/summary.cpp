@@ -30,7 +30,8 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
                counted(static_cast<int64_t>(report.faults.size()), "fault"),
                report.faults.empty() ? "" : ":");
     for (size_t i = 0; i < report.faults.size() && i < most_lines; ++i) {
-        fmt::print("  {}\n", hand::describe(report.faults[i], report.fingers));
+        fmt::print("  line {}: {}\n", report.faults[i].line,
+                   hand::describe(report.faults[i], report.fingers));
     }
     if (report.faults.size() > most_lines) {
         fmt::print("  and {} more, in movement-faults.csv\n", report.faults.size() - most_lines);
@@ -58,7 +59,8 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;
         const servo::StatusText text = servo::describe(static_cast<servo::Status>(1u << bit));
-        fmt::print("note: in {} of {} {}{}\n", ticks, counted(figures.frames, "tick"), text.what,
+        fmt::print("{}: in {} of {} {}{}\n", (1u << bit) == servo::kNotFinite ? "WARNING" : "note",
+                   ticks, counted(figures.frames, "tick"), text.what,
                    text.remedy.empty() ? "" : ": " + text.remedy);
     }
     fmt::print(

@@ -148,7 +148,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                      {"trial_num", "number in the session, from 1"},
                      {"block_num", "number, from 1"},
                      {"trial_num_in_block", "number, from 1"},
-                     {"outcome", "done or interrupted"},
+                     {"outcome", "done, interrupted, or diverged"},
                      {"peak_grip_N", "largest grip force"},
                      {"peak_force_N", "largest force on any finger"}};
     std::map<int, std::vector<const PhaseFigures*>> by_trial;
@@ -165,8 +165,11 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                           phases.back()->name == info.phases.back().name;
         table.rows.push_back({phases.front()->start, phases.back()->end, info.title,
                               info.participant.id, 1.0, static_cast<double>(trial), 1.0,
-                              static_cast<double>(trial), done ? "done" : "interrupted", grip,
-                              force});
+                              static_cast<double>(trial),
+                              figures.diverged() ? "diverged"
+                              : done             ? "done"
+                                                 : "interrupted",
+                              grip, force});
     }
     return table;
 }
@@ -246,6 +249,13 @@ Table read_settings(const recording::SessionFolder& folder) {
     }
     if (!table.rows.empty()) table.rows.erase(table.rows.begin());  // its header
     return table;
+}
+
+const PhaseFigures* SessionFigures::phase(const std::string& name) const {
+    for (const PhaseFigures& phase : phases) {
+        if (phase.name == name) return &phase;
+    }
+    return nullptr;
 }
 
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,

@@ -2,6 +2,7 @@
 // that ended and one that was killed go the same way.
 #pragma once
 
+#include <bit>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "base/table.h"
 #include "recording/log_health.h"
 #include "recording/session.h"
+#include "servo/frame.h"
 
 namespace dihaptic::analysis {
 
@@ -32,6 +34,14 @@ struct SessionFigures {
     double duration = 0;                ///< [s]
     uint32_t status = 0;                ///< all status bits that occurred
     std::vector<int64_t> status_ticks;  ///< by bit
+
+    /// Something was not a number: no figure can be trusted.
+    bool diverged() const { return (status & servo::kNotFinite) != 0; }
+    int64_t ticks_with(servo::Status bit) const {
+        return status_ticks[static_cast<size_t>(std::countr_zero(static_cast<uint32_t>(bit)))];
+    }
+    /// The phase of that name, or null.
+    const PhaseFigures* phase(const std::string& name) const;
 };
 
 /// Writes session.nwb, trials.csv, phases.csv and events.csv, and at last session.yaml with `info`,

@@ -7,6 +7,15 @@
 
 namespace dihaptic {
 
+namespace {
+
+void end_sentence(std::string& text) {
+    if (text.empty() || std::string_view(".?!").find(text.back()) == std::string_view::npos)
+        text += ".";
+}
+
+}  // namespace
+
 std::string Problem::text() const {
     std::string out;
     if (!place.file.empty()) out += place.file + ":";
@@ -15,9 +24,13 @@ std::string Problem::text() const {
     out += severity == Severity::error ? "error: " : "warning: ";
     if (!key.empty()) out += key + ": ";
     out += what;
-    if (!out.ends_with('.')) out += ".";
+    end_sentence(out);
     if (!remedy.empty()) out += " " + remedy;
-    if (!out.ends_with('.')) out += ".";
+    end_sentence(out);
+    // names come from files: one may hold what would move a terminal's cursor
+    for (char& c : out) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    }
     return out;
 }
 

@@ -56,6 +56,9 @@ struct Field {
         f.max = high;
         return f;
     }
+    /// Both bounds included. Limits of what makes sense on a tabletop catch slips of the unit that
+    /// would otherwise surface as a simulation that diverges.
+    constexpr Field within(double low, double high) const { return at_least(low).at_most(high); }
     constexpr Field required() const {
         Field f = *this;
         f.is_required = true;

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "base/text_file.h"
 
 namespace dihaptic {
 namespace {
@@ -37,6 +40,12 @@ Place FieldReader::place_of(std::string_view name) const {
         if (key == name || key.starts_with(std::string(name) + "_")) return node.place;
     }
     return mapping_.place;
+}
+
+bool FieldReader::mentions(std::string_view name) const {
+    return std::any_of(mapping_.entries.begin(), mapping_.entries.end(), [&](const auto& entry) {
+        return entry.key == name || entry.key.starts_with(std::string(name) + "_");
+    });
 }
 
 bool FieldReader::has(std::string_view name, Quantity quantity) const {
@@ -87,7 +96,9 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
     const auto [end, status] = std::from_chars(first, text.data() + text.size(), value);
     const bool whole = status == std::errc() && end == text.data() + text.size();
     if (node.kind != Node::Kind::scalar || !whole || !std::isfinite(value)) {
-        const std::string shown = node.kind == Node::Kind::scalar ? "'" + text + "'" : "a list";
+        const std::string shown = node.kind == Node::Kind::scalar ? "'" + shortened(text) + "'"
+                                  : node.kind == Node::Kind::null ? "nothing"
+                                                                  : "a list";
         diagnostics_.error(
             given.node->place, given.key, fmt::format("must be a number, is {}", shown),
             field.quantity == Quantity::none ? ""
@@ -100,18 +111,19 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
         const double low = field.min / given.to_si;
         const double high = field.max / given.to_si;
         std::string bound;
-        if (field.above_min && field.min == 0 && std::isinf(field.max)) {
+        const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
+        if (only_positive || (too_low && si <= 0 && (field.min > 0 || field.above_min))) {
             bound = "positive";
         } else if (std::isinf(field.max)) {
-            bound = fmt::format("{} {:g}", field.above_min ? "above" : "at least", low);
+            bound = fmt::format("{} {:.9g}", field.above_min ? "above" : "at least", low);
         } else if (std::isinf(field.min)) {
-            bound = fmt::format("at most {:g}", high);
+            bound = fmt::format("at most {:.9g}", high);
         } else {
-            bound = fmt::format("{} {:g} and at most {:g}", field.above_min ? "above" : "at least",
-                                low, high);
+            bound = fmt::format("{} {:.9g} and at most {:.9g}",
+                                field.above_min ? "above" : "at least", low, high);
         }
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be {}, is {}", bound, text),
+                           fmt::format("must be {}, is {}", bound, shortened(text)),
                            "Correct the value, or its unit.");
         return std::nullopt;
     }
@@ -133,9 +145,13 @@ std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) 
     return value;
 }
 
-std::optional<std::string> FieldReader::word(const Given& given) {
+std::optional<std::string> FieldReader::word(const Given& given, const Field& field) {
     if (given.node->kind != Node::Kind::scalar) {
         diagnostics_.error(given.node->place, given.key, "must be a single word or text", "");
+        return std::nullopt;
+    }
+    if (field.is_required && given.node->scalar.empty()) {
+        diagnostics_.error(given.node->place, given.key, "is empty", "Give it a value.");
         return std::nullopt;
     }
     return given.node->scalar;
@@ -194,7 +210,7 @@ void FieldReader::operator()(std::string_view name, bool& value, Field field) {
 
 void FieldReader::operator()(std::string_view name, std::string& value, Field field) {
     if (const Given given = take(name, field); given.node != nullptr) {
-        if (const auto read = word(given)) value = *read;
+        if (const auto read = word(given, field)) value = *read;
     }
 }
 
@@ -203,7 +219,7 @@ void FieldReader::operator()(std::string_view name, std::vector<std::string>& va
     if (list == nullptr) return;
     value.clear();
     for (const Node& item : list->items) {
-        if (const auto read = word({&item, std::string(name), 1})) value.push_back(*read);
+        if (const auto read = word({&item, std::string(name), 1}, field)) value.push_back(*read);
     }
 }
 
@@ -220,7 +236,9 @@ const Node* FieldReader::take_mapping(std::string_view name, const Field& field)
 bool FieldReader::is_mapping(const Node& node, const std::string& key) {
     if (node.kind == Node::Kind::mapping) return true;
     diagnostics_.error(node.place, key, "must have keys of its own",
-                       "Write them below it, indented, one 'key: value' a line.");
+                       node.place.line > 0
+                           ? "Write them below it, indented, one 'key: value' a line."
+                           : fmt::format("Name one of them: {}.KEY=VALUE.", key));
     return false;
 }
 

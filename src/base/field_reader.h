@@ -76,6 +76,8 @@ class FieldReader {
     Place place_of(std::string_view name) const;
     /// True when the mapping gives the field, in whatever unit.
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
+    /// True when a key is meant for the field, whether it could be read or not.
+    bool mentions(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
     /// Reports the keys that no field asked for. Call it after visit().
@@ -100,7 +102,7 @@ class FieldReader {
                     const Field& field);
     std::optional<double> number(const Given& given, const Node& scalar, const Field& field);
     std::optional<Vec3> vector(const Given& given, const Field& field);
-    std::optional<std::string> word(const Given& given);
+    std::optional<std::string> word(const Given& given, const Field& field);
     void note_origin(std::string_view name, const Node& node);
 
     template <class Struct>

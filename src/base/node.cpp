@@ -2,10 +2,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
+
+#include "base/text_file.h"
 
 namespace dihaptic {
 
@@ -41,9 +40,17 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-Node convert(const YAML::Node& in, const std::string& file) {
+/// An alias (*name) inside what it names never ends, and aliases of aliases double at each step.
+constexpr int kDeepest = 32;
+constexpr size_t kMostNodes = 1'000'000;
+
+Node convert(const YAML::Node& in, const std::string& file, size_t& count, int depth = 0) {
     Node out;
     out.place = {file, in.Mark().line + 1};
+    if (depth > kDeepest || ++count > kMostNodes) {
+        throw Error(out.place, "", "is nested too deeply, or too large",
+                    "Write it out without aliases (*name).");
+    }
     switch (in.Type()) {
         case YAML::NodeType::Scalar:
             out.kind = Node::Kind::scalar;
@@ -51,7 +58,7 @@ Node convert(const YAML::Node& in, const std::string& file) {
             break;
         case YAML::NodeType::Sequence:
             out.kind = Node::Kind::sequence;
-            for (const auto& item : in) out.items.push_back(convert(item, file));
+            for (const auto& item : in) out.items.push_back(convert(item, file, count, depth + 1));
             break;
         case YAML::NodeType::Map:
             out.kind = Node::Kind::mapping;
@@ -62,7 +69,7 @@ Node convert(const YAML::Node& in, const std::string& file) {
                 if (out.find(key) != nullptr) {
                     throw Error(at, key, "is given twice", "Keep one of the two lines.");
                 }
-                Node value = convert(entry.second, file);
+                Node value = convert(entry.second, file, count, depth + 1);
                 value.place = at;
                 out.entries.push_back({key, std::move(value)});
             }
@@ -101,7 +108,15 @@ YAML::Node emit(const Node& node) {
 
 Node parse_yaml(const std::string& text, const std::string& file) {
     try {
-        Node root = convert(YAML::Load(text), file);
+        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+        if (documents.size() > 1) {
+            throw Error({file, std::max(0, documents[1].Mark().line) + 1}, "",
+                        "a second YAML document starts here (after '---')",
+                        "Keep one document a file.");
+        }
+        size_t count = 0;
+        Node root = documents.empty() ? Node{} : convert(documents.front(), file, count);
+        root.place.file = file;
         if (root.place.line == 0) root.place.line = 1;
         return root;
     } catch (const YAML::Exception& e) {
@@ -111,15 +126,7 @@ Node parse_yaml(const std::string& text, const std::string& file) {
 }
 
 Node read_yaml(const std::string& file) {
-    errno = 0;
-    std::ifstream in(file);
-    std::ostringstream text;
-    if (in) text << in.rdbuf();
-    if (!in || in.bad() || text.fail()) {
-        const std::string why = errno != 0 ? std::strerror(errno) : "it is empty or not a file";
-        throw Error({file, 0}, "", "cannot be read: " + why, "Check the name and the folder.");
-    }
-    return parse_yaml(text.str(), file);
+    return parse_yaml(read_text_file(file), file);
 }
 
 std::string to_yaml(const Node& node) {

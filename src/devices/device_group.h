@@ -46,6 +46,7 @@ struct DeviceInfo {
     double continuous_force =
         std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
     double damping = 0;  ///< of handle and hand together, for what stiffness the loop holds [N*s/m]
+    double mass = 0;     ///< of handle and hand together; 0: not known [kg]
     double delay = 0;    ///< from write to force [s]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
 };

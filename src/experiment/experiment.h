@@ -21,15 +21,17 @@ struct MovementSpec {
         width;  ///< of the block along the grasp; unset: from aperture and squeeze [m]
     std::optional<double>
         grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
+    Place place;   ///< of the block's name
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("file", file);
         v("axes", axes, Field::text().required());
         v("block", block, Field::text().required());
-        v("squeeze", squeeze, Field::length().at_least(0));
-        v("width", width, Field::length().positive());
+        v("squeeze", squeeze, Field::length().within(0, 0.1));
+        v("width", width, Field::length().within(1e-3, 1));
         v("grasp_at", grasp_at, Field::of(Quantity::time).at_least(0));
+        if constexpr (requires { v.place(); }) place = v.place_of("block");
     }
 };
 

@@ -66,8 +66,7 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
-void warn_of_wrong_units(const hand::Path& path, const std::string& file,
-                         Diagnostics& diagnostics) {
+void warn_of_faults(const hand::Path& path, const std::string& file, Diagnostics& diagnostics) {
     for (const hand::Fault& fault : path.faults) {
         if (!fault.wrong_unit) continue;
         diagnostics.warning(
@@ -76,16 +75,28 @@ void warn_of_wrong_units(const hand::Path& path, const std::string& file,
             "millimetres? They were bridged",
             "Multiply them by 1000.");
     }
+    warn_of_bridges(path, file, diagnostics);
 }
 
 }  // namespace
+
+void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics) {
+    if (path.bridged_share() <= hand::kMuchBridged) return;
+    diagnostics.warning({file, 0}, "",
+                        fmt::format("{:.0f} % of the movement is bridged: more guessed than "
+                                    "measured",
+                                    100 * path.bridged_share()),
+                        "Record it again, or leave it out of the analysis.");
+}
 
 std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
                                                    const std::string& file, const Place& asked_at,
                                                    scene::Scene& scene,
                                                    std::optional<MovementReport>& report,
                                                    Diagnostics& diagnostics) {
-    const hand::Movement movement = hand::read_movement(file, spec.axes, diagnostics);
+    hand::Movement movement = hand::read_movement(file, spec.axes, diagnostics);
+    if (!diagnostics.has_errors())
+        hand::choose_fingers(movement, scene::finger_names(scene), diagnostics);
     const int block_index = scene.find(spec.block);
     const bool is_box =
         block_index >= 0 &&
@@ -103,12 +114,16 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     if (diagnostics.has_errors()) return nullptr;
 
     const hand::Path path = hand::repair(movement);
+    if (spec.grasp_at && *spec.grasp_at > path.duration()) {
+        diagnostics.error(asked_at, "movement.grasp_at",
+                          fmt::format("{:g} s is after the movement's end, at {:.3f} s",
+                                      *spec.grasp_at, path.duration()),
+                          "Give a time within it.");
+        return nullptr;
+    }
     const auto site = hand::find_grasp(path, spec.grasp_at);
     if (!site) {
-        diagnostics.error(
-            {file, 0}, "",
-            "no grasp was found: the fingers never open, close and rest away from their start",
-            "Say when they closed: movement: grasp_at_s.");
+        diagnostics.error({file, 0}, "", kNoGrasp, "Say when they closed: movement: grasp_at_s.");
         return nullptr;
     }
     // the block stands upright: only the grasp's direction in the horizontal plane turns it
@@ -137,7 +152,7 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     report = MovementReport{
         file,  path.faults,         path.fingers, path.duration(), path.bridged_share(),
         *site, block.shape.size.x()};
-    warn_of_wrong_units(path, file, diagnostics);
+    warn_of_faults(path, file, diagnostics);
     return std::make_shared<hand::RecordedDriver>(path, *site, Vec3(block.position - block_centre),
                                                   scene::finger_names(scene));
 }

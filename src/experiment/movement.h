@@ -22,9 +22,15 @@ struct MovementReport {
     double block_width = 0;  ///< along the grasp [m]
 };
 
+constexpr const char* kNoGrasp =
+    "no grasp was found: the fingers never open, close and rest away from their start";
+
+/// Warns when so much of the path is bridged that it tells little of the hand.
+void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics);
+
 /// Reads and repairs the movement, finds its grasp, turns and sizes the block of the scene, and
 /// turns the fingers' proxies to face it. Returns the driver, or null with errors in `diagnostics`.
-/// `asked_at`: the experiment file, for messages.
+/// `asked_at`: where the experiment asks for it, for messages.
 std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
                                                    const std::string& file, const Place& asked_at,
                                                    scene::Scene& scene,

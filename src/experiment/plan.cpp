@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -23,8 +24,14 @@ Node setting(const std::string& text) {
     if (equals == std::string::npos) {
         throw Error({"--set", 0}, text, "has no value", "Write --set coupling.stiffness_N_m=600.");
     }
-    Node value = parse_yaml(text.substr(equals + 1), "command line");
     std::string path = text.substr(0, equals);
+    Node value;
+    try {
+        value = parse_yaml(text.substr(equals + 1), "command line");
+    } catch (const Error&) {
+        throw Error({"--set", 0}, text, "its value cannot be read",
+                    "Write --set coupling.stiffness_N_m=600.");
+    }
     for (size_t dot = path.rfind('.');; dot = path.rfind('.')) {
         value.place = {"command line", 0};
         Node outer = Node::mapping();
@@ -41,24 +48,32 @@ void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
         read_fields(plan.settings, settings, diagnostics, &plan.origins);
 }
 
-/// Stiffness that the loop cannot hold calmly.
+/// Where a setting was given, for messages.
+Place place_of(const Plan& plan, const std::string& setting) {
+    const auto origin = plan.origins.find(setting);
+    return {origin == plan.origins.end() ? "" : origin->second, 0};
+}
+
+/// Stiffness that the loop need not hold calmly. The limit is passivity's: below it no hand makes
+/// the loop shake; above it, some do (bench grasp measures how far one gets).
 void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
                      Diagnostics& diagnostics) {
     const haptics::CouplingSettings& coupling = plan.settings.coupling;
     const double h = plan.settings.step();
-    const auto origin = plan.origins.find("coupling.stiffness");
-    const Place place{origin == plan.origins.end() ? "" : origin->second, 0};
+    const Place place = place_of(plan, "coupling.stiffness");
     for (int i = 0; i < devices.size(); ++i) {
         const devices::DeviceInfo& info = devices.info(i);
         if (info.damping <= 0) continue;
         const double limit =
             model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
         if (coupling.stiffness <= limit) continue;
-        diagnostics.warning(place, "coupling.stiffness",
-                            fmt::format("{:g} N/m is more than the loop can hold calmly with {}: "
-                                        "about {:.0f} N/m (2 b / T)",
-                                        coupling.stiffness, info.model, limit),
-                            "Lower it, or expect shaking.");
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), up to which the hand's damping of "
+                        "{:g} N*s/m surely keeps {} calm",
+                        coupling.stiffness, limit, info.damping, info.model),
+            "It may be calm above too, as in bench grasp, or shake: look at the forces, or lower "
+            "it.");
         break;
     }
     const double explicit_limit = coupling.body_mass / (h * h);
@@ -71,6 +86,40 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
                 "{:.0f} N/m (m / h^2)",
                 coupling.stiffness, coupling.body_mass * 1e3, explicit_limit),
             "Lower it, raise coupling: body_mass_g, or use coupling: kind: implicit.");
+    }
+}
+
+/// A damper that takes more than the handle's momentum in a tick throws it back: with v the speed
+/// at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
+void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
+                   Diagnostics& diagnostics) {
+    if (!plan.settings.coupling.damping) return;
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        const double limit = 2 * info.mass / (plan.settings.tick() + 2 * info.delay);
+        if (info.mass <= 0 || *plan.settings.coupling.damping <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.damping"), "coupling.damping",
+            fmt::format("{:g} N*s/m is more than a handle of {:g} g can bear: about {:.0f} N*s/m "
+                        "(2 m / T)",
+                        *plan.settings.coupling.damping, info.mass * 1e3, limit),
+            "Lower it, or leave it out: k h / 2 follows the stiffness.");
+        break;
+    }
+}
+
+/// A force limit that no device reaches is none: the devices' own is what holds.
+void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    if (!plan.settings.safety.max_force) return;
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (*plan.settings.safety.max_force <= info.peak_force) continue;
+        diagnostics.warning(
+            place_of(plan, "safety.max_force"), "safety.max_force",
+            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
+                        *plan.settings.safety.max_force, info.model, info.peak_force),
+            "The device's peak holds: lower it, or leave it out.");
+        break;
     }
 }
 
@@ -87,6 +136,38 @@ void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnosti
         plan.scene.bodies[static_cast<size_t>(object)].name,
         fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
         "Make it lighter: it cannot be felt as it is.");
+}
+
+/// What is wrong with a movement in any experiment. Its axes are the experiment's business: they
+/// make no difference here.
+void check_movement(const std::string& file, Diagnostics& diagnostics) {
+    const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
+    const hand::Movement movement =
+        hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
+    for (const std::string& finger : movement.fingers) {
+        if (std::find(usual.begin(), usual.end(), finger) != usual.end()) continue;
+        const std::string guess = nearest(finger, usual);
+        diagnostics.warning({file, 1}, finger, "is no usual name of a finger",
+                            guess.empty() ? "The scene must name its finger so too: thumb and "
+                                            "index, if it names none."
+                                          : fmt::format("Did you mean {}?", guess));
+    }
+    if (diagnostics.has_errors()) return;
+    if (movement.fingers.size() < 2) {
+        diagnostics.warning({file, 1}, "",
+                            fmt::format("there is only one finger, {}", movement.fingers.front()),
+                            "A recorded grasp needs two.");
+    }
+    const hand::Path path = hand::repair(movement);
+    for (const hand::Fault& fault : path.faults) {
+        diagnostics.warning({file, fault.line}, "", hand::describe(fault, path.fingers),
+                            "It will be bridged.");
+    }
+    warn_of_bridges(path, file, diagnostics);
+    if (path.p_WH.size() > 1 && !hand::find_grasp(path)) {
+        diagnostics.warning({file, 0}, "", kNoGrasp,
+                            "An experiment must say when they closed: movement: grasp_at_s.");
+    }
 }
 
 }  // namespace
@@ -139,8 +220,8 @@ Plan make_plan(const Request& request) {
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
     if (!movement.empty()) {
-        plan.driver = place_movement(*experiment.movement, movement, {request.file, 0}, plan.scene,
-                                     plan.movement, diagnostics);
+        plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
+                                     plan.scene, plan.movement, diagnostics);
         diagnostics.throw_if_errors();
     } else {
         plan.driver =
@@ -150,6 +231,8 @@ Plan make_plan(const Request& request) {
     // made once to see what the devices can do; the session makes its own
     const auto devices = make_servo(plan);
     check_stiffness(plan, devices->devices(), diagnostics);
+    check_damping(plan, devices->devices(), diagnostics);
+    check_limits(plan, devices->devices(), diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
     diagnostics.throw_if_errors();
     plan.warnings = diagnostics.problems();
@@ -183,18 +266,9 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics) {
                 diagnostics.add(plan.warnings);
                 return kind_of(file) == FileKind::scene ? "scene" : "experiment";
             }
-            case FileKind::movement: {
-                // its axes are the experiment's business; what is wrong with it is the same in any
-                const hand::Movement movement =
-                    hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
-                if (diagnostics.has_errors()) return "movement";
-                const hand::Path path = hand::repair(movement);
-                for (const hand::Fault& fault : path.faults) {
-                    diagnostics.warning({file, fault.line}, "", hand::describe(fault, path.fingers),
-                                        "It will be bridged.");
-                }
+            case FileKind::movement:
+                check_movement(file, diagnostics);
                 return "movement";
-            }
             case FileKind::unknown:
                 diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
                                   "A scene has 'bodies:', a rig 'devices:', an experiment "

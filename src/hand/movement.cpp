@@ -1,29 +1,31 @@
 #include "hand/movement.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 
+#include "base/text_file.h"
 #include "base/unit.h"
+#include "hand/movement_check.h"
 
 namespace dihaptic::hand {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr size_t kMostErrors = 20;  // of one file: more are no help
 
-std::vector<std::string> split(const std::string& line) {
+std::vector<std::string> split(std::string_view line) {
     std::vector<std::string> cells(1);
     for (const char c : line) {
         if (c == ',') {
             cells.emplace_back();
-        } else if (c != '\r' && c != ' ' && c != '\t') {
+        } else if (c != '"' && c != ' ' && c != '\t') {
             cells.back() += c;
         }
     }
@@ -48,16 +50,19 @@ std::optional<double> number(const std::string& cell) {
 
 /// Which cell of a line is what, from the header.
 struct Columns {
+    std::vector<std::string> keys;  ///< as in the file
     int time = -1;
     double time_unit = 1;
     int occluded = -1;
     struct Finger {
-        std::array<int, 3> axis{-1, -1, -1};
+        std::string name;
+        std::string unit_name;
         double unit = 1;
+        std::array<int, 3> axis{-1, -1, -1};
     };
-    std::vector<std::string> names;
     std::vector<Finger> fingers;
-    size_t count = 0;
+
+    const std::string& key(int column) const { return keys[static_cast<size_t>(column)]; }
 };
 
 std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
@@ -67,84 +72,200 @@ std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
     return std::nullopt;
 }
 
-Columns read_header(const std::string& file, const std::vector<std::string>& cells,
-                    Diagnostics& diagnostics) {
+constexpr const char* kHeaderRemedy =
+    "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same "
+    "for each other finger, and occluded if the tracker tells.";
+
+/// A table that is not separated by commas: said once, rather than of every column.
+void check_separator(const std::string& file, const std::string& header) {
+    if (header.find(',') != std::string::npos) return;
+    for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+        if (header.find(separator) == std::string::npos) continue;
+        throw Error({file, 1}, "", fmt::format("is separated by {}", name),
+                    "Export it with commas between the values, and points in the numbers: "
+                    "time_ms,thumb_x_mm,...");
+    }
+}
+
+Columns read_header(const std::string& file, const std::string& header, Diagnostics& diagnostics) {
     const Place place{file, 1};
-    const std::string remedy =
-        "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the "
-        "same for each "
-        "other finger, and occluded if the tracker tells.";
     Columns columns;
-    columns.count = cells.size();
-    std::map<std::string, size_t> index_of;
-    for (size_t i = 0; i < cells.size(); ++i) {
-        const std::string& cell = cells[i];
+    columns.keys = split(header);
+    std::set<std::string> seen;
+    std::vector<std::string> unknown;
+    for (size_t i = 0; i < columns.keys.size(); ++i) {
+        const std::string& key = columns.keys[i];
         const int at = static_cast<int>(i);
-        const size_t last = cell.rfind('_');
-        const std::string unit = last == std::string::npos ? "" : cell.substr(last + 1);
-        const std::string stem = last == std::string::npos ? cell : cell.substr(0, last);
-        if (cell == "occluded") {
+        const size_t last = key.rfind('_');
+        const std::string unit = last == std::string::npos ? "" : key.substr(last + 1);
+        const std::string stem = last == std::string::npos ? key : key.substr(0, last);
+        const bool of_axis = stem.size() > 2 && stem[stem.size() - 2] == '_' &&
+                             stem.back() >= 'x' && stem.back() <= 'z';
+        const auto time_unit = unit_of(unit, Quantity::time);
+        const auto length_unit = unit_of(unit, Quantity::length);
+        const bool known =
+            key == "occluded" || (stem == "time" && time_unit) || (of_axis && length_unit);
+        if (!known) {
+            unknown.push_back(key);
+        } else if (!seen.insert(key == "occluded" ? key : stem).second) {
+            diagnostics.error(place, key, fmt::format("column {} repeats an earlier one", i + 1),
+                              "Keep one of the two.");
+        } else if (key == "occluded") {
             columns.occluded = at;
-        } else if (const auto time_unit = unit_of(unit, Quantity::time);
-                   stem == "time" && time_unit) {
+        } else if (stem == "time") {
             columns.time = at;
             columns.time_unit = *time_unit;
-        } else if (const auto length_unit = unit_of(unit, Quantity::length);
-                   length_unit && stem.size() > 2 && stem[stem.size() - 2] == '_' &&
-                   stem.back() >= 'x' && stem.back() <= 'z') {
-            const std::string finger = stem.substr(0, stem.size() - 2);
-            if (!index_of.contains(finger)) {
-                index_of[finger] = columns.names.size();
-                columns.names.push_back(finger);
-                columns.fingers.emplace_back().unit = *length_unit;
-            }
-            Columns::Finger& f = columns.fingers[index_of[finger]];
-            if (f.unit != *length_unit)
-                diagnostics.error(place, cell, "has another unit than the finger's other axes",
-                                  "Use one unit.");
-            f.axis[static_cast<size_t>(stem.back() - 'x')] = at;
         } else {
-            diagnostics.error(place, cell, "is not a column of a movement", remedy);
+            const std::string name = stem.substr(0, stem.size() - 2);
+            auto finger = std::find_if(columns.fingers.begin(), columns.fingers.end(),
+                                       [&](const auto& f) { return f.name == name; });
+            if (finger == columns.fingers.end()) {
+                columns.fingers.push_back({name, unit, *length_unit});
+                finger = columns.fingers.end() - 1;
+            }
+            if (finger->unit_name != unit) {
+                diagnostics.error(place, key, "has another unit than the finger's other axes",
+                                  "Use one unit.");
+            }
+            finger->axis[static_cast<size_t>(stem.back() - 'x')] = at;
         }
     }
-    if (columns.time < 0) diagnostics.error(place, "time_ms", "this column is missing", remedy);
+    if (unknown.size() == columns.keys.size()) {
+        throw Error(place, "", "the first line names no column of a movement", kHeaderRemedy);
+    }
+    for (const std::string& key : unknown) {
+        diagnostics.error(place, shortened(key),
+                          key.empty() ? "a column has no name" : "is not a column of a movement",
+                          kHeaderRemedy);
+    }
+    // after a repeated column, the one that is missing is what the repetition was meant to be
+    if (diagnostics.has_errors()) return columns;
+    if (columns.time < 0)
+        diagnostics.error(place, "time_ms", "this column is missing", kHeaderRemedy);
     if (columns.fingers.empty())
-        diagnostics.error(place, "thumb_x_mm", "there is no column of a finger", remedy);
-    for (size_t f = 0; f < columns.fingers.size(); ++f) {
+        diagnostics.error(place, "thumb_x_mm", "there is no column of a finger", kHeaderRemedy);
+    for (const Columns::Finger& finger : columns.fingers) {
         for (size_t axis = 0; axis < 3; ++axis) {
-            if (columns.fingers[f].axis[axis] >= 0) continue;
-            diagnostics.error(place, fmt::format("{}_{}_mm", columns.names[f], "xyz"[axis]),
-                              "this column is missing", remedy);
+            if (finger.axis[axis] >= 0) continue;
+            diagnostics.error(place,
+                              fmt::format("{}_{}_{}", finger.name, "xyz"[axis], finger.unit_name),
+                              "this column is missing", kHeaderRemedy);
         }
     }
     return columns;
 }
 
+/// One line after the other, with their numbers.
+class Lines {
+  public:
+    explicit Lines(std::string_view text) : rest_(text) {}
+    std::optional<std::string_view> next() {
+        if (rest_.empty()) return std::nullopt;
+        const size_t end = std::min(rest_.find('\n'), rest_.size());
+        std::string_view line = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        ++number_;
+        return line;
+    }
+    int number() const { return number_; }
+
+  private:
+    std::string_view rest_;
+    int number_ = 0;
+};
+
 Vec3 to_world(const Vec3& p, RecordingAxes axes) {
     return axes == RecordingAxes::y_up ? Vec3(p.x(), -p.z(), p.y()) : p;
 }
 
-/// A hand that reaches and grasps moves by centimetres to decimetres.
-void check_extent(const Movement& movement, Diagnostics& diagnostics) {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 high = -low;
-    for (const Movement::Frame& frame : movement.frames) {
-        for (const Vec3& p : frame.p_WH) {
-            if (!p.allFinite()) continue;
-            low = low.cwiseMin(p);
-            high = high.cwiseMax(p);
+/// Reads a line's cells into a frame; false, with errors, when that makes no sense.
+bool read_frame(const Columns& columns, const std::vector<std::string>& cells, RecordingAxes axes,
+                const Place& place, Movement::Frame& frame, Diagnostics& problems) {
+    bool readable = true;
+    const auto cell = [&](int i) {
+        const std::string& text = cells[static_cast<size_t>(i)];
+        if (is_missing(text)) return kNaN;
+        if (const auto value = number(text)) return *value;
+        problems.error(place, columns.key(i), fmt::format("'{}' is not a number", shortened(text)),
+                       kLineRemedy);
+        readable = false;
+        return kNaN;
+    };
+    frame.line = place.line;
+    frame.time = cell(columns.time) * columns.time_unit;
+    if (readable && std::isnan(frame.time)) {
+        problems.error(place, columns.key(columns.time), "has no time", kLineRemedy);
+        return false;
+    }
+    if (columns.occluded >= 0) {
+        const double occluded = cell(columns.occluded);
+        if (!std::isnan(occluded) && occluded != 0 && occluded != 1) {
+            problems.error(place, "occluded", fmt::format("must be 0 or 1, is {:.6g}", occluded),
+                           "Write 1 where the tracker had lost a marker, 0 elsewhere.");
+            readable = false;
         }
+        frame.occluded = occluded == 1;
     }
-    const double extent = (high - low).maxCoeff();
-    const Place place{movement.file, 1};
-    if (extent < 0.005) {
-        diagnostics.error(place, "",
-                          fmt::format("the fingers move by only {:.3g} mm in all", extent * 1e3),
-                          "If the values are in metres, name the columns so: thumb_x_m.");
-    } else if (extent > 5) {
-        diagnostics.error(place, "", fmt::format("the fingers move by {:.3g} m", extent),
-                          "If the values are in millimetres, name the columns so: thumb_x_mm.");
+    for (const Columns::Finger& finger : columns.fingers) {
+        Vec3 p;
+        for (size_t axis = 0; axis < 3; ++axis)
+            p[static_cast<int>(axis)] = cell(finger.axis[axis]) * finger.unit;
+        frame.p_WH.push_back(to_world(p, axes));
     }
+    return readable;
+}
+
+void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
+                Diagnostics& problems) {
+    const std::string& file = movement.file;
+    if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos) {
+        throw Error({file, 0}, "", "its lines end in CR alone, as on old Macs",
+                    "Save it with line ends LF, or CR LF.");
+    }
+    Lines lines(text);
+    const std::string header(lines.next().value_or(""));
+    if (header.empty()) {
+        throw Error({file, 1}, "", "is empty",
+                    "A movement starts with a line of column names, then a line a frame.");
+    }
+    check_separator(file, header);
+    const Columns columns = read_header(file, header, problems);
+    if (problems.has_errors()) return;
+    movement.time_column = columns.key(columns.time);
+    for (const Columns::Finger& finger : columns.fingers) movement.fingers.push_back(finger.name);
+    for (const Columns::Finger& finger : columns.fingers) {
+        std::array<std::string, 3> keys;
+        for (size_t axis = 0; axis < 3; ++axis) keys[axis] = columns.key(finger.axis[axis]);
+        if (axes == RecordingAxes::y_up) std::swap(keys[1], keys[2]);
+        movement.columns.push_back(keys);
+    }
+    while (problems.problems().size() < kMostErrors) {
+        const auto line = lines.next();
+        if (!line) break;
+        if (line->empty()) continue;
+        const Place place{file, lines.number()};
+        const std::vector<std::string> cells = split(*line);
+        if (cells.size() != columns.keys.size()) {
+            problems.error(place, "",
+                           fmt::format("has {} values where the first line names {} columns",
+                                       cells.size(), columns.keys.size()),
+                           "Complete the line, or delete it: missing frames are bridged.");
+            continue;
+        }
+        Movement::Frame frame;
+        if (read_frame(columns, cells, axes, place, frame, problems))
+            movement.frames.push_back(std::move(frame));
+    }
+    check_times(movement, problems);
+    if (problems.has_errors()) return;
+    if (movement.frames.size() < 10) {
+        problems.error({file, lines.number()}, "",
+                       fmt::format("has only {} frames", movement.frames.size()),
+                       "A movement needs at least 10.");
+        return;
+    }
+    check_plausible(movement, problems);
 }
 
 }  // namespace
@@ -152,84 +273,47 @@ void check_extent(const Movement& movement, Diagnostics& diagnostics) {
 Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics) {
     Movement movement;
     movement.file = file;
-    std::ifstream in(file);
-    std::string line;
-    if (!in) {
-        diagnostics.error({file, 0}, "", "cannot be read", "Check the name and the folder.");
-        return movement;
-    }
-    if (!std::getline(in, line) || line.empty()) {
-        diagnostics.error({file, 1}, "", "is empty",
-                          "A movement starts with a line of column names, then a line a frame.");
-        return movement;
-    }
     Diagnostics problems;
-    const Columns columns = read_header(file, split(line), problems);
-    movement.fingers = columns.names;
-    if (problems.has_errors()) {
-        diagnostics.add(problems.problems());
-        return movement;
+    try {
+        read_lines(read_text_file(file), axes, movement, problems);
+    } catch (const Error& e) {
+        problems.add(e.problems());
     }
-
-    int line_number = 1;
-    while (problems.problems().size() < kMostErrors && std::getline(in, line)) {
-        ++line_number;
-        if (line.empty() || line == "\r") continue;
-        const Place place{file, line_number};
-        const std::vector<std::string> cells = split(line);
-        if (cells.size() != columns.count) {
-            problems.error(place, "",
-                           fmt::format("has {} values where the first line names {} columns",
-                                       cells.size(), columns.count),
-                           "Complete the line, or delete it: missing frames are bridged.");
-            continue;
-        }
-        bool readable = true;
-        const auto cell = [&](int i, const std::string& name) {
-            const std::string& text = cells[static_cast<size_t>(i)];
-            if (is_missing(text)) return kNaN;
-            if (const auto value = number(text)) return *value;
-            problems.error(place, name, fmt::format("'{}' is not a number", text),
-                           "Correct it, or delete the line: missing frames are bridged.");
-            readable = false;
-            return kNaN;
-        };
-        Movement::Frame frame;
-        frame.line = line_number;
-        frame.time = cell(columns.time, "time") * columns.time_unit;
-        frame.occluded = columns.occluded >= 0 && cell(columns.occluded, "occluded") == 1;
-        for (size_t f = 0; f < columns.fingers.size(); ++f) {
-            Vec3 p;
-            for (size_t axis = 0; axis < 3; ++axis) {
-                const std::string name = fmt::format("{}_{}", columns.names[f], "xyz"[axis]);
-                p[static_cast<int>(axis)] =
-                    cell(columns.fingers[f].axis[axis], name) * columns.fingers[f].unit;
-            }
-            frame.p_WH.push_back(to_world(p, axes));
-        }
-        if (!readable) continue;
-        if (std::isnan(frame.time)) {
-            problems.error(place, "time", "has no time",
-                           "Correct it, or delete the line: missing frames are bridged.");
-            continue;
-        }
-        if (!movement.frames.empty() && frame.time <= movement.frames.back().time) {
-            problems.error(place, "time",
-                           fmt::format("time goes from {:.6g} s back to {:.6g} s",
-                                       movement.frames.back().time, frame.time),
-                           "Correct it, or delete the line: missing frames are bridged.");
-            continue;
-        }
-        movement.frames.push_back(std::move(frame));
-    }
-    if (!problems.has_errors() && movement.frames.size() < 10) {
-        problems.error({file, line_number}, "",
-                       fmt::format("has only {} frames", movement.frames.size()),
-                       "A movement needs at least 10.");
-    }
-    if (!problems.has_errors()) check_extent(movement, problems);
     diagnostics.add(problems.problems());
     return movement;
+}
+
+void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
+                    Diagnostics& diagnostics) {
+    const Place place{movement.file, 1};
+    std::vector<size_t> chosen;
+    for (const std::string& finger : fingers) {
+        const auto found = std::find(movement.fingers.begin(), movement.fingers.end(), finger);
+        if (found == movement.fingers.end()) {
+            diagnostics.error(place, finger,
+                              fmt::format("the movement has no such finger, but {}",
+                                          fmt::join(movement.fingers, ", ")),
+                              "Name the columns as the scene names its fingers.");
+        } else {
+            chosen.push_back(static_cast<size_t>(found - movement.fingers.begin()));
+        }
+    }
+    if (chosen.size() < fingers.size()) return;
+    for (const std::string& finger : movement.fingers) {
+        if (std::find(fingers.begin(), fingers.end(), finger) == fingers.end()) {
+            diagnostics.warning(place, finger, "is no finger of the scene, and is left out",
+                                fmt::format("The scene has {}.", fmt::join(fingers, ", ")));
+        }
+    }
+    const auto pick = [&](auto& list) {
+        auto picked = list;
+        picked.clear();
+        for (const size_t f : chosen) picked.push_back(list[f]);
+        list = std::move(picked);
+    };
+    pick(movement.fingers);
+    pick(movement.columns);
+    for (Movement::Frame& frame : movement.frames) pick(frame.p_WH);
 }
 
 }  // namespace dihaptic::hand

@@ -22,6 +22,9 @@ constexpr auto enum_names(RecordingAxes) {
 struct Movement {
     std::string file;
     std::vector<std::string> fingers;
+    /// The file's columns, those of positions by finger and world axis: what messages call a value.
+    std::string time_column;
+    std::vector<std::array<std::string, 3>> columns;
     struct Frame {
         double time = 0;         ///< as in the file [s]
         int line = 0;            ///< of the file
@@ -31,8 +34,19 @@ struct Movement {
     std::vector<Frame> frames;
 };
 
+/// A recording keeps to these. Beyond them a time stamp is wrong, or its unit.
+constexpr double kLongestGap = 5;         // between two lines [s]
+constexpr double kLongestMovement = 600;  // [s]
+constexpr double kSlowestTracker = 10;    // [Hz]
+constexpr double kFastestTracker = 5000;  // [Hz]
+
 /// Reads a recording. Lines that no reader could make sense of are errors in `diagnostics`, each
 /// with its line and remedy; cells without a number are kept as NaN, for repair.
 Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics);
+
+/// Keeps the fingers named, in that order. Those that the movement lacks are errors in
+/// `diagnostics`, those that are left over warnings.
+void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
+                    Diagnostics& diagnostics);
 
 }  // namespace dihaptic::hand

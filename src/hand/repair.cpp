@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/field.h"
 #include "model/butterworth.h"
@@ -15,6 +16,7 @@ constexpr double kGap = 1.75;  // frames further apart than this many frame time
 constexpr size_t kFrozenRun = 5;       // as many equal positions in a row, and then a step: frozen
 constexpr double kFrozenStep = 0.003;  // [m]
 constexpr size_t kWildRun = 5;         // a wild position may last so many frames
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double frame_time(const Movement& movement) {
     std::vector<double> steps;
@@ -36,8 +38,9 @@ class FingerRepair {
 
     void run(std::vector<Fault>& faults) {
         drop_missing(faults);
-        drop_frozen(faults);
+        // wild ones first: a step to one is no sign that the marker had been frozen before it
         drop_wild(faults);
+        drop_frozen(faults);
         widen_jumps(faults);
     }
     const std::vector<char>& valid() const { return valid_; }
@@ -70,10 +73,18 @@ class FingerRepair {
         fault.line = movement_.frames[first].line;
         const size_t before = last_valid(first);
         const size_t after = std::min(end, valid_.size() - 1);
+        const bool both_sides = before != first && end < valid_.size();
         fault.start = time(before);
         fault.end = time(after);
-        fault.distance = (at(after) - at(before)).norm();
+        fault.distance = both_sides ? (at(after) - at(before)).norm() : kNaN;
         fault.wrong_unit = wrong_unit;
+        if (kind == FaultKind::wild_position) {
+            Vec3::Index axis = 0;
+            const Vec3 off = at(first) - at(before != first ? before : after);
+            fault.value = off.cwiseAbs().maxCoeff(&axis);
+            fault.column =
+                movement_.columns[static_cast<size_t>(finger_)][static_cast<size_t>(axis)];
+        }
         faults.push_back(fault);
     }
 
@@ -91,7 +102,7 @@ class FingerRepair {
         for (size_t i = 0; i + 1 < valid_.size();) {
             size_t end = i + 1;
             bool told = false;
-            for (; end < valid_.size() && valid_[i] && at(end) == at(i); ++end) {
+            for (; end < valid_.size() && valid_[i] && valid_[end] && at(end) == at(i); ++end) {
                 if (movement_.frames[end].occluded) told = true;
             }
             const size_t run = end - i;
@@ -105,25 +116,63 @@ class FingerRepair {
         }
     }
 
-    /// Positions that no hand could have reached, and that the next frames take back.
+    /// Positions that no hand could have reached, and that the next frames take back. At the ends
+    /// of the recording there is only one side: the few frames there are wild when all others go
+    /// on elsewhere.
     void drop_wild(std::vector<Fault>& faults) {
-        for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
+        const size_t n = valid_.size();
+        for (size_t i = next_valid(next_valid_from(0)); i < n; i = next_valid(i)) {
             const size_t before = last_valid(i);
             if (before == i || plausible(before, i)) continue;
-            size_t wild = i;
-            size_t back = next_valid(i);
-            for (size_t n = 1; n < kWildRun && back < valid_.size() && plausible(wild, back); ++n) {
-                wild = back;
-                back = next_valid(back);
-            }
-            // it must jump back too: what goes on from the new place is a jump
-            if (back >= valid_.size() || plausible(wild, back) || !plausible(before, back))
+            if (const size_t back = taken_back(before, i); back < n) {
+                drop(faults, i, back, before);
                 continue;
-            const bool thousandth = at(i).norm() < 2e-3 * at(before).norm() &&
-                                    at(i).norm() > 0.5e-3 * at(before).norm();
-            for (size_t j = i; j < back; ++j) valid_[j] = false;
-            report(faults, FaultKind::wild_position, i, back, thousandth);
+            }
+            const size_t first = next_valid_from(0);
+            if (const size_t count = usable(first, i); count <= kWildRun && together(i) > count) {
+                drop(faults, first, i, i);
+            } else if (usable(i, n) <= kWildRun) {
+                drop(faults, i, n, before);
+            }
         }
+    }
+    /// The frame after i from which a hand at `before` could go on; the end when there is none.
+    size_t taken_back(size_t before, size_t i) const {
+        size_t last = i;
+        size_t back = next_valid(i);
+        for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
+            // it must jump back too: what goes on from the new place is a jump
+            if (!plausible(last, back) && plausible(before, back)) return back;
+            last = back;
+            back = next_valid(back);
+        }
+        return valid_.size();
+    }
+    size_t next_valid_from(size_t i) const {
+        return i < valid_.size() && valid_[i] ? i : next_valid(i);
+    }
+    size_t usable(size_t first, size_t end) const {
+        return static_cast<size_t>(std::count(valid_.begin() + static_cast<std::ptrdiff_t>(first),
+                                              valid_.begin() + static_cast<std::ptrdiff_t>(end),
+                                              char{1}));
+    }
+    /// How many frames, from i on, no implausible step lies between; no more than matter.
+    size_t together(size_t i) const {
+        size_t count = 1;
+        for (size_t next = next_valid(i);
+             count <= kWildRun && next < valid_.size() && plausible(i, next);
+             next = next_valid(i)) {
+            i = next;
+            ++count;
+        }
+        return count;
+    }
+    /// Frames [first, end) are wild; `beside` is a good one next to them.
+    void drop(std::vector<Fault>& faults, size_t first, size_t end, size_t beside) {
+        const bool thousandth = at(first).norm() < 2e-3 * at(beside).norm() &&
+                                at(first).norm() > 0.5e-3 * at(beside).norm();
+        for (size_t j = first; j < end; ++j) valid_[j] = false;
+        report(faults, FaultKind::wild_position, first, end, thousandth);
     }
 
     /// A step from one place to another: give it time, frame by frame on both sides.
@@ -273,9 +322,13 @@ Path repair(const Movement& movement) {
 std::string describe(const Fault& fault, const std::vector<std::string>& fingers) {
     const std::string who =
         fault.finger < 0 ? "" : fingers[static_cast<size_t>(fault.finger)] + ": ";
-    std::string text = fmt::format("{:.3f} to {:.3f} s (line {}): {}{}, {:.0f} ms, {:.1f} mm apart",
-                                   fault.start, fault.end, fault.line, who, enum_name(fault.kind),
-                                   (fault.end - fault.start) * 1e3, fault.distance * 1e3);
+    std::string text = fmt::format("{:.3f} to {:.3f} s: {}{}, {:.0f} ms", fault.start, fault.end,
+                                   who, enum_name(fault.kind), (fault.end - fault.start) * 1e3);
+    if (!fault.column.empty() && std::isfinite(fault.value)) {
+        text += fmt::format(", {} is off by {:.5g} mm", fault.column, fault.value * 1e3);
+    }
+    if (std::isfinite(fault.distance))
+        text += fmt::format(", {:.1f} mm apart", fault.distance * 1e3);
     if (fault.wrong_unit)
         text += "; its values are a thousandth of their neighbours': metres? multiply them by 1000";
     return text;

@@ -19,10 +19,12 @@ constexpr auto enum_names(FaultKind) {
 struct Fault {
     FaultKind kind = FaultKind::missing_frames;
     int finger = -1;          ///< -1: all
-    double start = 0;         ///< file's time of the last good frame before it [s]
-    double end = 0;           ///< file's time of the first good frame after it [s]
+    double start = 0;         ///< file's time of the last good frame before it, or its own [s]
+    double end = 0;           ///< file's time of the first good frame after it, or its own [s]
     int line = 0;             ///< of the file, where it begins
-    double distance = 0;      ///< between the good frames on both sides [m]
+    double distance = 0;      ///< between the good frames on both sides; NaN at an end [m]
+    std::string column;       ///< of a wild position: where it is furthest off, as in the file
+    double value = 0;         ///< ... and by how much [m]
     bool wrong_unit = false;  ///< the position is a thousandth of its neighbours': likely in metres
 };
 
@@ -45,6 +47,9 @@ constexpr double kBridgeSpeed = 1.0;  // a bridge is widened until it is crossed
 constexpr double kSmoothing = 12.0;   // zero-phase low-pass of the repaired path [Hz]
 
 Path repair(const Movement& movement);
+
+/// Above this share a movement is more guessed than measured: worth a warning.
+constexpr double kMuchBridged = 0.5;
 
 /// "0.412 to 0.624 s: index: frozen marker ...": for people.
 std::string describe(const Fault& fault, const std::vector<std::string>& fingers);

@@ -31,11 +31,28 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
                                         [&](const FingerPlace& f) { return f.name == place.name; });
         if (found == fingers_.end()) {
             throw Error(
+                place.place, "name",
                 fmt::format("the hand's finger '{}' is not among the scene's fingers", place.name),
                 fmt::format("Known: {}.", fmt::join(fingers, ", ")));
         }
+        if (const auto same = std::count_if(spec.fingers.begin(), spec.fingers.end(),
+                                            [&](const auto& f) { return f.name == place.name; });
+            same > 1) {
+            throw Error(place.place, "name", fmt::format("'{}' is given twice", place.name),
+                        "Keep one of the two.");
+        }
+        if (fingers.size() > 1 && place.side.norm() == 0) {
+            throw Error(place.place, "side", fmt::format("'{}' has no direction", place.name),
+                        "Write where it is from the hand's centre, e.g. side: [-1, 0, 0].");
+        }
         *found = place;
         if (found->side.norm() > 0) found->side.normalize();
+    }
+    if (spec.tremor.low > spec.tremor.high) {
+        throw Error(spec.place, "tremor",
+                    fmt::format("its band goes from {:g} Hz down to {:g} Hz", spec.tremor.low,
+                                spec.tremor.high),
+                    "Give the lower frequency as low_Hz.");
     }
     double time = 0;
     double aperture = spec.aperture;
@@ -54,6 +71,11 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
         time += step.duration;
         aperture = segment.aperture1;
         centre = segment.centre1;
+    }
+    if (time > kLongestScript) {
+        throw Error(spec.place, "script",
+                    fmt::format("lasts {:.6g} s, where {:g} s are the most", time, kLongestScript),
+                    "Make it several experiments.");
     }
     if (segments_.empty()) {
         Segment rest;

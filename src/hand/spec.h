@@ -8,6 +8,10 @@
 
 namespace dihaptic::hand {
 
+/// What a script may ask for. Beyond, a unit is wrong.
+constexpr double kLongestScript = 3600;  // [s]
+constexpr double kFarthest = 100;        // [m]
+
 /// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The
 /// spring stiffens with the force that the finger feels, as muscle does.
 struct Impedance {
@@ -15,14 +19,16 @@ struct Impedance {
     double stiffness = 300;          ///< [N/m]
     double damping = 3;              ///< [N*s/m]
     double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
+    Place place{};                   ///< in the file; the same below
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("mass", mass, Field::of(Quantity::mass).at_least(0));
+        v("mass", mass, Field::of(Quantity::mass).within(0, 100));
         v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
         v("stiffness_per_force", stiffness_per_force,
           Field::of(Quantity::stiffness_per_force).at_least(0));
+        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -35,9 +41,9 @@ struct TremorSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("amplitude", amplitude, Field::length().at_least(0));
-        v("low", low, Field::of(Quantity::frequency).positive());
-        v("high", high, Field::of(Quantity::frequency).positive());
+        v("amplitude", amplitude, Field::length().within(0, 0.1));
+        v("low", low, Field::of(Quantity::frequency).positive().at_most(500));
+        v("high", high, Field::of(Quantity::frequency).positive().at_most(500));
     }
 };
 
@@ -46,12 +52,14 @@ struct FingerPlace {
     std::string name;
     Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
     Vec3 offset = Vec3::Zero();  ///< added in world axes [m]
+    Place place{};
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
         v("side", side);
-        v("offset", offset, Field::length());
+        v("offset", offset, Field::length().within(-kFarthest, kFarthest));
+        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -67,9 +75,10 @@ struct ScriptStep {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
-        v("duration", duration, Field::of(Quantity::time).positive().required());
-        v("aperture", aperture, Field::length());
-        v("move", move, Field::length());
+        v("duration", duration,
+          Field::of(Quantity::time).positive().at_most(kLongestScript).required());
+        v("aperture", aperture, Field::length().within(0, kFarthest));
+        v("move", move, Field::length().within(-kFarthest, kFarthest));
         v("steady", steady);
     }
 };
@@ -81,15 +90,17 @@ struct HandSpec {
     double aperture = 0.1;             ///< at the start [m]
     std::vector<FingerPlace> fingers;  ///< empty: thumb at -x and index at +x
     std::vector<ScriptStep> script;
+    Place place{};
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("impedance", impedance);
         v("tremor", tremor);
-        v("centre", centre, Field::length());
-        v("aperture", aperture, Field::length().at_least(0));
+        v("centre", centre, Field::length().within(-kFarthest, kFarthest));
+        v("aperture", aperture, Field::length().within(0, kFarthest));
         v("fingers", fingers);
         v("script", script);
+        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -17,7 +17,7 @@ struct Device {
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
         v("backend", backend, Field::text().required());
-        v("position", position, Field::length());
+        v("position", position, Field::length().within(-100, 100));
         v("rotation", rotation, Field::of(Quantity::angle));
         v("options", options);
         if constexpr (requires { v.place(); }) place = v.place();

@@ -7,6 +7,9 @@ namespace dihaptic::scene {
 Hull convex_hull(std::span<const Vec3> points) {
     Hull hull;
     if (points.size() < 4) return hull;
+    for (const Vec3& point : points) {
+        if (!point.allFinite()) return hull;
+    }
     btConvexHullComputer computer;
     computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
     // the computer rounds coordinates; the points themselves are exact
@@ -23,6 +26,7 @@ Hull convex_hull(std::span<const Vec3> points) {
         } while (edge != first);
         hull.faces.push_back(std::move(face));
     }
+    if (hull.vertices.empty()) return hull;
     Vec3 low = hull.vertices.front();
     Vec3 high = low;
     for (const Vec3& v : hull.vertices) {

@@ -1,7 +1,9 @@
 #include "scene/scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -37,17 +39,24 @@ std::vector<Finger> default_fingers() {
     return {thumb, index};
 }
 
-void load_mesh(Shape& shape, const std::string& folder, const Place& place,
-               Diagnostics& diagnostics) {
+void load_mesh(Shape& shape, const std::string& folder, Diagnostics& diagnostics) {
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
     const std::string file =
         (std::filesystem::path(folder) / shape.file).lexically_normal().string();
+    const Place& place = shape.file_place;
     try {
         const Mesh mesh = read_mesh(file, metres(shape.unit), place);
         shape.hull = convex_hull(mesh.vertices);
         if (shape.hull.faces.empty()) {
-            diagnostics.error(place, "file", "the mesh " + file + " is flat: it encloses no volume",
+            diagnostics.error(place, "file",
+                              "the mesh " + file +
+                                  " encloses no volume: its vertices lie in a plane or on a line",
                               "Give it some thickness.");
+            return;
+        }
+        if (const double size = extent(shape); size < kSmallest || size > kLargest) {
+            diagnostics.error(place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
+                              "Give the unit of its coordinates: m, cm or mm.");
             return;
         }
         const double solid = integrate(mesh.vertices, mesh.faces).volume;
@@ -84,8 +93,15 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
     if (body.fixed) return;
     if (!body.mass && !body.density) {
+        if (body.weighed) return;  // what is wrong with it has been said
         diagnostics.error(body.place, body.name, "has neither mass nor density",
                           "Add mass_g or density_g_cm3, or fixed: yes.");
+        return;
+    }
+    const bool has_volume = body.shape.kind != ShapeKind::mesh || !body.shape.hull.faces.empty();
+    if (has_volume && (mass(body) < kLightest || mass(body) > kHeaviest)) {
+        diagnostics.error(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
+                          "Check the units of its size and its density.");
         return;
     }
     if (mass(body) > kImplausibleMass) {
@@ -103,6 +119,14 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
     std::set<std::string> names;
     const auto check = [&](const std::string& name, const Place& place) {
+        // names become parts of paths, in the session's folder and in its NWB file
+        const bool bad = name.starts_with('.') || name.find_first_of("/\\") != std::string::npos ||
+                         std::any_of(name.begin(), name.end(),
+                                     [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+        if (bad) {
+            diagnostics.error(place, "name", fmt::format("'{}' cannot be a name", name),
+                              "Use letters, digits, blanks, '-' and '_'.");
+        }
         if (!name.empty() && !names.insert(name).second) {
             diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),
                               "Give each body and finger a name of its own.");
@@ -110,23 +134,88 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
     };
     for (const Body& body : scene.bodies) check(body.name, body.place);
     for (const Finger& finger : scene.fingers) check(finger.name, finger.place);
+    // "thumb_proxy" has a position, and so has the thumb's proxy: both would be
+    // thumb_proxy_position
+    for (const Body& body : scene.bodies) {
+        std::vector<std::string> taken;
+        for (const Finger& finger : scene.fingers) {
+            for (const char* part : {"_device", "_handle", "_proxy"})
+                taken.push_back(finger.name + part);
+        }
+        for (const Body& other : scene.bodies) taken.push_back(other.name + "_angular");
+        if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
+            diagnostics.error(
+                body.place, "name",
+                fmt::format("'{}' is what recordings call a part of another", body.name),
+                "Choose another name.");
+        }
+    }
+}
 
-    const std::vector<std::string> known(names.begin(), names.end());
+void check_references(const Scene& scene, Diagnostics& diagnostics) {
+    std::vector<std::string> known = finger_names(scene);
+    for (const Body& body : scene.bodies) known.push_back(body.name);
     const auto must_exist = [&](const std::string& name, const char* key, const Place& place) {
-        if (names.contains(name)) return;
+        if (std::find(known.begin(), known.end(), name) != known.end()) return;
         const std::string guess = nearest(name, known);
         diagnostics.error(place, key, fmt::format("there is no body or finger '{}'", name),
-                          guess.empty() ? "" : fmt::format("Did you mean {}?", guess));
+                          guess.empty() ? fmt::format("There are {}.", fmt::join(known, ", "))
+                                        : fmt::format("Did you mean {}?", guess));
     };
+    std::set<std::pair<std::string, std::string>> pairs;
     for (const PairFriction& pair : scene.pairs) {
+        for (const std::string& name : pair.between) must_exist(name, "between", pair.place);
         if (pair.between.size() != 2) {
             diagnostics.error(pair.place, "between", "must be two names",
                               "Write between: [block, thumb].");
+            continue;
         }
-        for (const std::string& name : pair.between) must_exist(name, "between", pair.place);
+        const auto& [a, b] = std::minmax(pair.between[0], pair.between[1]);
+        if (a == b) {
+            diagnostics.error(pair.place, "between", fmt::format("'{}' cannot touch itself", a),
+                              "Name two different bodies or fingers.");
+        } else if (!pairs.insert({a, b}).second) {
+            diagnostics.error(pair.place, "between",
+                              fmt::format("the pair of {} and {} is given twice", a, b),
+                              "Keep one of the two.");
+        }
     }
-    if (!scene.object.empty() && scene.find(scene.object) < 0)
-        must_exist(scene.object, "object", {});
+    if (scene.object.empty()) return;
+    if (const int object = scene.find(scene.object); object < 0) {
+        must_exist(scene.object, "object", scene.object_place);
+        if (std::find(known.begin(), known.end(), scene.object) != known.end()) {
+            diagnostics.error(scene.object_place, "object",
+                              fmt::format("'{}' is a finger", scene.object), "Name a body.");
+        }
+    } else if (!scene.bodies[static_cast<size_t>(object)].moves_at_all()) {
+        diagnostics.error(scene.object_place, "object", fmt::format("'{}' is fixed", scene.object),
+                          "Name a body that can move: summaries are about it.");
+    }
+}
+
+/// A body that starts inside a fixed one is pushed out by force, or shot.
+void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
+    constexpr double kDeep = 1e-3;  // [m]
+    for (const Body& body : scene.bodies) {
+        if (!body.moves_at_all()) continue;
+        for (const Body& fixed : scene.bodies) {
+            if (fixed.moves_at_all()) continue;
+            double deepest = 0;
+            const auto sink = [&](const Body& of, const Body& in) {
+                for (const Vec3& p : marks(of.shape)) {
+                    deepest =
+                        std::max(deepest, depth(in.shape, in.pose().inverse() * (of.pose() * p)));
+                }
+            };
+            sink(body, fixed);
+            sink(fixed, body);
+            if (deepest < kDeep) continue;
+            diagnostics.warning(body.place, body.name,
+                                fmt::format("starts {:.3g} mm deep inside {}, which is fixed",
+                                            deepest * 1e3, fixed.name),
+                                "Move it, or expect it to be pushed out.");
+        }
+    }
 }
 
 }  // namespace
@@ -170,18 +259,24 @@ double mass(const Body& body) {
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
     if (scene.fingers.empty()) scene.fingers = default_fingers();
     for (Body& body : scene.bodies) {
-        load_mesh(body.shape, folder, body.place, diagnostics);
+        load_mesh(body.shape, folder, diagnostics);
         check_body(body, diagnostics);
     }
     for (Finger& finger : scene.fingers) {
-        load_mesh(finger.shape, folder, finger.place, diagnostics);
+        load_mesh(finger.shape, folder, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {
             diagnostics.error(finger.place, "shape", "a finger cannot be a plane",
                               "Use a box, a sphere or a mesh.");
         }
     }
+    if (scene.bodies.empty() && !scene.bodies_place.file.empty() && !diagnostics.has_errors()) {
+        diagnostics.error(scene.bodies_place, "bodies", "there are none",
+                          "List at least one body.");
+    }
     check_names(scene, diagnostics);
+    check_references(scene, diagnostics);
+    if (!diagnostics.has_errors()) check_overlaps(scene, diagnostics);
 }
 
 Scene read_scene(const std::string& file, Diagnostics& diagnostics) {

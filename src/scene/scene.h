@@ -11,6 +11,13 @@
 
 namespace dihaptic::scene {
 
+/// What a scene may hold. Beyond, a unit is wrong, or a body is too light to be simulated with
+/// others.
+constexpr double kLightest = 1e-6;  // [kg]
+constexpr double kHeaviest = 1000;  // [kg]
+constexpr double kFurthest = 100;   // from the world's origin [m]
+constexpr double kMostFriction = 100;
+
 /// A set of world axes: x is 1, y is 2, z is 4.
 enum class Axes { none, x, y, xy, z, xz, yz, xyz };
 constexpr auto enum_names(Axes) {
@@ -36,22 +43,26 @@ struct Body {
     Axes turns = Axes::xyz;  ///< world axes that it may turn about: none, one, or xyz
     std::string colour;      ///< "#rrggbb"; empty: the view chooses
     Place place;             ///< in the scene file
+    bool weighed = false;    ///< there is a key for its mass or density, be it one that is wrong
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
         shape.visit(v);
-        v("mass", mass, Field::of(Quantity::mass).positive());
-        v("density", density, Field::of(Quantity::density).positive());
+        v("mass", mass, Field::of(Quantity::mass).within(kLightest, kHeaviest));
+        v("density", density, Field::of(Quantity::density).within(0.01, 1e5));
         v("fixed", fixed);
-        v("position", position, Field::length());
+        v("position", position, Field::length().within(-kFurthest, kFurthest));
         v("rotation", rotation, Field::of(Quantity::angle));
-        v("friction", friction, Field::number().at_least(0));
-        v("torsion_radius", torsion_radius, Field::length().at_least(0));
+        v("friction", friction, Field::number().within(0, kMostFriction));
+        v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
         v("moves", moves);
         v("turns", turns);
         v("colour", colour);
-        if constexpr (requires { v.place(); }) place = v.place();
+        if constexpr (requires { v.place(); }) {
+            place = v.place();
+            weighed = v.mentions("mass") || v.mentions("density");
+        }
     }
 
     Pose pose() const { return {rotation_xyz(rotation), position}; }
@@ -74,9 +85,9 @@ struct Finger {
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
         shape.visit(v);
-        v("mass", mass, Field::of(Quantity::mass).positive());
-        v("friction", friction, Field::number().at_least(0));
-        v("torsion_radius", torsion_radius, Field::length().at_least(0));
+        v("mass", mass, Field::of(Quantity::mass).within(kLightest, kHeaviest));
+        v("friction", friction, Field::number().within(0, kMostFriction));
+        v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
         v("rotation", rotation, Field::of(Quantity::angle));
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -91,7 +102,7 @@ struct PairFriction {
     template <class Visitor>
     void visit(Visitor& v) {
         v("between", between, Field::text().required());
-        v("friction", friction, Field::number().at_least(0).required());
+        v("friction", friction, Field::number().within(0, kMostFriction).required());
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -105,17 +116,27 @@ struct Scene {
     std::string object;  ///< the body that the summary is about; empty: the first that can move
     Node settings;       ///< settings that this scene asks for (servo::Settings)
     Node hand;           ///< how the simulated hand tries the scene out (hand::HandSpec)
+    Place bodies_place;  ///< in the scene file
+    Place object_place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title);
-        v("gravity", gravity, Field::of(Quantity::acceleration));
+        v("gravity", gravity, Field::of(Quantity::acceleration).within(-1000, 1000));
         v("bodies", bodies, Field::text().required());
         v("pairs", pairs);
         v("fingers", fingers);
         v("object", object);
         v("settings", settings);
         v("hand", hand);
+        if constexpr (requires { v.place(); }) {
+            bodies_place = v.place_of("bodies");
+            object_place = v.place_of("object");
+            if (v.mentions("fingers") && fingers.empty()) {
+                v.diagnostics().error(v.place_of("fingers"), "fingers", "there are none",
+                                      "List one at least, or leave it out: thumb and index.");
+            }
+        }
     }
 
     /// Index of the named body, or -1.

@@ -1,5 +1,7 @@
 #include "scene/shape.h"
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace dihaptic::scene {
@@ -65,6 +67,62 @@ VolumeIntegrals integrate(const Shape& shape) {
             return integrate(shape.hull.vertices, shape.hull.faces);
     }
     return {};
+}
+
+double depth(const Shape& shape, const Vec3& p_B) {
+    const double across = std::hypot(p_B.x(), p_B.y());
+    switch (shape.kind) {
+        case ShapeKind::box:
+            return (shape.size / 2 - p_B.cwiseAbs()).minCoeff();
+        case ShapeKind::sphere:
+            return shape.radius - p_B.norm();
+        case ShapeKind::cylinder:
+            return std::min(shape.radius - across, shape.length / 2 - std::abs(p_B.z()));
+        case ShapeKind::capsule:
+            return shape.radius -
+                   std::hypot(across, std::max(0.0, std::abs(p_B.z()) - shape.length / 2));
+        case ShapeKind::plane:
+            return -p_B.z();
+        case ShapeKind::mesh: {
+            double least = std::numeric_limits<double>::infinity();
+            for (const std::vector<int>& face : shape.hull.faces) {
+                const auto at = [&](size_t i) -> const Vec3& {
+                    return shape.hull.vertices[static_cast<size_t>(face[i])];
+                };
+                const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+                least = std::min(least, normal.dot(at(0) - p_B));
+            }
+            return shape.hull.faces.empty() ? -1 : least;
+        }
+    }
+    return -1;
+}
+
+std::vector<Vec3> marks(const Shape& shape) {
+    std::vector<Vec3> out;
+    if (shape.kind == ShapeKind::plane) return out;
+    if (shape.kind == ShapeKind::mesh) {
+        out = shape.hull.vertices;
+        if (!out.empty()) out.push_back(integrate(shape).centre);
+        return out;
+    }
+    out.emplace_back(Vec3::Zero());
+    if (shape.kind == ShapeKind::box) {
+        for (int i = 0; i < 8; ++i) {
+            out.emplace_back(shape.size.cwiseProduct(
+                Vec3((i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2 & 1) - 0.5)));
+        }
+        return out;
+    }
+    const double along = shape.kind == ShapeKind::sphere    ? shape.radius
+                         : shape.kind == ShapeKind::capsule ? shape.length / 2 + shape.radius
+                                                            : shape.length / 2;
+    for (const double side : {-1.0, 1.0}) {
+        out.emplace_back(side * shape.radius, 0, 0);
+        out.emplace_back(0, side * shape.radius, 0);
+        out.emplace_back(0, 0, side * along);
+    }
+    return out;
 }
 
 double extent(const Shape& shape) {

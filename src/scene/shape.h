@@ -3,7 +3,9 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
+#include "base/diagnostics.h"
 #include "base/field.h"
 #include "base/geometry.h"
 #include "scene/hull.h"
@@ -21,6 +23,10 @@ constexpr auto enum_names(MeshUnit) {
     return std::array{"m", "cm", "mm"};
 }
 
+/// What lengths, radii and meshes may measure. Beyond, contacts are lost in rounding [m].
+constexpr double kSmallest = 1e-4;
+constexpr double kLargest = 100;
+
 /// A shape in the frame of its body B. Boxes, spheres, capsules and cylinders are centred on B's
 /// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is where its
 /// file puts it.
@@ -31,28 +37,30 @@ struct Shape {
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
     std::string file;          ///< mesh: OBJ, STL or PLY, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    Hull hull;  ///< mesh: its convex hull, loaded [m]
+    Hull hull;         ///< mesh: its convex hull, loaded [m]
+    Place file_place;  ///< mesh: where its file is named
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("shape", kind, Field::text().required());
         switch (kind) {
             case ShapeKind::box:
-                v("size", size, Field::length().positive().required());
+                v("size", size, Field::length().within(kSmallest, kLargest).required());
                 break;
             case ShapeKind::sphere:
-                v("radius", radius, Field::length().positive().required());
+                v("radius", radius, Field::length().within(kSmallest, kLargest).required());
                 break;
             case ShapeKind::capsule:
             case ShapeKind::cylinder:
-                v("radius", radius, Field::length().positive().required());
-                v("length", length, Field::length().positive().required());
+                v("radius", radius, Field::length().within(kSmallest, kLargest).required());
+                v("length", length, Field::length().within(kSmallest, kLargest).required());
                 break;
             case ShapeKind::plane:
                 break;
             case ShapeKind::mesh:
                 v("file", file, Field::text().required());
                 v("unit", unit, Field::text().required());
+                if constexpr (requires { v.place(); }) file_place = v.place_of("file");
                 break;
         }
     }
@@ -63,6 +71,12 @@ struct Shape {
 
 /// Volume integrals of the shape, of unit density. A plane has none (zero volume).
 VolumeIntegrals integrate(const Shape& shape);
+
+/// How deep a point of B lies below the surface; negative outside [m].
+double depth(const Shape& shape, const Vec3& p_B);
+/// Points of the shape that stand for it: its centre and its corners, or its furthest points along
+/// the axes. A plane has none.
+std::vector<Vec3> marks(const Shape& shape);
 
 /// Largest extent of the shape along any axis [m]; 0 for a plane.
 double extent(const Shape& shape);

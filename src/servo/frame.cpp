@@ -14,7 +14,8 @@ StatusText describe(Status bit) {
                     "soften the coupling, touch more slowly, or raise settings: safety: "
                     "max_force_rate_N_s"};
         case kNotFinite:
-            return {"a force was not a number, and all force was switched off",
+            return {"the simulation diverged: a force or a position was not a number",
+                    "do not use this session; look for an extreme mass, stiffness or damping, or "
                     "report the session's folder as a bug"};
         case kOutsideWorkspace:
             return {"a handle left its device's workspace",

@@ -142,6 +142,9 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.f_sent_W = outputs_[i].f_H_W;
         out.f_contact_W = touch.f_P_W;
         out.normal_force = touch.normal_force;
+        const bool finite = out.p_WH.allFinite() && out.v_WH.allFinite() && out.p_WP.allFinite() &&
+                            out.v_WP.allFinite();
+        if (!finite) out.status |= kNotFinite;
         frame_.status |= out.status;
     }
     // bodies that were asleep and still are have not changed: only the awake ones are looked at
@@ -152,6 +155,8 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.v_WB = states[i].v_WB;
         out.w_WB = states[i].w_WB;
         out.awake = states[i].awake ? 1 : 0;
+        if (!out.X_WB.p.allFinite() || !out.v_WB.allFinite() || !out.w_WB.allFinite())
+            frame_.status |= kNotFinite;
         frame_.changed.push_back(i);
     };
     frame_.changed.clear();

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <numbers>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "base/random.h"
 #include "base/ring.h"
 #include "base/table.h"
+#include "base/text_file.h"
 #include "testing/files.h"
 
 namespace dihaptic {
@@ -111,6 +113,52 @@ TEST(Table, CsvQuotesWhatItMustAndReadsBack) {
 
 TEST(Table, WritingWhereItCannotSaysSo) {
     EXPECT_THROW(write_file("x", "/nowhere/file.csv"), Error);
+}
+
+TEST(Problem, EndsItsSentencesOnceAndShowsNoControlCharacters) {
+    EXPECT_EQ((Problem{Severity::error, {"f", 2}, "k", "is wrong", "Did you mean x?"}).text(),
+              "f:2: error: k: is wrong. Did you mean x?");
+    EXPECT_EQ((Problem{Severity::warning, {}, "", "is \x1b[31m red.", ""}).text(),
+              "warning: is ?[31m red.");
+}
+
+std::string refusal_of(const std::string& file) {
+    try {
+        read_text_file(file);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(TextFile, IsReadWithoutItsByteOrderMark) {
+    const testing::TemporaryFolder folder;
+    EXPECT_EQ(read_text_file(folder.write("a", "\xef\xbb\xbfgr\xc3\xbc\xc3\x9f\x65\r\n")),
+              "gr\xc3\xbc\xc3\x9f\x65\r\n");
+    EXPECT_EQ(read_text_file(folder.write("empty", "")), "");
+}
+
+TEST(TextFile, SaysWhatIsWrongWithWhatIsNoText) {
+    const testing::TemporaryFolder folder;
+    EXPECT_NE(refusal_of(folder.path()).find("is a folder. Name a file in it."), std::string::npos);
+    EXPECT_NE(refusal_of(folder.file("gone")).find("No such file"), std::string::npos);
+    EXPECT_NE(
+        refusal_of(folder.write("utf16", std::string("\xff\xfet\0i\0", 6))).find("is UTF-16 text"),
+        std::string::npos);
+    EXPECT_NE(
+        refusal_of(folder.write("binary", std::string("PK\3\4\0\0", 6))).find("is not a text file"),
+        std::string::npos);
+    EXPECT_NE(refusal_of(folder.write("latin", "a\nGr\xfc\xdf\x65\n"))
+                  .find("latin:2: error: this line is not UTF-8 text"),
+              std::string::npos);
+}
+
+TEST(TextFile, SaysThatThePermissionIsMissing) {
+    if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    const testing::TemporaryFolder folder;
+    const std::string file = folder.write("secret", "x");
+    std::filesystem::permissions(file, std::filesystem::perms::none);
+    EXPECT_NE(refusal_of(file).find("you have no permission to"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "base/field_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/field_table.h"
@@ -122,7 +123,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name: a\ninner: 3\n", "inner: must have keys of its own"},
         Bad{"name: a\nlist: 3\n", "list: must be a list"},
         Bad{"name: a\nlist: [{stiffness_N_m: 0}]\n", "stiffness_N_m: must be positive, is 0"},
-        Bad{"name: [a]\n", "name: must be a single word or text"}));
+        Bad{"name: [a]\n", "name: must be a single word or text"},
+        Bad{"name: ''\n", "test.yaml:1: error: name: is empty"},
+        Bad{"name: a\ncount:\n", "must be a number, is nothing"}));
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
     const Read in("cuont: 3\nfruit: plum\n");
@@ -177,6 +180,32 @@ TEST(Node, RefusesAKeyGivenTwice) {
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(),
                      "twice.yaml:3: error: a: is given twice. Keep one of the two lines.");
+    }
+}
+
+TEST(Node, RefusesAliasesWithoutEnd) {
+    std::string doubling = "a: &a0 [x, x]\n";
+    for (int i = 0; i < 30; ++i) doubling += fmt::format("a{1}: &a{1} [*a{0}, *a{0}]\n", i, i + 1);
+    for (const std::string& yaml : {std::string("a: &a\n  - *a\n"), doubling}) {
+        try {
+            parse_yaml(yaml, "alias.yaml");
+            FAIL();
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find("is nested too deeply, or too large"),
+                      std::string::npos)
+                << e.what();
+        }
+    }
+}
+
+TEST(Node, RefusesASecondDocument) {
+    try {
+        parse_yaml("a: 1\n---\nb: 2\n", "two.yaml");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("two.yaml:3: error: a second YAML document"),
+                  std::string::npos)
+            << e.what();
     }
 }
 

@@ -1,5 +1,7 @@
 #include "devices/simulated/backend.h"
 
+#include <fmt/format.h>
+
 #include "devices/simulated/plant.h"
 
 namespace dihaptic::devices::simulated {
@@ -27,6 +29,7 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
         info.peak_force = option.peak_force;
         if (option.continuous_force) info.continuous_force = *option.continuous_force;
         info.damping = context.impedance.damping;
+        info.mass = option.mass + context.impedance.mass;
         info.delay = option.delay_ticks * context.tick;
         info.workspace = option.workspace;
         out.push_back(info);
@@ -91,6 +94,16 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
     std::vector<Options> options;
     options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
+    for (const Options& option : options) {
+        if (Plant::holds(option, context.impedance)) continue;
+        diagnostics.error(
+            context.impedance.place, "impedance",
+            fmt::format("the hand is stiffer or more damped than a simulated device of {:g} g can "
+                        "follow",
+                        (option.mass + context.impedance.mass) * 1e3),
+            "A finger has about 300 N/m and 3 N*s/m: check the units.");
+        break;
+    }
     diagnostics.throw_if_errors();
     return std::make_unique<SimulatedGroup>(configs, options, context);
 }

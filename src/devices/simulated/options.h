@@ -32,8 +32,8 @@ struct Options {
     void visit(Visitor& v) {
         v("preset", preset);
         if constexpr (requires { v.diagnostics(); }) *this = of(preset);
-        v("mass", mass, Field::of(Quantity::mass).positive());
-        v("peak_force", peak_force, Field::of(Quantity::force).positive());
+        v("mass", mass, Field::of(Quantity::mass).within(1e-3, 100));
+        v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(1e4));
         v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
         v("position_step", position_step, Field::length().at_least(0));
         v("friction", friction, Field::of(Quantity::force).at_least(0));

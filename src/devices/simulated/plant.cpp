@@ -28,6 +28,13 @@ Plant::Plant(const Options& options, const hand::Impedance& impedance,
       driver_(driver),
       pending_(static_cast<size_t>(options.delay_ticks) + 1, Vec3::Zero()) {}
 
+bool Plant::holds(const Options& options, const hand::Impedance& impedance) {
+    const double h = seconds(kStep);
+    const double mass = options.mass + impedance.mass;
+    const double k = impedance.stiffness + impedance.stiffness_per_force * options.peak_force;
+    return k * h * h + 2 * impedance.damping * h < 4 * mass;
+}
+
 void Plant::reset() {
     time_ = Time(0);
     hand::FingerTarget target = driver_.target(index_, 0);

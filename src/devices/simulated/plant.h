@@ -20,6 +20,11 @@ class Plant {
     Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor,
           uint64_t seed, int finger, const hand::Driver& driver);
 
+    /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
+    /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
+    /// for a + 2 b < 4. k is the stiffness at the device's peak force.
+    static bool holds(const Options& options, const hand::Impedance& impedance);
+
     /// Puts the endpoint at the finger's target, at rest.
     void reset();
     /// Moves on to `now`.

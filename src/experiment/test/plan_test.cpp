@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <sstream>
+
 #include "testing/files.h"
 
 namespace dihaptic::experiment {
@@ -98,8 +101,9 @@ TEST(Plan, ASceneAloneRunsOnIdealDevices) {
 TEST(Plan, WarnsOfStiffnessThatTheLoopCannotHold) {
     Files files;
     files.experiment += "settings: {coupling: {stiffness_N_m: 9000}, rate_Hz: 1000}\n";
-    EXPECT_NE(files.messages().find("warning: coupling.stiffness: 9000 N/m is more than the loop "
-                                    "can hold calmly with simulated plant: about 6000 N/m"),
+    EXPECT_NE(files.messages().find("warning: coupling.stiffness: 9000 N/m is above 6000 N/m (2 b "
+                                    "/ T), up to which the hand's damping of 3 N*s/m surely "
+                                    "keeps simulated plant calm"),
               std::string::npos)
         << files.messages();
     files.experiment =
@@ -107,7 +111,7 @@ TEST(Plan, WarnsOfStiffnessThatTheLoopCannotHold) {
         "1000}\n";
     EXPECT_EQ(files.messages(), "");
     files.rig.replace(files.rig.find("simulated}"), 10, "simulated, options: {delay_ticks: 1}}");
-    EXPECT_NE(files.messages().find("about 2000 N/m"), std::string::npos) << files.messages();
+    EXPECT_NE(files.messages().find("above 2000 N/m"), std::string::npos) << files.messages();
 }
 
 TEST(Plan, WarnsOfAnExplicitSpringThatDiverges) {
@@ -175,6 +179,72 @@ INSTANTIATE_TEST_SUITE_P(
                 f.experiment += "movement: {file: m.csv, axes: world, block: block}\n";
             },
             "m.csv: error: cannot be read"},
+        Bad{"an unknown finger's line",
+            [](Files& f) { f.experiment += "hand:\n  fingers:\n    - {name: pinky}\n"; },
+            "experiment.yaml:5: error: name: the hand's finger"},
+        Bad{"a finger without direction",
+            [](Files& f) { f.experiment += "hand: {fingers: [{name: thumb, side: [0, 0, 0]}]}\n"; },
+            "experiment.yaml:3: error: side: 'thumb' has no direction"},
+        Bad{"a finger given twice",
+            [](Files& f) {
+                f.experiment +=
+                    "hand: {fingers: [{name: thumb, side: [1, 0, 0]}, {name: thumb, "
+                    "side: [1, 0, 0]}]}\n";
+            },
+            "experiment.yaml:3: error: name: 'thumb' is given twice"},
+        Bad{"tremor's band upside down",
+            [](Files& f) { f.experiment += "hand: {tremor: {low_Hz: 20, high_Hz: 10}}\n"; },
+            "experiment.yaml:3: error: tremor: its band goes from 20 Hz down to 10 Hz"},
+        Bad{"negative aperture",
+            [](Files& f) {
+                f.experiment += "hand: {script: [{name: a, duration_s: 1, aperture_mm: -5}]}\n";
+            },
+            "aperture_mm: must be at least 0"},
+        Bad{"endless duration",
+            [](Files& f) { f.experiment += "hand: {script: [{name: a, duration_s: 1e12}]}\n"; },
+            "experiment.yaml:3: error: duration_s: must be above 0 and at most 3600, is 1e12"},
+        Bad{"endless script",
+            [](Files& f) {
+                f.experiment +=
+                    "hand: {script: [{name: a, duration_s: 3600}, {name: b, duration_s: 1}]}\n";
+            },
+            "experiment.yaml:3: error: script: lasts 3601 s, where 3600 s are the most"},
+        Bad{"a hand too damped to simulate",
+            [](Files& f) { f.experiment += "hand: {impedance: {damping_Ns_m: 1e9}}\n"; },
+            "experiment.yaml:3: error: impedance: the hand is stiffer or more damped"},
+        Bad{"a hand too stiff to simulate",
+            [](Files& f) { f.experiment += "hand: {impedance: {stiffness_N_m: 1e9}}\n"; },
+            "the hand is stiffer or more damped than a simulated device of 75 g can follow"},
+        Bad{"absurd coupling damping",
+            [](Files& f) {
+                f.experiment += "settings: {rate_Hz: 1000, coupling: {damping_Ns_m: 1e6}}\n";
+            },
+            "experiment.yaml:3: warning: coupling.damping: 1e+06 N*s/m is more than a handle of 75 "
+            "g can bear: about 150 N*s/m"},
+        Bad{"a force limit beyond the device's",
+            [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
+            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated plant can "
+            "give: 8.5 N"},
+        Bad{"a movement without the scene's index",
+            [](Files& f) {
+                std::istringstream in(testing::read_file("movements/reach-to-grasp.csv"));
+                std::string text, line;
+                while (std::getline(in, line)) {
+                    size_t comma = 0;
+                    for (int i = 0; i < 4; ++i) comma = line.find(',', comma) + 1;
+                    text += line.substr(0, comma - 1) + "\n";
+                }
+                f.folder.write("m.csv", text);
+                f.experiment += "movement: {file: m.csv, axes: y_up, block: block}\n";
+            },
+            "m.csv:1: error: index: the movement has no such finger, but thumb"},
+        Bad{"a grasp after the end",
+            [](Files& f) {
+                f.folder.write("m.csv", testing::read_file("movements/reach-to-grasp.csv"));
+                f.experiment +=
+                    "movement: {file: m.csv, axes: y_up, block: block, grasp_at_s: 99}\n";
+            },
+            "99 s is after the movement's end"},
         Bad{"movement's block is no box",
             [](Files& f) {
                 f.experiment += "movement: {file: m.csv, axes: world, block: ball}\n";
@@ -187,6 +257,66 @@ TEST(Plan, SetWithoutValueSaysHow) {
     Request request = files.request();
     request.set = {"coupling.stiffness_N_m"};
     EXPECT_THROW(make_plan(request), Error);
+}
+
+TEST(Plan, SetIsAnsweredInItsOwnTerms) {
+    Files files;
+    Request request = files.request();
+    const auto said = [&](const std::string& set) -> std::string {
+        request.set = {set};
+        try {
+            make_plan(request);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(said("coupling=3"),
+              "command line: error: coupling: must have keys of its own. Name one of them: "
+              "coupling.KEY=VALUE.");
+    EXPECT_EQ(said("coupling.stiffness_N_m=[1"),
+              "--set: error: coupling.stiffness_N_m=[1: its value cannot be read. Write --set "
+              "coupling.stiffness_N_m=600.");
+}
+
+/// What check says of a movement, a line a problem.
+std::string said_of_movement(const std::function<void(std::string&)>& change) {
+    const testing::TemporaryFolder folder;
+    std::string text = testing::read_file("movements/reach-to-grasp.csv");
+    change(text);
+    Diagnostics diagnostics;
+    check_file(folder.write("m.csv", text), diagnostics);
+    std::string all;
+    for (const Problem& p : diagnostics.problems()) all += p.text() + "\n";
+    return all;
+}
+
+TEST(CheckFile, TellsOfFingersOfAMovementThatNobodyKnows) {
+    const std::string said = said_of_movement([](std::string& text) {
+        for (size_t at = 0; (at = text.find("thumb", at)) != std::string::npos;)
+            text.replace(at, 5, "thmub");
+    });
+    EXPECT_NE(said.find("m.csv:1: warning: thmub: is no usual name of a finger. Did you mean "
+                        "thumb?"),
+              std::string::npos)
+        << said;
+}
+
+TEST(CheckFile, TellsOfAMovementThatIsMostlyBridged) {
+    const std::string said = said_of_movement([](std::string& text) {
+        // after a while, one frame in twelve
+        std::istringstream in(text);
+        std::string line, thin;
+        for (int i = 0; std::getline(in, line); ++i) {
+            if (i > 120 && i % 12 != 0) line.replace(line.find(','), std::string::npos, ",,,,,,,0");
+            thin += line + "\n";
+        }
+        text = thin;
+    });
+    EXPECT_NE(said.find("% of the movement is bridged: more guessed than measured"),
+              std::string::npos)
+        << said;
+    EXPECT_EQ(said.find("nan mm"), std::string::npos) << said;
 }
 
 TEST(Plan, AMovementNeedsAnExperimentThatKnowsWhatToDoWithIt) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "scene/mesh.h"
@@ -167,7 +168,107 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: block, shape: box, size_mm: [4, 4, 4], mass_g: 1}\nobject: blok\n",
             "Did you mean block?"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [4, 4, 4], mass_g: 1, friction: -1}\n",
-            "friction: must be at least 0"}));
+            "friction: must be at least 0"},
+        Bad{"bodies: []\n", "scene.yaml:1: error: bodies: there are none"},
+        Bad{"fingers: []\nbodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "scene.yaml:1: error: fingers: there are none"},
+        Bad{"bodies:\n  - {name: '', shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "scene.yaml:2: error: name: is empty"},
+        Bad{"bodies:\n  - {name: a/b, shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "scene.yaml:2: error: name: 'a/b' cannot be a name"},
+        Bad{"bodies:\n  - {name: .., shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "'..' cannot be a name"},
+        Bad{"bodies:\n  - {name: thumb, shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "'thumb' is used twice"},
+        Bad{"bodies:\n  - {name: thumb_proxy, shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "'thumb_proxy' is what recordings call a part of another"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, fixed: yes}\nobject: b\n",
+            "scene.yaml:3: error: object: 'b' is fixed"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\nobject: something\n",
+            "scene.yaml:3: error: object: there is no body or finger 'something'. There are thumb"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\nobject: thumb\n",
+            "object: 'thumb' is a finger"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\npairs:\n  - {between: "
+            "[b, b], friction: 1}\n",
+            "scene.yaml:4: error: between: 'b' cannot touch itself"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\npairs:\n  - {between: "
+            "[b, thumb], friction: 1}\n  - {between: [thumb, b], friction: 0.5}\n",
+            "scene.yaml:5: error: between: the pair of b and thumb is given twice"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_m: 1e-9, mass_g: 1}\n",
+            "radius_m: must be at least 0.0001 and at most 100, is 1e-9"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1e-30}\n",
+            "mass_g: must be at least 0.001 and at most 1000000, is 1e-30"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1, position_mm: [0, 0, "
+            "1e20]}\n",
+            "position_mm: must be at least -100000 and at most 100000, is 1e20"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 0.1, density_g_cm3: 1}\n",
+            "b: weighs 4.18879e-09 kg"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n---\nbodies: []\n",
+            "scene.yaml:4: error: a second YAML document starts here"}));
+
+TEST(SceneFile, ABadMassIsOneError) {
+    for (const char* mass : {"mass_g: -5", "mass_g: x", "mass: 5", "density_g_cm3: 0"}) {
+        const std::string said = problems_of(
+            std::string("bodies:\n  - {name: b, shape: sphere, radius_mm: 4, ") + mass + "}\n");
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    }
+}
+
+TEST(SceneFile, WarnsOfABodyInsideAFixedOne) {
+    const std::string table =
+        "  - {name: table, shape: box, size_mm: [400, 400, 50], position_mm: [0, 0, -25], fixed: "
+        "yes}\n";
+    const std::string plane = "  - {name: floor, shape: plane, fixed: yes}\n";
+    for (const std::string& fixed : {table, plane}) {
+        const auto said_at = [&](const std::string& block) {
+            return problems_of("bodies:\n" + fixed + "  - {name: block, mass_g: 100, " + block +
+                               "}\n");
+        };
+        EXPECT_EQ(said_at("shape: box, size_mm: [40, 40, 40], position_mm: [0, 0, 20]"), "");
+        EXPECT_EQ(said_at("shape: cylinder, radius_mm: 20, length_mm: 40, position_mm: [0, 0, 20]"),
+                  "");
+        for (const char* sunk :
+             {"shape: box, size_mm: [40, 40, 40]", "shape: sphere, radius_mm: 20",
+              "shape: box, size_mm: [90, 9, 40]", "shape: capsule, radius_mm: 10, length_mm: 20",
+              "shape: cylinder, radius_mm: 10, length_mm: 40"}) {
+            EXPECT_NE(said_at(sunk).find("3: warning: block: starts 20 mm deep inside"),
+                      std::string::npos)
+                << sunk << said_at(sunk);
+        }
+    }
+}
+
+struct BadMesh {
+    const char* obj;
+    const char* says;
+};
+void PrintTo(const BadMesh& bad, std::ostream* out) {
+    *out << bad.says;
+}
+class BadMeshFile : public ::testing::TestWithParam<BadMesh> {};
+TEST_P(BadMeshFile, IsReportedWithWhatIsMissingAtTheLineOfItsFile) {
+    const testing::TemporaryFolder folder;
+    folder.write("m.obj", GetParam().obj);
+    Diagnostics diagnostics;
+    read_scene(folder.write("scene.yaml",
+                            "bodies:\n  - name: m\n    shape: mesh\n    file: m.obj\n    unit: "
+                            "mm\n    density_g_cm3: 1\n"),
+               diagnostics);
+    ASSERT_EQ(diagnostics.problems().size(), 1u);
+    const std::string said = diagnostics.problems()[0].text();
+    EXPECT_NE(said.find("scene.yaml:4: error: file: the mesh"), std::string::npos) << said;
+    EXPECT_NE(said.find(GetParam().says), std::string::npos) << said;
+}
+INSTANTIATE_TEST_SUITE_P(
+    SceneFile, BadMeshFile,
+    ::testing::Values(
+        BadMesh{"v 0 0 0\nv 1 0 0\n", "has 2 vertices ('v') and no faces ('f')"},
+        BadMesh{"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n", "has 4 vertices ('v') and no faces"},
+        BadMesh{"", "has no vertices ('v') and no faces"},
+        BadMesh{"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3\nf 2 3 4\nf 1 3 4\nf 1 2 4\n",
+                "encloses no volume"},
+        BadMesh{"v nan 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+                "m.obj"}));
 
 const char* const kObj =
     "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\n"

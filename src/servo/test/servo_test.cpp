@@ -162,6 +162,18 @@ TEST(Servo, TellsOfHandlesOutsideTheirWorkspace) {
     EXPECT_TRUE(grasp.run(0, 0.1).status & kOutsideWorkspace);
 }
 
+TEST(Servo, TellsThatABodyDiverged) {
+    Grasp grasp;
+    grasp.run(0, 0.05);
+    const Director push = [&](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+        commands.load({dynamics::BodyIndex{1}, {1e300, 0, 0}, Vec3::Zero()});
+    };
+    uint32_t status = 0;
+    for (int i = 0; i < 1000 && (status & kNotFinite) == 0; ++i)
+        status |= grasp.servo->tick(from_seconds(0.05 + 1e-3 * i), push).status;
+    EXPECT_NE(status & kNotFinite, 0u);
+}
+
 TEST(Servo, DynamicsMayBeSlower) {
     Settings settings;
     settings.dynamics.every = 10;

@@ -1,0 +1,16 @@
+// Text files as people hand them in: in any encoding, or no text at all. Everything that this
+// program reads as text goes through here, so that messages about it never show raw bytes.
+#pragma once
+
+#include <string>
+
+namespace dihaptic {
+
+/// The file's text, without a byte order mark. Throws Error when the file is a folder, cannot be
+/// opened, or is not UTF-8 text.
+std::string read_text_file(const std::string& file);
+
+/// A word of a file, short enough to be quoted in a message.
+std::string shortened(const std::string& text);
+
+}  // namespace dihaptic
