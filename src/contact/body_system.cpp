@@ -155,29 +155,6 @@ void BodySystem<Dim>::newton_step(std::span<const Linearised<D>> contacts,
 }
 
 template <int Dim>
-void BodySystem<Dim>::sweep(std::span<Vec> r, int sweeps) noexcept {
-    gather(r);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        for (size_t j = 0; j < rows_.size(); ++j) {
-            const ContactRows& row = rows_[j];
-            Vec u = row.q;
-            if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
-            if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
-            Vec next = r[j];
-            next[0] -= row.law.a_n * u[0];
-            next.template tail<D - 1>() -= row.law.a_t * u.template tail<D - 1>();
-            law::Coulomb::project<D>(row.law, next, j);
-            const Vec change = next - r[j];
-            if (row.a != kFixed)
-                y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * change;
-            if (row.b != kFixed)
-                y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * change;
-            r[j] = next;
-        }
-    }
-}
-
-template <int Dim>
 Eigen::Matrix<double, Dim, Dim> BodySystem<Dim>::delassus_block(size_t j, size_t k) const noexcept {
     Eigen::Matrix<double, D, D> out = Eigen::Matrix<double, D, D>::Zero();
     const ContactRows& row = rows_[j];

@@ -37,8 +37,26 @@ class BodySystem {
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     /// Solves (I + G W) d = -c.
     void newton_step(std::span<const Linearised<D>> contacts, std::span<Vec> d) noexcept;
-    /// Projected Gauss-Seidel on Coulomb's law.
-    void sweep(std::span<Vec> r, int sweeps) noexcept;
+    /// Projected Gauss-Seidel on a law.
+    template <class Law>
+    void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
+        gather(r);
+        for (int sweep = 0; sweep < sweeps; ++sweep) {
+            for (size_t j = 0; j < rows_.size(); ++j) {
+                const ContactRows& row = rows_[j];
+                Vec u = row.q;
+                if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
+                if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+                const Vec before = r[j];
+                law.template relax<D>(row.law, r[j], u, j);
+                const Vec change = r[j] - before;
+                if (row.a != kFixed)
+                    y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * change;
+                if (row.b != kFixed)
+                    y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * change;
+            }
+        }
+    }
     /// Of contacts j (rows) and k (columns).
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
 

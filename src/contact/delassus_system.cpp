@@ -59,16 +59,4 @@ void DelassusSystem::newton_step(std::span<const Linearised<3>> contacts, std::s
     for (size_t j = 0; j < size(); ++j) d[j] = x.segment<3>(3 * static_cast<Eigen::Index>(j));
 }
 
-void DelassusSystem::sweep(std::span<Vec> r, int sweeps) noexcept {
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        for (size_t j = 0; j < size(); ++j) {
-            const auto row = 3 * static_cast<Eigen::Index>(j);
-            const Vec u = W_.middleRows<3>(row) * stacked(r) + q_.segment<3>(row);
-            r[j][0] -= scales_[j].a_n * u[0];
-            r[j].tail<2>() -= scales_[j].a_t * u.tail<2>();
-            law::Coulomb::project<3>(scales_[j], r[j], j);
-        }
-    }
-}
-
 }  // namespace dihaptic::contact

@@ -23,7 +23,18 @@ class DelassusSystem {
 
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
-    void sweep(std::span<Vec> r, int sweeps) noexcept;
+    /// Projected Gauss-Seidel on a law.
+    template <class Law>
+    void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
+        const Eigen::Map<const Eigen::VectorXd> all(r.data()->data(), q_.size());
+        for (int sweep = 0; sweep < sweeps; ++sweep) {
+            for (size_t j = 0; j < size(); ++j) {
+                const auto row = 3 * static_cast<Eigen::Index>(j);
+                const Vec u = W_.middleRows<3>(row) * all + q_.segment<3>(row);
+                law.template relax<3>(scales_[j], r[j], u, j);
+            }
+        }
+    }
     Mat3 delassus_block(size_t j, size_t k) const noexcept {
         return W_.block<3, 3>(3 * static_cast<Eigen::Index>(j), 3 * static_cast<Eigen::Index>(k));
     }

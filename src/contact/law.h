@@ -121,6 +121,14 @@ struct Coulomb {
                            const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
         return natural_map<D>(r, u, scale.mu).squaredNorm();
     }
+    /// A projected step down this contact's own velocity.
+    template <int D>
+    static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+                      const Eigen::Matrix<double, D, 1>& u, size_t contact) noexcept {
+        r[0] -= scale.a_n * u[0];
+        r.template tail<D - 1>() -= scale.a_t * u.template tail<D - 1>();
+        project<D>(scale, r, contact);
+    }
     template <int D>
     static void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r, size_t) noexcept {
         if (r[0] <= 0) {
@@ -159,8 +167,9 @@ struct NormalOnly {
         return error * error;
     }
     template <int D>
-    static void project(const Scale&, Eigen::Matrix<double, D, 1>& r, size_t) noexcept {
-        r[0] = std::max(0.0, r[0]);
+    static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+                      const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
+        r[0] = std::max(0.0, r[0] - scale.a_n * u[0]);
     }
 };
 
@@ -189,6 +198,12 @@ struct FrictionOnly {
         const double length = x.norm();
         if (length > radius) x *= radius / length;
         return (r.template tail<D - 1>() - x).squaredNorm();
+    }
+    template <int D>
+    void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+               const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
+        r.template tail<D - 1>() -= scale.a_t * u.template tail<D - 1>();
+        project<D>(scale, r, contact);
     }
     template <int D>
     void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
@@ -251,10 +266,10 @@ struct Polygonal {
         return error * error + (r.template tail<2>() - on).squaredNorm();
     }
     template <int D>
-    void project(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
-                 size_t contact) const noexcept {
-        r[0] = std::max(0.0, r[0]);
-        const Eigen::Vector2d x = r.template tail<2>();
+    void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+               const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
+        r[0] = std::max(0.0, r[0] - scale.a_n * u[0]);
+        const Eigen::Vector2d x = r.template tail<2>() - scale.a_t * u.template tail<2>();
         r.template tail<2>() = polygon[contact].project(x, scale.mu * r[0]).point;
     }
 };

@@ -60,7 +60,10 @@ double load(const System& system) noexcept {
 }
 
 /// Iterations aim so far below the tolerance that an answer at the edge of it is rare.
-constexpr double kTarget = 0.1;
+constexpr double kTarget = 0.01;
+/// Within tolerance, an iteration that leaves more than this share of the residual is the last:
+/// rounding allows no more.
+constexpr double kStalled = 0.5;
 
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
 /// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
@@ -88,6 +91,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     const size_t n = system.size();
     memory.resize(n);
     Outcome out;
+    double last = std::numeric_limits<double>::infinity();
     const auto judge = [&] {
         system.velocity(r, memory.u);
         const double residual = measure(std::span<const Vec>(r), std::span<const Vec>(memory.u));
@@ -95,7 +99,9 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
             out.residual = residual;
             std::copy(r.begin(), r.end(), memory.best.begin());
         }
-        return residual <= kTarget * tolerance;
+        const bool stalled = residual <= tolerance && residual > kStalled * last;
+        last = residual;
+        return residual <= kTarget * tolerance || stalled;
     };
     const auto linearise = [&](double rho) {
         double error = 0;
@@ -117,7 +123,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         if (out.converged) break;
         if (start.from_zero) {
             for (Vec& impulse : r) impulse.setZero();
-            system.sweep(r, start.sweeps);
+            system.sweep(law, r, start.sweeps);
             if (judge()) {
                 out.converged = true;
                 break;
@@ -140,7 +146,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
             } else if (inner >= kMostSteps || (inner >= kTrialSteps && error > 4 * first) ||
                        !std::isfinite(error)) {
                 std::copy(memory.r_k.begin(), memory.r_k.end(), r.begin());
-                system.sweep(r, kRescueSweeps);
+                system.sweep(law, r, kRescueSweeps);
                 rho = std::min(rho * 10, kMostRho);
                 if (judge()) break;
                 first = restart_proximal(rho);

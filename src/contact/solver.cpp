@@ -60,7 +60,7 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     }
     if (!outcome.converged) {
         stats.fallback = true;
-        system.sweep(r, kLastSweeps);
+        system.sweep(law::Coulomb{}, r, kLastSweeps);
         stats.iterations += kLastSweeps;
         if (cone_residual().largest() > outcome.residual)
             std::copy(newton_memory.best.begin(), newton_memory.best.end(), r.begin());

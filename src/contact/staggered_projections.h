@@ -38,7 +38,8 @@ template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {
     using Vec = typename System::Vec;
-    constexpr double kInnerTolerance = 1e-11;  // of |q|; the outer loop cannot do better
+    constexpr double kInnerTolerance = 1e-10;  // of |q|, a hundredth of it the target
+    constexpr int kPlainIterations = 3;
     const size_t n = system.size();
     const double size = load(system);
     const double inner = kInnerTolerance * size;
@@ -69,18 +70,18 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
             out.residual = residual;
             std::copy(r.begin(), r.end(), memory.best.begin());
         }
-        out.converged = residual <= tolerance;
+        out.converged = out.residual <= tolerance;
         return residual;
     };
     system.velocity(r, memory.newton.u);
     std::copy(r.begin(), r.end(), memory.best.begin());
     judge();
     for (size_t j = 0; j < n; ++j) memory.normal[j] = std::max(0.0, r[j][0]);
-    if (!out.converged) {
+    if (out.residual > kTarget * tolerance) {
         solve(law::NormalOnly{});  // a first guess of the loads, with the friction of the start
         for (size_t j = 0; j < n; ++j) memory.normal[j] = r[j][0];
     }
-    while (!out.converged && out.iterations < most_iterations) {
+    while (out.residual > kTarget * tolerance && out.iterations < most_iterations) {
         ++out.iterations;
         const law::FrictionOnly friction{memory.normal};
         for (size_t j = 0; j < n; ++j) {
@@ -90,10 +91,16 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
         solve(friction);
         solve(law::NormalOnly{});
         const double residual = judge();
-        if (out.converged) break;
+        if (residual <= kTarget * tolerance) break;
+        if (residual <= tolerance && residual > kStalled * last) break;
         if (residual > 2 * last) memory.anderson.forget();
         last = residual;
         for (size_t j = 0; j < n; ++j) memory.image[j] = r[j][0];
+        if (out.iterations <= kPlainIterations) {
+            // Coulomb's law may have several solutions: begin gently, to find the one nearest
+            memory.normal.swap(memory.image);
+            continue;
+        }
         memory.anderson.advance(memory.normal, memory.image);
         for (double& value : memory.normal) value = std::max(0.0, value);
     }

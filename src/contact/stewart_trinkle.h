@@ -99,7 +99,7 @@ class StewartTrinkle {
         const Outcome cone = newton(system_, r, tolerance_, m_.newton);
         out.iterations += cone.iterations;
         aim(r);
-        if (accept(r, StewartTrinkleRoute::cone, out)) return out;
+        if (accept(r, StewartTrinkleRoute::cone, out) || out.converged) return out;
         if constexpr (D == 3) {
             const law::Polygonal law{m_.polygons};
             const Outcome polygon =
@@ -108,7 +108,7 @@ class StewartTrinkle {
                                     return residual(impulse, u).largest();
                                 });
             out.iterations += polygon.iterations;
-            if (accept(r, StewartTrinkleRoute::polygon_newton, out)) return out;
+            if (accept(r, StewartTrinkleRoute::polygon_newton, out) || out.converged) return out;
         }
         lemke(r, out);
         std::copy(m_.best.begin(), m_.best.end(), r.begin());
@@ -235,7 +235,7 @@ class StewartTrinkle {
             std::copy(r.begin(), r.end(), m_.best.begin());
         }
         out.converged = out.residual <= tolerance_;
-        return out.residual <= (route == StewartTrinkleRoute::lemke ? kTarget : 1) * tolerance_;
+        return out.residual <= kTarget * tolerance_;
     }
 
     void fill(double rho, std::span<const double> last) {

@@ -105,6 +105,7 @@ void World::Impl::prepare_contacts() {
             torsion_radius(manifold->getContactPoint(i)) =
                 torsion ? std::max(items[a].torsion_radius, items[b].torsion_radius) : 0;
         }
+        even_out(*manifold);
     }
 }
 
@@ -185,7 +186,6 @@ contact::SolveStats World::Impl::solve_batch(double h) {
         }
         stats.fallback = true;  // too large a group: Bullet's solver grows with it
     }
-    for (btPersistentManifold* manifold : batch_contacts) even_out(*manifold);
     stats.iterations = sequential_impulse.solve(batch_bodies, batch_contacts, settings, h,
                                                 collision->dispatcher());
     stats.residual = problem.judge(batch_contacts);
