@@ -1,4 +1,4 @@
-# A room is a folder of src/: one static library, its headers, and its tests.
+# A room is a folder of src/: one static library, its headers, its tests, and its soaks (`./dev soak`).
 #
 #   dihaptic_room(haptics USES dynamics LINKS Foo::foo)
 #
@@ -11,7 +11,7 @@ function(dihaptic_room name)
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-    list(FILTER sources EXCLUDE REGEX "/test/")
+    list(FILTER sources EXCLUDE REGEX "/(test|soak)/")
     set(room dihaptic_${name})
     if(sources)
         add_library(${room} STATIC ${sources} ${ROOM_SOURCES})
@@ -37,5 +37,12 @@ function(dihaptic_room name)
         target_link_libraries(${name}_test PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
             PROPERTIES LABELS ${name} TIMEOUT 900)
+    endif()
+    file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
+    if(soaks)
+        add_executable(${name}_soak ${soaks})
+        target_link_libraries(${name}_soak PRIVATE ${room} dihaptic_testing)
+        gtest_discover_tests(${name}_soak DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+            PROPERTIES LABELS soak TIMEOUT 7200)
     endif()
 endfunction()

@@ -16,7 +16,9 @@ struct Options {
 };
 
 void add_common(CLI::App& command, Options& options) {
-    command.add_option("--solver", options.solver, "contact solver: sequential_impulse");
+    command.add_option(
+        "--solver", options.solver,
+        "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
     command.add_option("--coupling", options.coupling,
                        "coupling of handle and proxy: implicit, dual_spring");
     command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")
@@ -104,6 +106,8 @@ void add_scale(CLI::App& bench) {
     auto* command =
         bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<Options>();
+    // the bare step beside it is Bullet's
+    options->setup.settings.dynamics.solver = dynamics::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_common(*command, *options);
     command->add_option("--extra", *extras, "numbers of extra blocks")->capture_default_str();

@@ -168,7 +168,9 @@ void add_run(CLI::App& app) {
         "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
     command->add_option("--participant", options->run.participant.id, "participant's identifier");
-    command->add_option("--solver", options->solver, "contact solver: sequential_impulse");
+    command->add_option(
+        "--solver", options->solver,
+        "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
     command->add_option("--coupling", options->coupling,
                         "coupling of handle and proxy: implicit, dual_spring");
     command->add_option("--proxy", "what a finger is in the world: rigid")

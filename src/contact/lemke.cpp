@@ -47,6 +47,7 @@ bool Lemke::solve(int attempt) noexcept {
     const auto n = static_cast<size_t>(n_);
     const size_t z0 = 2 * n;
     const size_t right = 2 * n + 1;
+    const int most_pivots = pivots_ + kPivotsPerVariable * n_;
     double least = 0;
     for (int i = 0; i < n_; ++i) {
         double* r = row(i);
@@ -69,7 +70,7 @@ bool Lemke::solve(int attempt) noexcept {
         if (lexicographically_less(i, -row(i)[z0], leaving, -row(leaving)[z0])) leaving = i;
     }
     int entering = static_cast<int>(z0);
-    for (; pivots_ < kPivotsPerVariable * n_; ++pivots_) {
+    for (; pivots_ < most_pivots; ++pivots_) {
         const int left = basis_[static_cast<size_t>(leaving)];
         pivot(leaving, entering);
         if (left == static_cast<int>(z0)) {

@@ -4,7 +4,7 @@
 // Full steps, no line search. A proximal step is done when its equation's error has fallen by 100;
 // done in few steps, the next has a tenth of the regularisation. One that does not converge is
 // undone, a few projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. When
-// all that takes too long, it starts again from zero impulses, twice, with more of both.
+// all that takes too long, it starts again from zero impulses, with more of both and more patience.
 #pragma once
 
 #include <limits>
@@ -22,17 +22,16 @@ struct Outcome {
     bool converged = false;
 };
 
-/// Natural map of Coulomb's law, relative, in two units: those of the scaled system, in which no
-/// unit counts, and those of the problem as given.
+/// Natural map of a law, relative, in two units: those of the problem as given, and those of the
+/// scaled system, in which no unit counts.
 struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
 
-    /// Within tolerance as given, and by a margin within what units do not change.
-    bool within(double tolerance) const noexcept {
-        return scaled <= tolerance && given <= tolerance;
-    }
-    double largest() const noexcept { return std::max(scaled, given); }
+    /// What tolerances are compared with: as given; and so that small units do not make that easy,
+    /// a hundredth of the other. Not all of it, since loads may be so small that four coplanar
+    /// contacts disagree by more, from rounding in their gaps.
+    double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
 template <class System>
@@ -60,10 +59,11 @@ double load(const System& system) noexcept {
 }
 
 /// Iterations aim so far below the tolerance that an answer at the edge of it is rare.
-constexpr double kTarget = 0.01;
-/// Within tolerance, an iteration that leaves more than this share of the residual is the last:
-/// rounding allows no more.
-constexpr double kStalled = 0.5;
+constexpr double kTarget = 1e-4;
+/// Within tolerance, iterations end when this many of them left more than this share of the
+/// residual: rounding allows no more.
+constexpr double kStalledShare = 0.5;
+constexpr int kStalledIterations = 2;
 
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
 /// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
@@ -71,27 +71,32 @@ constexpr double kStalled = 0.5;
 template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
-                        size_t starts = 3) {
+                        size_t starts = 4) {
     using Vec = typename System::Vec;
     struct Start {
         bool from_zero;
         int sweeps;
         double rho;
         int most_steps;
+        int trial_steps;  // a proximal step is given up when its error is larger then
+        int most_inner;   // or not small after so many
     };
-    constexpr Start kStarts[] = {{false, 0, 1e-3, 40}, {true, 0, 1e-2, 60}, {true, 30, 1e-1, 200}};
+    constexpr Start kStarts[] = {{false, 0, 1e-3, 40, 6, 12},
+                                 {true, 0, 1e-2, 60, 15, 30},
+                                 {true, 30, 1e-1, 200, 40, 40},
+                                 {true, 100, 1e-4, 200, 40, 40}};
+    constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
     constexpr double kLeastRho = 1e-9;
     constexpr double kMostRho = 1.0;
     constexpr double kReduced = 1e-4;  // of the squared error
     constexpr int kFewSteps = 4;
-    constexpr int kMostSteps = 12;
-    constexpr int kTrialSteps = 6;
     constexpr int kRescueSweeps = 5;
 
     const size_t n = system.size();
     memory.resize(n);
     Outcome out;
     double last = std::numeric_limits<double>::infinity();
+    int stalled = 0;
     const auto judge = [&] {
         system.velocity(r, memory.u);
         const double residual = measure(std::span<const Vec>(r), std::span<const Vec>(memory.u));
@@ -99,9 +104,10 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
             out.residual = residual;
             std::copy(r.begin(), r.end(), memory.best.begin());
         }
-        const bool stalled = residual <= tolerance && residual > kStalled * last;
+        if (residual <= tolerance && residual > kStalledShare * last) ++stalled;
         last = residual;
-        return residual <= kTarget * tolerance || stalled;
+        out.converged = residual <= kTarget * tolerance || stalled >= kStalledIterations;
+        return out.converged;
     };
     const auto linearise = [&](double rho) {
         double error = 0;
@@ -118,16 +124,13 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     };
 
     std::copy(r.begin(), r.end(), memory.best.begin());
-    out.converged = judge();
+    judge();
     for (const Start& start : std::span(kStarts).first(starts)) {
         if (out.converged) break;
         if (start.from_zero) {
             for (Vec& impulse : r) impulse.setZero();
             system.sweep(law, r, start.sweeps);
-            if (judge()) {
-                out.converged = true;
-                break;
-            }
+            if (judge()) break;
         }
         double rho = start.rho;
         double first = restart_proximal(rho);
@@ -143,8 +146,8 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
                 if (inner <= kFewSteps) rho = std::max(rho / 10, kLeastRho);
                 first = restart_proximal(rho);
                 inner = 0;
-            } else if (inner >= kMostSteps || (inner >= kTrialSteps && error > 4 * first) ||
-                       !std::isfinite(error)) {
+            } else if (inner >= start.most_inner ||
+                       (inner >= start.trial_steps && error > 4 * first) || !std::isfinite(error)) {
                 std::copy(memory.r_k.begin(), memory.r_k.end(), r.begin());
                 system.sweep(law, r, kRescueSweeps);
                 rho = std::min(rho * 10, kMostRho);
@@ -153,8 +156,9 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
                 inner = 0;
             }
         }
-        out.converged = out.residual <= tolerance;
+        out.converged = out.converged || out.residual <= kSafe * tolerance;
     }
+    out.converged = out.converged || out.residual <= tolerance;
     std::copy(memory.best.begin(), memory.best.end(), r.begin());
     system.velocity(r, memory.u);
     return out;
@@ -189,7 +193,7 @@ Outcome newton(System& system, std::span<typename System::Vec> r, double toleran
     const double size = load(system);
     return proximal_newton(system, law::Coulomb{}, r, tolerance, memory,
                            [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                               return coulomb_residual(system, impulse, u, size).largest();
+                               return coulomb_residual(system, impulse, u, size).judged();
                            });
 }
 

@@ -21,8 +21,8 @@ constexpr auto enum_names(Solver) {
 }
 constexpr int kSolvers = 4;
 
-/// Success is a residual up to this: natural map of Coulomb's law over 1 + |q|, and in the units of
-/// the scaled system over |q^|; for Stewart-Trinkle of its own complementarity problem.
+/// Success is a residual up to this: Residual::judged() of Coulomb's law; for Stewart-Trinkle of
+/// its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
 /// What a solve achieved.

@@ -38,7 +38,7 @@ template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {
     using Vec = typename System::Vec;
-    constexpr double kInnerTolerance = 1e-10;  // of |q|, a hundredth of it the target
+    constexpr double kInnerTolerance = 1e-8;  // of |q|; kTarget of it is aimed at
     constexpr int kPlainIterations = 3;
     const size_t n = system.size();
     const double size = load(system);
@@ -61,11 +61,12 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
 
     Outcome out;
     double last = std::numeric_limits<double>::infinity();
+    int stalled = 0;
     memory.newton.resize(n);
     const auto judge = [&] {
         const double residual = coulomb_residual(system, std::span<const Vec>(r),
                                                  std::span<const Vec>(memory.newton.u), size)
-                                    .largest();
+                                    .judged();
         if (residual < out.residual) {
             out.residual = residual;
             std::copy(r.begin(), r.end(), memory.best.begin());
@@ -92,7 +93,9 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
         solve(law::NormalOnly{});
         const double residual = judge();
         if (residual <= kTarget * tolerance) break;
-        if (residual <= tolerance && residual > kStalled * last) break;
+        if (residual <= tolerance && residual > kStalledShare * last &&
+            ++stalled >= kStalledIterations)
+            break;
         if (residual > 2 * last) memory.anderson.forget();
         last = residual;
         for (size_t j = 0; j < n; ++j) memory.image[j] = r[j][0];

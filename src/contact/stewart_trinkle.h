@@ -99,18 +99,18 @@ class StewartTrinkle {
         const Outcome cone = newton(system_, r, tolerance_, m_.newton);
         out.iterations += cone.iterations;
         aim(r);
-        if (accept(r, StewartTrinkleRoute::cone, out) || out.converged) return out;
+        if (accept(r, StewartTrinkleRoute::cone, out)) return out;
         if constexpr (D == 3) {
             const law::Polygonal law{m_.polygons};
             const Outcome polygon =
                 proximal_newton(system_, law, r, tolerance_, m_.newton,
                                 [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                                    return residual(impulse, u).largest();
+                                    return residual(impulse, u).judged();
                                 });
             out.iterations += polygon.iterations;
-            if (accept(r, StewartTrinkleRoute::polygon_newton, out) || out.converged) return out;
+            accept(r, StewartTrinkleRoute::polygon_newton, out);
         }
-        lemke(r, out);
+        if (!out.converged) lemke(r, out);
         std::copy(m_.best.begin(), m_.best.end(), r.begin());
         system_.velocity(r, m_.newton.u);
         return out;
@@ -228,8 +228,8 @@ class StewartTrinkle {
 
     bool accept(std::span<const Vec> r, StewartTrinkleRoute route, StewartTrinkleOutcome& out) {
         const Residual now = residual(r, m_.newton.u);
-        if (now.largest() < out.residual) {
-            out.residual = now.largest();
+        if (now.judged() < out.residual) {
+            out.residual = now.judged();
             out.lcp_residual = now.given;
             out.route = route;
             std::copy(r.begin(), r.end(), m_.best.begin());

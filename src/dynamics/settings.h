@@ -11,7 +11,7 @@ namespace dihaptic::dynamics {
 using contact::Solver;
 
 struct Settings {
-    Solver solver = Solver::sequential_impulse;
+    Solver solver = Solver::newton;
     int every = 1;            ///< one step in so many ticks of the servo
     int iterations = 200;     ///< most iterations of a step, of sequential_impulse
     double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's

@@ -168,6 +168,10 @@ void World::set_solver(Solver solver) noexcept {
     impl_->settings.solver = solver;
 }
 
+Solver World::solver() const noexcept {
+    return impl_->settings.solver;
+}
+
 double World::mass(BodyIndex body) const {
     return impl_->items[static_cast<size_t>(body.value)].body->getMass();
 }

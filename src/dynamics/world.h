@@ -80,6 +80,7 @@ class World {
 
     /// The solver of the next steps; it starts from the last one's impulses.
     void set_solver(Solver solver) noexcept;
+    Solver solver() const noexcept;
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;

@@ -47,7 +47,9 @@ StepStatus World::step(double h) noexcept {
             out.normal_force = point.m_appliedImpulse / h;
             out.f_B_W = -from_bullet(impulse) / h;
             // about a's outward normal, which is against Bullet's
-            out.moment = torsion_impulse(manifold->getContactPoint(i)) / h;
+            out.moment = w.settings.solver == Solver::sequential_impulse
+                             ? 0
+                             : torsion_impulse(manifold->getContactPoint(i)) / h;
         }
     }
     w.let_sleep(h, states_);

@@ -83,7 +83,13 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                        rig::poses(rig, scene::finger_names(scene)));
     servo.activate();
 
-    PhaseDirector director(head.phases, settings.tick());
+    PhaseDirector phases(head.phases, settings.tick());
+    const servo::Director director = [&](const servo::Frame& last,
+                                         std::span<const haptics::Handle> handles,
+                                         servo::Commands& commands) {
+        phases(last, handles, commands);
+        commands.solver = static_cast<dynamics::Solver>(recorded->solver);
+    };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
         if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)

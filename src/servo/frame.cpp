@@ -28,6 +28,14 @@ StatusText describe(Status bit) {
         case kOverrun:
             return {"a tick took longer than its period",
                     "close other programs, or lower the rate"};
+        case kSolverFallback:
+            return {
+                "the contact solver missed its tolerance and another answered",
+                "nothing, when it is rare; otherwise choose settings: dynamics: solver: newton"};
+        case kSolverMissed:
+            return {"no contact solver reached its tolerance, and the best answer was used",
+                    "look at what the objects do in these ticks; report the session's folder as a "
+                    "bug"};
     }
     return {};
 }

@@ -23,8 +23,10 @@ enum Status : uint32_t {
     kForceClamped = 1u << 5,
     kNoMoreData = 1u << 6,
     kOverrun = 1u << 7,
+    kSolverFallback = 1u << 8,
+    kSolverMissed = 1u << 9,
 };
-constexpr int kStatusBits = 8;
+constexpr int kStatusBits = 10;
 
 struct StatusText {
     std::string what;
@@ -115,9 +117,10 @@ struct Frame {
     double grip_force =
         kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
     double load_force = 0;  ///< tangential contact forces along gravity, summed over the fingers
+    int32_t solver = 0;     ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
-    int32_t solver_fallback = 0;
-    double solver_residual = 0;
+    int32_t solver_fallback = 0;         ///< 1: another solver than that answered
+    double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|
     double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
     std::vector<FingerFrame> fingers;
@@ -137,9 +140,10 @@ struct Frame {
         v("status", f.status, "1");
         v("grip_force", f.grip_force, "N");
         v("load_force", f.load_force, "N");
+        v("solver", f.solver, "1");
         v("solver_iterations", f.solver_iterations, "1");
         v("solver_fallback", f.solver_fallback, "1");
-        v("solver_residual", f.solver_residual, "m/s");
+        v("solver_residual", f.solver_residual, "1");
         v("lateness", f.lateness, "s");
         v("tick_duration", f.tick_duration, "s");
         v.each("fingers", f.fingers);

@@ -82,6 +82,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     dynamics::StepStatus step = dynamics::StepStatus::ok;
     if ((frame_.sequence + 1) % settings_.dynamics.every == 0) {
         const double h = settings_.step();
+        if (commands_.solver) world_.set_solver(*commands_.solver);
         for (int i = 0; i < commands_.load_count; ++i) {
             const Commands::Load& load = commands_.loads[static_cast<size_t>(i)];
             world_.apply(load.body, load.force_W, load.torque_W);
@@ -120,6 +121,9 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.phase = commands.phase;
     frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
     if (overrun_) frame_.status |= kOverrun;
+    if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
+    if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
+    frame_.solver = static_cast<int32_t>(world_.solver());
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
     frame_.solver_iterations = world_.solve_stats().iterations;

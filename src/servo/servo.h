@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "haptics/finger.h"
@@ -23,7 +24,8 @@ namespace dihaptic::servo {
 struct Commands {
     int32_t trial = 0;
     int32_t phase = 0;
-    bool stop = false;  ///< this tick is the last
+    bool stop = false;                       ///< this tick is the last
+    std::optional<dynamics::Solver> solver;  ///< from this step on
 
     struct Load {
         dynamics::BodyIndex body;

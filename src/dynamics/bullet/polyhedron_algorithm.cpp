@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
@@ -115,6 +116,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
                 out.m_appliedImpulseLateral2 = last.m_appliedImpulseLateral2;
                 out.m_lateralFrictionDir1 = last.m_lateralFrictionDir1;
                 out.m_lateralFrictionDir2 = last.m_lateralFrictionDir2;
+                torsion_impulse(out) = torsion_impulse(last);
                 out.m_lifeTime = last.m_lifeTime + 1;
             }
             manifold_->addManifoldPoint(out);

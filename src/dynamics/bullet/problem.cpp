@@ -29,6 +29,24 @@ Mat3 contact_frame(const Vec3& normal) {
     return R;
 }
 
+Vec3 middle(const btManifoldPoint& point) {
+    return 0.5 * (dynamics::from_bullet(point.getPositionWorldOnA()) +
+                  dynamics::from_bullet(point.getPositionWorldOnB()));
+}
+
+/// Along the first normal. Points of one patch are moved by micrometres onto one plane across it:
+/// else closing gaps of different size would need the distance between two points to change, and
+/// where both stick, rigid bodies contradict themselves.
+double mean_height(const btPersistentManifold& manifold) {
+    double sum = 0;
+    const Vec3 n_W = manifold.getNumContacts() > 0
+                         ? dynamics::from_bullet(manifold.getContactPoint(0).m_normalWorldOnB)
+                         : Vec3::Zero();
+    for (int i = 0; i < manifold.getNumContacts(); ++i)
+        sum += n_W.dot(middle(manifold.getContactPoint(i)));
+    return sum / std::max(1, manifold.getNumContacts());
+}
+
 }  // namespace
 
 void ManifoldProblem::reserve(int bodies, int contacts) {
@@ -63,13 +81,15 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
         // Bullet's normal points from its body 1 to its body 0
         const btCollisionObject& a = *manifold->getBody1();
         const btCollisionObject& b = *manifold->getBody0();
+        const double height = mean_height(*manifold);
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
             btManifoldPoint& point = manifold->getContactPoint(i);
             contact::ProblemContact& out = problem_.contacts.emplace_back();
             out.a = index(a);
             out.b = index(b);
-            const Vec3 p_WC = 0.5 * (dynamics::from_bullet(point.getPositionWorldOnA()) +
-                                     dynamics::from_bullet(point.getPositionWorldOnB()));
+            const Vec3 n_W = dynamics::from_bullet(point.m_normalWorldOnB);
+            Vec3 p_WC = middle(point);
+            p_WC += (height - n_W.dot(p_WC)) * n_W;
             out.p_AC_W = p_WC - dynamics::from_bullet(a.getWorldTransform().getOrigin());
             out.p_BC_W = p_WC - dynamics::from_bullet(b.getWorldTransform().getOrigin());
             out.R_WC = contact_frame(dynamics::from_bullet(point.m_normalWorldOnB));
@@ -92,13 +112,18 @@ void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) 
     for (btPersistentManifold* manifold : manifolds) {
         for (int i = 0; i < manifold->getNumContacts(); ++i, ++j) {
             btManifoldPoint& point = manifold->getContactPoint(i);
-            const Vec3 friction_W =
-                point.m_appliedImpulseLateral1 *
-                    dynamics::from_bullet(point.m_lateralFrictionDir1) +
-                point.m_appliedImpulseLateral2 * dynamics::from_bullet(point.m_lateralFrictionDir2);
             const Mat3& R = problem_.contacts[j].R_WC;
+            Vec3 first = dynamics::from_bullet(point.m_lateralFrictionDir1);
+            Vec3 second = dynamics::from_bullet(point.m_lateralFrictionDir2);
+            if (first.isZero()) {  // Bullet replaced the point: it keeps impulses, not directions
+                first = R.col(1);
+                second = R.col(2);
+            }
+            const Vec3 friction_W =
+                point.m_appliedImpulseLateral1 * first + point.m_appliedImpulseLateral2 * second;
             impulses_[j] << point.m_appliedImpulse, R.col(1).dot(friction_W),
-                R.col(2).dot(friction_W), torsion_impulse(point);
+                R.col(2).dot(friction_W),
+                problem_.contacts[j].torsion_radius > 0 ? torsion_impulse(point) : 0;
         }
     }
 }

@@ -38,16 +38,17 @@ class ManifoldProblem {
     std::vector<Eigen::Matrix<double, 6, 1>> scratch_;
 };
 
-/// Moment about the normal in the last step [N*m*s]; Bullet knows none, but keeps room for it.
+/// Moment about the normal in the last step [N*m*s]. Bullet knows none; this is a member that it
+/// keeps when it replaces a point, and that its solver for rigid bodies does not read.
 inline btScalar& torsion_impulse(btManifoldPoint& point) {
-    return point.m_contactMotion1;
+    return point.m_prevRHS;
 }
 inline btScalar torsion_impulse(const btManifoldPoint& point) {
-    return point.m_contactMotion1;
+    return point.m_prevRHS;
 }
 /// Torsion radius of the pair [m].
 inline btScalar& torsion_radius(btManifoldPoint& point) {
-    return point.m_contactMotion2;
+    return point.m_contactMotion1;
 }
 
 }  // namespace dihaptic::dynamics
