@@ -9,7 +9,7 @@ namespace dihaptic::contact {
 namespace {
 
 constexpr int kMostStaggeredIterations = 200;
-constexpr int kLastSweeps = 500;
+constexpr int kLastSweeps = 2000;
 
 template <class System>
 struct SolverMemory {
@@ -53,18 +53,26 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
         outcome = newton(system, r, kTolerance, newton_memory);
     }
     stats.iterations = outcome.iterations;
-    if (!outcome.converged && solver != Solver::newton) {
-        stats.fallback = true;
-        outcome = newton(system, r, kTolerance, newton_memory);
+    stats.fallback = !outcome.converged;
+    const auto hand_over = [&](const auto& solve) {
+        if (outcome.converged) return;
+        outcome = solve();
         stats.iterations += outcome.iterations;
+    };
+    if (solver != Solver::newton)
+        hand_over([&] { return newton(system, r, kTolerance, newton_memory); });
+    if (solver != Solver::staggered_projections) {
+        hand_over([&] {
+            return staggered_projections(system, r, kTolerance, kMostStaggeredIterations,
+                                         memory.staggered);
+        });
     }
-    if (!outcome.converged) {
-        stats.fallback = true;
+    hand_over([&] {
         system.sweep(law::Coulomb{}, r, kLastSweeps);
-        stats.iterations += kLastSweeps;
-        if (cone_residual().judged() > outcome.residual)
-            std::copy(newton_memory.best.begin(), newton_memory.best.end(), r.begin());
-    }
+        Outcome last = newton(system, r, kTolerance, newton_memory);
+        last.iterations += kLastSweeps;
+        return last;
+    });
     // what is left of an error shall not pull: impulses end inside the cone, unless that small
     // change is too much for a problem so delicate
     const double before = cone_residual().judged();

@@ -1,9 +1,10 @@
 // The door to all contact solvers but Bullet's own: a problem and a start in, impulses and what was
 // achieved out.
 //
-// A solver that misses its tolerance hands over to Newton on the cone, and that to projected
-// Gauss-Seidel sweeps, which cannot fail to give something safe; who answered is told. Each has a
-// bound on counted work and none reads a clock, so that replay repeats every solve bit for bit.
+// A solver that misses its tolerance hands over to Newton on the cone, that to staggered
+// projections, and those to Newton again after many projected Gauss-Seidel sweeps; that another
+// answered is told, and when even the last one missed. Each has a bound on counted work and none
+// reads a clock, so that replay repeats every solve bit for bit.
 #pragma once
 
 #include <array>
