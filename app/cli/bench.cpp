@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "measure/contact.h"
 #include "measure/friction.h"
 #include "measure/grasp.h"
 #include "measure/scale.h"
@@ -121,6 +122,61 @@ void add_scale(CLI::App& bench) {
     });
 }
 
+void add_contact(CLI::App& bench) {
+    struct ContactOptions {
+        std::vector<std::string> files;
+        std::string solver;
+        std::string frame;
+        measure::ContactBench bench;
+        bool json = false;
+    };
+    auto* command = bench.add_subcommand(
+        "contact", "Contact problems from files: residual, time and iterations of each solver");
+    auto options = std::make_shared<ContactOptions>();
+    command
+        ->add_option("files", options->files,
+                     "contact problems in the FCLIB layout (HDF5), or folders of *.hdf5")
+        ->required();
+    command->add_option("--solver", options->solver,
+                        "only this one: newton, staggered_projections, stewart_trinkle; otherwise "
+                        "these and the peers that are installed");
+    command
+        ->add_option("--directions", options->bench.polygon.directions,
+                     "of stewart_trinkle's friction polygon")
+        ->check(CLI::Range(4, contact::kMostDirections))
+        ->capture_default_str();
+    command->add_option("--direction-frame", options->frame,
+                        "where they lie: sliding (the first along each contact's friction), fixed");
+    command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
+    command->footer(
+        "\nExample:\n  dihaptic bench contact ../shared/data/contact-problems --solver newton");
+    command->callback([options] {
+        measure::ContactBench& wanted = options->bench;
+        choose(options->frame, "--direction-frame", wanted.polygon.frame);
+        if (!options->solver.empty()) {
+            contact::Solver solver{};
+            choose(options->solver, "--solver", solver);
+            if (solver == contact::Solver::sequential_impulse)
+                throw Error({"--solver", 0}, options->solver, "solves bodies, which files lack",
+                            "Choose another, or see dihaptic bench solvers.");
+            wanted.solvers = {solver};
+            wanted.peers = false;
+        }
+        Diagnostics diagnostics;
+        std::vector<measure::ContactFigures> figures;
+        {
+            ProgressLine line("bench contact");
+            figures = measure::bench_contact(
+                measure::contact_files(options->files, diagnostics), wanted, diagnostics,
+                [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        if (options->json || !figures.empty())
+            fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
+        print(diagnostics.problems());
+        if (diagnostics.has_errors()) exit_code = kBadInput;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -131,6 +187,7 @@ void add_bench(CLI::App& app) {
     add_grasp(*bench);
     add_friction(*bench);
     add_scale(*bench);
+    add_contact(*bench);
 }
 
 }  // namespace dihaptic::cli
