@@ -5,6 +5,7 @@
 #include "measure/friction.h"
 #include "measure/grasp.h"
 #include "measure/scale.h"
+#include "measure/solvers.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -177,6 +178,34 @@ void add_contact(CLI::App& bench) {
     });
 }
 
+void add_solvers(CLI::App& bench) {
+    auto* command = bench.add_subcommand(
+        "solvers", "What a solve costs by contacts, beside Bullet's, on problems of shaken scenes");
+    auto solver_name = std::make_shared<std::string>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("--solver", *solver_name,
+                        "only this one, beside Bullet's: newton, staggered_projections, "
+                        "stewart_trinkle, sequential_impulse");
+    command->add_flag("--json", *json, "one JSON object on standard output, nothing else");
+    command->footer("\nExample:\n  dihaptic bench solvers --solver newton");
+    command->callback([solver_name, json] {
+        measure::SolversBench wanted;
+        if (!solver_name->empty()) {
+            contact::Solver solver{};
+            choose(*solver_name, "--solver", solver);
+            wanted.solvers = {solver};
+            if (solver == contact::Solver::sequential_impulse) wanted.solvers.clear();
+        }
+        measure::SolversFigures figures;
+        {
+            ProgressLine line("bench solvers");
+            figures = measure::bench_solvers(
+                wanted, [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        fmt::print("{}", *json ? to_json(figures) : to_table(figures));
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -188,6 +217,7 @@ void add_bench(CLI::App& app) {
     add_friction(*bench);
     add_scale(*bench);
     add_contact(*bench);
+    add_solvers(*bench);
 }
 
 }  // namespace dihaptic::cli

@@ -168,6 +168,10 @@ void World::set_solver(Solver solver) noexcept {
     impl_->settings.solver = solver;
 }
 
+void World::watch_problems(ProblemWatcher watcher) {
+    impl_->watcher = std::move(watcher);
+}
+
 double World::mass(BodyIndex body) const {
     return impl_->items[static_cast<size_t>(body.value)].body->getMass();
 }
