@@ -91,12 +91,25 @@ void add_friction(CLI::App& bench) {
     command->footer("\nExample:\n  dihaptic bench friction");
     command->callback([options] {
         resolve(*options);
+        std::vector<dynamics::Solver> solvers{options->setup.settings.dynamics.solver};
+        if (options->solver.empty()) {
+            solvers.clear();
+            for (int i = 0; i < contact::kSolvers; ++i)
+                solvers.push_back(static_cast<dynamics::Solver>(i));
+        }
         std::vector<measure::FrictionFigures> figures;
         {
             ProgressLine line("bench friction");
-            figures.push_back(measure::bench_friction(
-                options->setup.settings.dynamics,
-                [&](const std::string& what, double share) { line.show(share, what); }));
+            for (const dynamics::Solver solver : solvers) {
+                dynamics::Settings settings = options->setup.settings.dynamics;
+                settings.solver = solver;
+                const auto done = static_cast<double>(figures.size());
+                figures.push_back(
+                    measure::bench_friction(settings, [&](const std::string& what, double share) {
+                        line.show((done + share) / static_cast<double>(solvers.size()),
+                                  fmt::format("{}, {}", enum_name(solver), what));
+                    }));
+            }
         }
         fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
     });

@@ -33,7 +33,8 @@ std::vector<ProblemGroup> record_problems(size_t most, const Progress& progress)
 /// Scenes of the two families that grow, for tests too. Bricks of each course lie across the joints
 /// of the one below.
 scene::Scene brick_wall_scene(int bricks, int courses);
-/// Boxes of many sizes above each other, to be dropped.
+/// Boxes of many sizes, loosely above a bowl of four slopes: dropped, they lie in a heap that is
+/// one.
 scene::Scene pile_scene(int boxes);
 
 }  // namespace dihaptic::measure

@@ -36,36 +36,51 @@ double quantile(std::vector<double> values, double share) {
     return values[at];
 }
 
-/// The shortest of several runs of each problem [us]. Runs go through all problems in their order,
-/// so that each meets the memory that the one of the tick before left behind, as in a session.
-template <class Solve>
-std::vector<double> times(const std::vector<size_t>& chosen, const Solve& solve) {
-    std::vector<double> out(chosen.size(), std::numeric_limits<double>::infinity());
-    for (int run = 0; run < kRuns; ++run) {
-        for (size_t i = 0; i < chosen.size(); ++i) out[i] = std::min(out[i], solve(chosen[i]));
+/// Which problems were solved, and the shortest time of each [us].
+struct Times {
+    std::vector<size_t> solved;
+    std::vector<double> us;
+};
+
+/// 0 ... count - 1 so that any first part of it is spread evenly (van der Corput).
+std::vector<size_t> spread(size_t count) {
+    std::vector<size_t> out;
+    unsigned bits = 0;
+    while ((size_t{1} << bits) < count) ++bits;
+    for (size_t i = 0; i < size_t{1} << bits; ++i) {
+        size_t reversed = 0;
+        for (unsigned bit = 0; bit < bits; ++bit) reversed |= (i >> bit & 1) << (bits - 1 - bit);
+        if (reversed < count) out.push_back(reversed);
     }
     return out;
 }
 
-/// Every so-many-th of `count` problems, so that solving them all stays within the budget.
+/// Solves as many problems as the budget [s] allows, spread evenly over the scene's time, one at
+/// least. While it lasts they are solved again, now in their order, so that each meets the memory
+/// that the one of the tick before left behind, as in a session; the shortest time counts.
 template <class Solve>
-std::vector<size_t> choose(size_t count, double budget, const Solve& solve) {
-    constexpr size_t kProbes = 8;
-    double probe = 0;
-    size_t probes = 0;
-    for (size_t i = 0; i < count; i += 1 + count / kProbes, ++probes) probe += solve(i);
-    const double all = probe / static_cast<double>(probes) * static_cast<double>(count) * kRuns;
-    const auto stride = static_cast<size_t>(std::max(1.0, std::ceil(all * 1e-6 / budget)));
-    std::vector<size_t> out;
-    for (size_t i = 0; i < count; i += stride) out.push_back(i);
+Times times(size_t count, double budget, const Solve& solve) {
+    Times out;
+    double spent = 0;
+    std::vector<double> us(count, std::numeric_limits<double>::infinity());
+    const auto run = [&](size_t i) {
+        const double now = solve(i);
+        us[i] = std::min(us[i], now);
+        spent += now * 1e-6;
+    };
+    for (const size_t i : spread(count)) {
+        if (spent > budget) break;
+        run(i);
+        out.solved.push_back(i);
+    }
+    std::sort(out.solved.begin(), out.solved.end());
+    for (int again = 1; again < kRuns; ++again) {
+        for (const size_t i : out.solved) {
+            if (spent <= budget) run(i);
+        }
+    }
+    for (const size_t i : out.solved) out.us.push_back(us[i]);
     return out;
-}
-
-double mean_contacts(const std::vector<RecordedProblem>& problems,
-                     const std::vector<size_t>& chosen) {
-    double sum = 0;
-    for (const size_t i : chosen) sum += static_cast<double>(problems[i].problem.contacts.size());
-    return sum / static_cast<double>(chosen.size());
 }
 
 /// Our solvers on the problems of one scene, Bullet's beside them.
@@ -85,36 +100,36 @@ class Measurement {
     const SolverCost& bullet() const { return bullet_; }
 
     SolverCost measure(Solver solver) {
+        SolverCost out = head(solver);
         std::vector<Impulse> r;
-        contact::SolveStats stats;
-        const auto solve = [&](size_t i) {
+        std::vector<double> residuals;
+        std::vector<char> seen(group_.problems.size());
+        const Times all = times(group_.problems.size(), budget_, [&](size_t i) {
             const RecordedProblem& p = group_.problems[i];
             r = p.start;
-            return time_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
-        };
-        SolverCost out = head(solver);
-        const std::vector<size_t> chosen = choose(group_.problems.size(), budget_, solve);
-        const std::vector<double> us = times(chosen, solve);
-        std::vector<double> ratios;
-        std::vector<double> residuals;
-        for (size_t i = 0; i < chosen.size(); ++i) {
-            ratios.push_back(us[i] / bullet_us_[chosen[i]]);
-            solve(chosen[i]);
-            out.fallbacks += stats.fallback ? 1 : 0;
-            out.missed += stats.missed ? 1 : 0;
-            residuals.push_back(
-                contact::natural_map_residual(group_.problems[chosen[i]].problem, r));
-        }
-        out.ratio_median = quantile(ratios, 0.5);
+            contact::SolveStats stats;
+            const double us = time_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
+            if (!seen[i]) {
+                seen[i] = 1;
+                out.fallbacks += stats.fallback ? 1 : 0;
+                out.missed += stats.missed ? 1 : 0;
+                residuals.push_back(contact::natural_map_residual(p.problem, r));
+            }
+            return us;
+        });
         out.residual_p99 = quantile(residuals, 0.99);
-        fill(out, chosen, us);
+        fill(out, all);
         return out;
     }
 
     ProblemFigures describe() {
         ProblemFigures out{group_.family, group_.contacts, 0, 0, 0, 0, 0};
         double all = 0;
-        for (const RecordedProblem& p : group_.problems) {
+        out.problems = static_cast<int>(group_.problems.size());
+        const size_t stride = 1 + group_.problems.size() / 50;  // enough for shares
+        int seen = 0;
+        for (size_t i = 0; i < group_.problems.size(); i += stride, ++seen) {
+            const RecordedProblem& p = group_.problems[i];
             std::vector<Impulse> r = p.start;
             contact::SolveStats stats;
             solvers_.solve(Solver::newton, {}, p.problem, r, stats);
@@ -134,8 +149,7 @@ class Measurement {
             }
         }
         for (double* share : {&out.sticking, &out.sliding, &out.open}) *share /= all;
-        out.problems = static_cast<int>(group_.problems.size());
-        out.mean_contacts = all / out.problems;
+        out.mean_contacts = all / seen;
         return out;
     }
 
@@ -147,35 +161,40 @@ class Measurement {
         out.contacts = group_.contacts;
         return out;
     }
-    void fill(SolverCost& out, const std::vector<size_t>& chosen,
-              const std::vector<double>& us) const {
-        out.median_us = quantile(us, 0.5);
-        out.p99_us = quantile(us, 0.99);
-        out.solves = static_cast<int>(chosen.size());
-        out.mean_contacts = mean_contacts(group_.problems, chosen);
+    void fill(SolverCost& out, const Times& times) const {
+        std::vector<double> ratios;
+        double contacts = 0;
+        for (size_t i = 0; i < times.solved.size(); ++i) {
+            ratios.push_back(times.us[i] / bullet_us_[times.solved[i]]);
+            contacts +=
+                static_cast<double>(group_.problems[times.solved[i]].problem.contacts.size());
+        }
+        out.ratio_median = quantile(ratios, 0.5);
+        out.median_us = quantile(times.us, 0.5);
+        out.p99_us = quantile(times.us, 0.99);
+        out.solves = static_cast<int>(times.solved.size());
+        out.mean_contacts = contacts / out.solves;
     }
 
     void measure_bullet() {
         btSequentialImpulseConstraintSolver solver;
         std::vector<std::unique_ptr<BulletProblem>> problems;
-        std::vector<size_t> all;
-        for (const RecordedProblem& p : group_.problems) {
-            all.push_back(all.size());
+        for (const RecordedProblem& p : group_.problems)
             problems.push_back(std::make_unique<BulletProblem>(p.problem, p.start));
-        }
-        bullet_us_ = times(all, [&](size_t i) {
+        const double whole = std::numeric_limits<double>::infinity();
+        const Times all = times(problems.size(), whole, [&](size_t i) {
             problems[i]->reset();
             return time_of([&] { problems[i]->solve(solver, kBulletIterations); });
         });
         std::vector<double> residuals;
-        for (const size_t i : all) {
+        for (size_t i = 0; i < problems.size(); ++i) {
             residuals.push_back(
                 contact::natural_map_residual(group_.problems[i].problem, problems[i]->impulses()));
         }
         bullet_ = head(Solver::sequential_impulse);
-        bullet_.ratio_median = 1;
         bullet_.residual_p99 = quantile(residuals, 0.99);
-        fill(bullet_, all, bullet_us_);
+        bullet_us_ = all.us;
+        fill(bullet_, all);
     }
 
     const ProblemGroup& group_;
