@@ -37,7 +37,7 @@ def session_of(out):
 class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
-                    ["bench", "scale"]]
+                    ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -181,6 +181,27 @@ class Commands(unittest.TestCase):
         figures = json.loads(result.stdout)
         self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us"})
         self.assertEqual(set(figures["tick"][0]["awake"]), {"median_us", "p99_us", "max_us"})
+
+    def test_bench_contact_measures_what_it_can_and_names_the_rest(self):
+        problems = "../shared/data/contact-problems"
+        if not os.path.exists(problems):
+            self.skipTest(problems + " is absent")
+        with tempfile.TemporaryDirectory() as folder:
+            bad = folder + "/bad.hdf5"
+            pathlib.Path(bad).write_text("no")
+            result = dihaptic("bench", "contact", bad, problems + "/Rover1039.hdf5", "--json", "--solver", "stewart_trinkle",
+                              "--directions", "16", "--direction-frame", "fixed")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("bad.hdf5: error: is not an HDF5 file", result.stderr)
+        (row,) = json.loads(result.stdout)["problems"]
+        self.assertEqual(set(row), {"file", "contacts", "solver", "residual", "us", "iterations", "fallback", "lcp_residual"})
+        self.assertEqual((row["contacts"], row["solver"], row["fallback"]), (4, "stewart_trinkle", False))
+        self.assertLess(row["lcp_residual"], 1e-8)
+        for wrong in [["--solver", "sequential_impulse"], ["--solver", "magic"], ["--directions", "3"],
+                      ["--direction-frame", "round"]]:
+            result = dihaptic("bench", "contact", problems, *wrong)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertIn(wrong[0], result.stderr)
 
 
 def with_largest_file(size):

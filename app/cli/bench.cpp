@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "measure/contact.h"
 #include "measure/friction.h"
 #include "measure/grasp.h"
 #include "measure/scale.h"
+#include "measure/solvers.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -91,12 +93,25 @@ void add_friction(CLI::App& bench) {
     command->footer("\nExample:\n  dihaptic bench friction");
     command->callback([options] {
         resolve(*options);
+        std::vector<dynamics::Solver> solvers{options->setup.settings.dynamics.solver};
+        if (options->solver.empty()) {
+            solvers.clear();
+            for (int i = 0; i < contact::kSolvers; ++i)
+                solvers.push_back(static_cast<dynamics::Solver>(i));
+        }
         std::vector<measure::FrictionFigures> figures;
         {
             ProgressLine line("bench friction");
-            figures.push_back(measure::bench_friction(
-                options->setup.settings.dynamics,
-                [&](const std::string& what, double share) { line.show(share, what); }));
+            for (const dynamics::Solver solver : solvers) {
+                dynamics::Settings settings = options->setup.settings.dynamics;
+                settings.solver = solver;
+                const auto done = static_cast<double>(figures.size());
+                figures.push_back(
+                    measure::bench_friction(settings, [&](const std::string& what, double share) {
+                        line.show((done + share) / static_cast<double>(solvers.size()),
+                                  fmt::format("{}, {}", enum_name(solver), what));
+                    }));
+            }
         }
         fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
     });
@@ -125,6 +140,89 @@ void add_scale(CLI::App& bench) {
     });
 }
 
+void add_contact(CLI::App& bench) {
+    struct ContactOptions {
+        std::vector<std::string> files;
+        std::string solver;
+        std::string frame;
+        measure::ContactBench bench;
+        bool json = false;
+    };
+    auto* command = bench.add_subcommand(
+        "contact", "Contact problems from files: residual, time and iterations of each solver");
+    auto options = std::make_shared<ContactOptions>();
+    command
+        ->add_option("files", options->files,
+                     "contact problems in the FCLIB layout (HDF5), or folders of *.hdf5")
+        ->required();
+    command->add_option("--solver", options->solver,
+                        "only this one: newton, staggered_projections, stewart_trinkle; otherwise "
+                        "these and the peers that are installed");
+    command
+        ->add_option("--directions", options->bench.polygon.directions,
+                     "of stewart_trinkle's friction polygon")
+        ->check(CLI::Range(4, contact::kMostDirections))
+        ->capture_default_str();
+    command->add_option("--direction-frame", options->frame,
+                        "where they lie: sliding (the first along each contact's friction), fixed");
+    command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
+    command->footer(
+        "\nExample:\n  dihaptic bench contact ../shared/data/contact-problems --solver newton");
+    command->callback([options] {
+        measure::ContactBench& wanted = options->bench;
+        choose(options->frame, "--direction-frame", wanted.polygon.frame);
+        if (!options->solver.empty()) {
+            contact::Solver solver{};
+            choose(options->solver, "--solver", solver);
+            if (solver == contact::Solver::sequential_impulse)
+                throw Error({"--solver", 0}, options->solver, "solves bodies, which files lack",
+                            "Choose another, or see dihaptic bench solvers.");
+            wanted.solvers = {solver};
+            wanted.peers = false;
+        }
+        Diagnostics diagnostics;
+        std::vector<measure::ContactFigures> figures;
+        {
+            ProgressLine line("bench contact");
+            figures = measure::bench_contact(
+                measure::contact_files(options->files, diagnostics), wanted, diagnostics,
+                [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        if (options->json || !figures.empty())
+            fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
+        print(diagnostics.problems());
+        if (diagnostics.has_errors()) exit_code = kBadInput;
+    });
+}
+
+void add_solvers(CLI::App& bench) {
+    auto* command = bench.add_subcommand(
+        "solvers", "What a solve costs by contacts, beside Bullet's, on problems of shaken scenes");
+    auto solver_name = std::make_shared<std::string>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("--solver", *solver_name,
+                        "only this one, beside Bullet's: newton, staggered_projections, "
+                        "stewart_trinkle, sequential_impulse");
+    command->add_flag("--json", *json, "one JSON object on standard output, nothing else");
+    command->footer("\nExample:\n  dihaptic bench solvers --solver newton");
+    command->callback([solver_name, json] {
+        measure::SolversBench wanted;
+        if (!solver_name->empty()) {
+            contact::Solver solver{};
+            choose(*solver_name, "--solver", solver);
+            wanted.solvers = {solver};
+            if (solver == contact::Solver::sequential_impulse) wanted.solvers.clear();
+        }
+        measure::SolversFigures figures;
+        {
+            ProgressLine line("bench solvers");
+            figures = measure::bench_solvers(
+                wanted, [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        fmt::print("{}", *json ? to_json(figures) : to_table(figures));
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -135,6 +233,8 @@ void add_bench(CLI::App& app) {
     add_grasp(*bench);
     add_friction(*bench);
     add_scale(*bench);
+    add_contact(*bench);
+    add_solvers(*bench);
 }
 
 }  // namespace dihaptic::cli

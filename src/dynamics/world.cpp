@@ -172,6 +172,10 @@ Solver World::solver() const noexcept {
     return impl_->settings.solver;
 }
 
+void World::watch_problems(ProblemWatcher watcher) {
+    impl_->watcher = std::move(watcher);
+}
+
 double World::mass(BodyIndex body) const {
     return impl_->items[static_cast<size_t>(body.value)].body->getMass();
 }

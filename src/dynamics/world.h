@@ -11,6 +11,7 @@
 // Set-up may allocate and throw; after activate() a step does neither.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -81,6 +82,12 @@ class World {
     /// The solver of the next steps; it starts from the last one's impulses.
     void set_solver(Solver solver) noexcept;
     Solver solver() const noexcept;
+
+    /// Shows each problem, and the impulses that its solve starts from, before it is solved. For
+    /// benches: what it does is part of the step, and must not throw.
+    using ProblemWatcher = std::function<void(const contact::ContactProblem& problem,
+                                              std::span<const contact::Impulse> start)>;
+    void watch_problems(ProblemWatcher watcher);
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;

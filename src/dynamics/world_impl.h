@@ -58,6 +58,7 @@ struct World::Impl {
     SequentialImpulse sequential_impulse;
     ManifoldProblem problem;
     contact::ContactSolvers solvers;
+    ProblemWatcher watcher;
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,

@@ -171,6 +171,7 @@ contact::SolveStats World::Impl::solve_batch(double h) {
     contact::SolveStats stats;
     problem.build(batch_bodies, batch_contacts, h, settings.penetration_recovery,
                   settings.warm_start);
+    if (watcher) watcher(problem.problem(), problem.impulses());
     if (settings.solver != Solver::sequential_impulse) {
         const contact::PolygonSettings polygon{settings.friction_directions,
                                                settings.friction_frame};

@@ -16,6 +16,7 @@ struct FrictionFigures {
     double direction_error_deg = 0;
     double stack_drift_mm = 0;
     std::optional<double> cards_drift_mm;  ///< nothing: it fell
+    int cards_storeys = 0;                 ///< of the highest house that stands; 0: fewer than two
     std::optional<double> arch_drift_mm;   ///< nothing: it fell
     double creep_mm = 0;
 };

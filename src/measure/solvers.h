@@ -1,0 +1,66 @@
+// `dihaptic bench solvers`: definitions in docs/measures.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/solver.h"
+#include "measure/grasp.h"
+
+namespace dihaptic::measure {
+
+struct SolversBench {
+    /// Measured beside Bullet's, which always is.
+    std::vector<contact::Solver> solvers{contact::Solver::newton,
+                                         contact::Solver::staggered_projections,
+                                         contact::Solver::stewart_trinkle};
+    size_t most_problems = 400;  ///< of each scene
+    double budget = 0.7;         ///< for one solver on one scene's problems [s]
+};
+
+/// One solver on the problems of one scene.
+struct SolverCost {
+    contact::Solver solver{};
+    std::string family;
+    int contacts = 0;          ///< about so many
+    double mean_contacts = 0;  ///< of the problems solved
+    double median_us = 0;
+    double p99_us = 0;
+    double ratio_median = 0;  ///< of its times over Bullet's, problem by problem
+    int fallbacks = 0;        ///< another method answered, or sweeps did
+    int missed = 0;           ///< even the fallback stayed above tolerance
+    double residual_p99 = 0;  ///< natural map over 1 + |q|
+    int solves = 0;
+};
+
+/// What contacts do at the solution: what makes problems hard.
+struct ProblemFigures {
+    std::string family;
+    int contacts = 0;
+    double mean_contacts = 0;
+    double sticking = 0, sliding = 0, open = 0;  ///< shares of all contacts
+    int problems = 0;
+};
+
+/// Time grows with contacts to this power, from 8 to 200 of them.
+struct Growth {
+    contact::Solver solver{};
+    std::string family;
+    double median = 0;
+    double p99 = 0;
+};
+
+struct SolversFigures {
+    std::vector<ProblemFigures> problems;
+    std::vector<SolverCost> costs;
+    std::vector<Growth> growth;
+};
+
+constexpr int kBulletIterations = 50;
+
+SolversFigures bench_solvers(const SolversBench& bench, const Progress& progress);
+
+std::string to_json(const SolversFigures& figures);
+std::string to_table(const SolversFigures& figures);
+
+}  // namespace dihaptic::measure
