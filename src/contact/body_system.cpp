@@ -54,27 +54,33 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
         row.a = contact.a;
         row.b = contact.b;
         Vec diagonal = Vec::Zero();
-        const auto fill = [&](Row<D>& H, int body, const Vec3& arm, double sign) {
-            if (body == kFixed) {
-                H.setZero();
+        row.q.setZero();
+        const auto fill = [&](Ht& H_t, int index, const Vec3& arm, double sign) {
+            if (index == kFixed) {
+                H_t.setZero();
                 return;
             }
-            const auto& L = root_[static_cast<size_t>(body)];
-            const Row<D> J = contact_row<D>(contact, arm);
-            H.template leftCols<3>().noalias() =
-                sign * J.template leftCols<3>() * L.template topLeftCorner<3, 3>();
-            H.template rightCols<3>().noalias() =
-                sign * J.template rightCols<3>() * L.template bottomRightCorner<3, 3>();
-            diagonal += H.rowwise().squaredNorm();
+            const ProblemBody& body = problem.bodies[static_cast<size_t>(index)];
+            const auto& L = root_[static_cast<size_t>(index)];
+            const Row<D> J = sign * contact_row<D>(contact, arm);
+            H_t.template topRows<3>().noalias() =
+                L.template topLeftCorner<3, 3>().transpose() * J.template leftCols<3>().transpose();
+            H_t.template bottomRows<3>().noalias() =
+                L.template bottomRightCorner<3, 3>().transpose() *
+                J.template rightCols<3>().transpose();
+            diagonal += H_t.colwise().squaredNorm().transpose();
+            row.q.noalias() += J.template leftCols<3>() * body.v_W;
+            row.q.noalias() += J.template rightCols<3>() * body.w_W;
         };
-        fill(row.H_a, contact.a, contact.p_AC_W, -1);
-        fill(row.H_b, contact.b, contact.p_BC_W, 1);
+        fill(row.Ht_a, contact.a, contact.p_AC_W, -1);
+        fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
+        row.q[0] += contact.bias;
         const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
         const double mean = diagonal.sum() / rows;
         row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
-        row.H_a *= row.unit;
-        row.H_b *= row.unit;
-        row.q = row.unit * free_velocity<D>(problem, contact);
+        row.Ht_a *= row.unit;
+        row.Ht_b *= row.unit;
+        row.q *= row.unit;
         row.law.mu = contact.friction;
         const double normal = diagonal[0] * row.unit * row.unit;
         const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
@@ -100,21 +106,15 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
 template <int Dim>
 void BodySystem<Dim>::gather(std::span<const Vec> r) noexcept {
     std::fill(y_.begin(), y_.end(), Vec6::Zero());
-    for (size_t j = 0; j < rows_.size(); ++j) {
-        const ContactRows& row = rows_[j];
-        if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * r[j];
-        if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * r[j];
-    }
+    for (size_t j = 0; j < rows_.size(); ++j) apply(rows_[j], r[j]);
 }
 
 template <int Dim>
 void BodySystem<Dim>::velocity(std::span<const Vec> r, std::span<Vec> u) noexcept {
     gather(r);
     for (size_t j = 0; j < rows_.size(); ++j) {
-        const ContactRows& row = rows_[j];
-        u[j] = row.q;
-        if (row.a != kFixed) u[j].noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
-        if (row.b != kFixed) u[j].noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+        u[j] = rows_[j].q;
+        add_velocity(rows_[j], u[j]);
     }
 }
 
@@ -126,30 +126,28 @@ void BodySystem<Dim>::newton_step(std::span<const Linearised<D>> contacts,
     for (size_t j = 0; j < rows_.size(); ++j) {
         const ContactRows& row = rows_[j];
         const Linearised<D>& contact = contacts[j];
-        const bool has_a = row.a != kFixed;
-        const bool has_b = row.b != kFixed;
-        if (has_a) y_[static_cast<size_t>(row.a)].noalias() -= row.H_a.transpose() * contact.c;
-        if (has_b) y_[static_cast<size_t>(row.b)].noalias() -= row.H_b.transpose() * contact.c;
+        apply(row, -contact.c);
         if (contact.open) continue;
-        if (has_a) {
-            const Row<D> G_a = contact.G * row.H_a;
-            lu_.block(row.aa).noalias() += row.H_a.transpose() * G_a;
-            if (has_b) lu_.block(row.ba).noalias() += row.H_b.transpose() * G_a;
+        const auto add = [&](int slot, const Ht& left, const Ht& G_right) {
+            lu_.block(slot).noalias() += left.lazyProduct(G_right.transpose());
+        };
+        if (row.a != kFixed) {
+            const Ht G_a = row.Ht_a.lazyProduct(contact.G.transpose());
+            add(row.aa, row.Ht_a, G_a);
+            if (row.b != kFixed) add(row.ba, row.Ht_b, G_a);
         }
-        if (has_b) {
-            const Row<D> G_b = contact.G * row.H_b;
-            lu_.block(row.bb).noalias() += row.H_b.transpose() * G_b;
-            if (has_a) lu_.block(row.ab).noalias() += row.H_a.transpose() * G_b;
+        if (row.b != kFixed) {
+            const Ht G_b = row.Ht_b.lazyProduct(contact.G.transpose());
+            add(row.bb, row.Ht_b, G_b);
+            if (row.a != kFixed) add(row.ab, row.Ht_a, G_b);
         }
     }
     lu_.solve(y_);
     for (size_t j = 0; j < rows_.size(); ++j) {
-        const ContactRows& row = rows_[j];
         d[j] = -contacts[j].c;
         if (contacts[j].open) continue;
         Vec u = Vec::Zero();
-        if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
-        if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+        add_velocity(rows_[j], u);
         d[j].noalias() -= contacts[j].G * u;
     }
 }
@@ -159,13 +157,13 @@ Eigen::Matrix<double, Dim, Dim> BodySystem<Dim>::delassus_block(size_t j, size_t
     Eigen::Matrix<double, D, D> out = Eigen::Matrix<double, D, D>::Zero();
     const ContactRows& row = rows_[j];
     const ContactRows& column = rows_[k];
-    const auto add = [&](const Row<D>& H_j, int body_j, const Row<D>& H_k, int body_k) {
-        if (body_j != kFixed && body_j == body_k) out.noalias() += H_j * H_k.transpose();
+    const auto add = [&](const Ht& H_j, int body_j, const Ht& H_k, int body_k) {
+        if (body_j != kFixed && body_j == body_k) out.noalias() += H_j.transpose() * H_k;
     };
-    add(row.H_a, row.a, column.H_a, column.a);
-    add(row.H_a, row.a, column.H_b, column.b);
-    add(row.H_b, row.b, column.H_a, column.a);
-    add(row.H_b, row.b, column.H_b, column.b);
+    add(row.Ht_a, row.a, column.Ht_a, column.a);
+    add(row.Ht_a, row.a, column.Ht_b, column.b);
+    add(row.Ht_b, row.b, column.Ht_a, column.a);
+    add(row.Ht_b, row.b, column.Ht_b, column.b);
     return out;
 }
 

@@ -45,15 +45,10 @@ class BodySystem {
             for (size_t j = 0; j < rows_.size(); ++j) {
                 const ContactRows& row = rows_[j];
                 Vec u = row.q;
-                if (row.a != kFixed) u.noalias() += row.H_a * y_[static_cast<size_t>(row.a)];
-                if (row.b != kFixed) u.noalias() += row.H_b * y_[static_cast<size_t>(row.b)];
+                add_velocity(row, u);
                 const Vec before = r[j];
                 law.template relax<D>(row.law, r[j], u, j);
-                const Vec change = r[j] - before;
-                if (row.a != kFixed)
-                    y_[static_cast<size_t>(row.a)].noalias() += row.H_a.transpose() * change;
-                if (row.b != kFixed)
-                    y_[static_cast<size_t>(row.b)].noalias() += row.H_b.transpose() * change;
+                apply(row, r[j] - before);
             }
         }
     }
@@ -65,9 +60,11 @@ class BodySystem {
     Vec6 change(int body) const noexcept;
 
   private:
+    /// Transposed, so that a column is whole packets of the processor.
+    using Ht = Eigen::Matrix<double, 6, D>;
     struct ContactRows {
-        Row<D> H_a;
-        Row<D> H_b;
+        Ht Ht_a;
+        Ht Ht_b;
         Vec q;
         Scale law;
         double unit = 1;
@@ -77,6 +74,16 @@ class BodySystem {
     };
 
     void gather(std::span<const Vec> r) noexcept;
+    /// y += H' r of one contact.
+    void apply(const ContactRows& row, const Vec& r) noexcept {
+        if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.Ht_a * r;
+        if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.Ht_b * r;
+    }
+    /// u += H y of one contact.
+    void add_velocity(const ContactRows& row, Vec& u) const noexcept {
+        if (row.a != kFixed) u.noalias() += row.Ht_a.transpose() * y_[static_cast<size_t>(row.a)];
+        if (row.b != kFixed) u.noalias() += row.Ht_b.transpose() * y_[static_cast<size_t>(row.b)];
+    }
 
     std::vector<ContactRows> rows_;
     std::vector<Eigen::Matrix<double, 6, 6>> root_;  // of the inverse mass matrix, by body

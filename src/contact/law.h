@@ -57,32 +57,35 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
                       double radius, double a_t, double rho, Linearised<D>& out,
                       Eigen::Matrix<double, D - 1, 1>& direction, bool& slides) noexcept {
     using Tangent = Eigen::Matrix<double, D - 1, 1>;
-    auto G = out.G.template bottomRightCorner<D - 1, D - 1>();
-    auto c = out.c.template tail<D - 1>();
     const Tangent r_t = r.template tail<D - 1>();
     const Tangent u_t = u.template tail<D - 1>();
     const Tangent z = r_t - a_t * u_t;
     const double length = z.norm();
-    slides = true;
+    slides = length > radius || radius <= 0;
+    if (!slides) {
+        for (int i = 1; i < D; ++i) {
+            for (int k = 1; k < D; ++k) out.G(i, k) = i == k ? 1 / rho : 0;
+            out.c[i] = u[i] / rho;
+        }
+        return (a_t * u_t).squaredNorm();
+    }
+    auto c = out.c.template tail<D - 1>();
     if (radius <= 0) {
         direction.setZero();
-        G.setZero();
+        out.G.template bottomRightCorner<D - 1, D - 1>().setZero();
         c = r_t;
         return r_t.squaredNorm();
-    }
-    if (length <= radius) {
-        slides = false;
-        G = Eigen::Matrix<double, D - 1, D - 1>::Identity() / rho;
-        c = u_t / rho;
-        return (a_t * u_t).squaredNorm();
     }
     direction = z / length;
     const double s = radius / length;
     const double across = 1 - s + rho * a_t * s;
+    const double turning = a_t * s / across;
     const Tangent phi = r_t - radius * direction;
     const double along = direction.dot(phi);
-    G = (a_t * s / across) *
-        (Eigen::Matrix<double, D - 1, D - 1>::Identity() - direction * direction.transpose());
+    for (int i = 1; i < D; ++i) {
+        for (int k = 1; k < D; ++k)
+            out.G(i, k) = turning * ((i == k ? 1 : 0) - direction[i - 1] * direction[k - 1]);
+    }
     c = direction * along + (phi - direction * along) / across;
     return phi.squaredNorm();
 }
@@ -119,7 +122,7 @@ struct Coulomb {
     template <int D>
     static double residual(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                            const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
-        return natural_map<D>(r, u, scale.mu).squaredNorm();
+        return natural_map_squared<D>(r, u, scale.mu);
     }
     /// A projected step down this contact's own velocity.
     template <int D>

@@ -87,7 +87,7 @@ double natural_map_residual(const ContactProblem& problem, std::span<const Impul
             u += contact_row<4>(contact, contact.p_BC_W) * velocity[static_cast<size_t>(contact.b)];
         if (contact.a != kFixed)
             u -= contact_row<4>(contact, contact.p_AC_W) * velocity[static_cast<size_t>(contact.a)];
-        error += natural_map<4>(in_cone(r[j], contact), u, contact.friction).squaredNorm();
+        error += natural_map_squared<4>(in_cone(r[j], contact), u, contact.friction);
         size += q.squaredNorm();
     }
     return std::sqrt(error) / (1 + std::sqrt(size));
@@ -97,8 +97,7 @@ double natural_map_residual(const DelassusProblem& problem, const Eigen::VectorX
     const Eigen::VectorXd u = problem.W * r + problem.q;
     double error = 0;
     for (Eigen::Index j = 0; j < problem.mu.size(); ++j) {
-        error +=
-            natural_map<3>(r.segment<3>(3 * j), u.segment<3>(3 * j), problem.mu[j]).squaredNorm();
+        error += natural_map_squared<3>(r.segment<3>(3 * j), u.segment<3>(3 * j), problem.mu[j]);
     }
     return std::sqrt(error) / (1 + problem.q.norm());
 }

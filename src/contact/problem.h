@@ -58,28 +58,31 @@ struct DelassusProblem {
 /// Contacts without torsion.
 DelassusProblem delassus(const ContactProblem& problem);
 
-/// Projection on the Coulomb cone { r : |r_T| <= mu r_N } of any dimension.
-template <int D>
-Eigen::Matrix<double, D, 1> project_on_cone(const Eigen::Matrix<double, D, 1>& x,
-                                            double mu) noexcept {
-    const double tangent = x.template tail<D - 1>().norm();
-    if (tangent <= mu * x[0]) return x;
-    if (mu * tangent <= -x[0]) return Eigen::Matrix<double, D, 1>::Zero();
-    const double normal = (x[0] + mu * tangent) / (1 + mu * mu);
-    Eigen::Matrix<double, D, 1> out;
-    out[0] = normal;
-    out.template tail<D - 1>() = mu * normal / tangent * x.template tail<D - 1>();
-    return out;
-}
-
-/// What one contact misses of Coulomb's law: r - P_K(r - (u + mu |u_T| n)), zero when it holds
+/// |F|^2 of what one contact misses of Coulomb's law, zero when it holds: the natural map
+/// F = r - P_K(r - (u + mu |u_T| n)) with the projection on the cone K of any dimension
 /// (De Saxce and Feng 1998; Acary, Bremond and Huber 2018).
 template <int D>
-Eigen::Matrix<double, D, 1> natural_map(const Eigen::Matrix<double, D, 1>& r,
-                                        const Eigen::Matrix<double, D, 1>& u, double mu) noexcept {
-    Eigen::Matrix<double, D, 1> x = r - u;
-    x[0] -= mu * u.template tail<D - 1>().norm();
-    return r - project_on_cone<D>(x, mu);
+double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
+                           const Eigen::Matrix<double, D, 1>& u, double mu) noexcept {
+    double slip = 0;
+    double tangent = 0;
+    for (int k = 1; k < D; ++k) {
+        slip += u[k] * u[k];
+        tangent += (r[k] - u[k]) * (r[k] - u[k]);
+    }
+    const double lifted = u[0] + mu * std::sqrt(slip);
+    const double normal = r[0] - lifted;
+    tangent = std::sqrt(tangent);
+    if (tangent <= mu * normal) return lifted * lifted + slip;
+    if (mu * tangent <= -normal) return r.squaredNorm();
+    const double on_cone = (normal + mu * tangent) / (1 + mu * mu);
+    const double share = mu * on_cone / tangent;
+    double sum = (r[0] - on_cone) * (r[0] - on_cone);
+    for (int k = 1; k < D; ++k) {
+        const double miss = r[k] - share * (r[k] - u[k]);
+        sum += miss * miss;
+    }
+    return sum;
 }
 
 /// Norm of the natural map over 1 + |q|, of the problem as given.

@@ -31,14 +31,18 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     using Vec = typename System::Vec;
     const std::span<Vec> r(memory.r);
     NewtonMemory<System>& newton_memory = memory.staggered.newton;
+    const double size = load(system);
+    newton_memory.resize(r.size());
     const auto cone_residual = [&] {
-        newton_memory.resize(r.size());
         system.velocity(r, newton_memory.u);
         return coulomb_residual(system, std::span<const Vec>(r),
-                                std::span<const Vec>(newton_memory.u), load(system));
+                                std::span<const Vec>(newton_memory.u), size);
     };
-    for (size_t j = 0; j < r.size(); ++j)
-        law::Coulomb::project<System::D>(system.scale(j), r[j], j);
+    const auto project = [&] {
+        for (size_t j = 0; j < r.size(); ++j)
+            law::Coulomb::project<System::D>(system.scale(j), r[j], j);
+    };
+    project();
 
     Outcome outcome;
     if (solver == Solver::staggered_projections) {
@@ -75,14 +79,16 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     });
     // what is left of an error shall not pull: impulses end inside the cone, unless that small
     // change is too much for a problem so delicate
-    const double before = cone_residual().judged();
     std::copy(r.begin(), r.end(), newton_memory.best.begin());
-    for (size_t j = 0; j < r.size(); ++j)
-        law::Coulomb::project<System::D>(system.scale(j), r[j], j);
+    project();
     Residual residual = cone_residual();
-    if (residual.judged() > kTolerance && before <= kTolerance) {
-        std::copy(newton_memory.best.begin(), newton_memory.best.end(), r.begin());
-        residual = cone_residual();
+    if (residual.judged() > kTolerance) {
+        const auto swap = [&] {
+            std::swap_ranges(r.begin(), r.end(), newton_memory.best.begin());
+            return cone_residual();
+        };
+        const Residual unprojected = swap();
+        residual = unprojected.judged() <= kTolerance ? unprojected : swap();
     }
     stats.residual = residual.given;
     stats.missed = solver != Solver::stewart_trinkle || stats.fallback

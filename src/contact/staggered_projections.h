@@ -38,7 +38,7 @@ template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {
     using Vec = typename System::Vec;
-    constexpr double kInnerTolerance = 1e-8;  // of |q|; kTarget of it is aimed at
+    constexpr double kInnerTolerance = 1e-10;  // of |q|; kTarget of it is aimed at
     constexpr int kPlainIterations = 3;
     const size_t n = system.size();
     const double size = load(system);
