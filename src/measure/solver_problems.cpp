@@ -89,6 +89,7 @@ struct Course {
 /// Shakes every body that can move, ever more.
 std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, const Course& course) {
     dynamics::Settings settings;
+    settings.solver = dynamics::Solver::sequential_impulse;
     settings.sleeping = false;
     dynamics::World world(scene, settings);
     std::vector<RecordedProblem> out;
