@@ -90,31 +90,36 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
     return phi.squaredNorm();
 }
 
+/// The normal part, with nothing of the tangential one; all of an open contact. Returns
+/// r_N - a_N u^_N.
+template <int D>
+double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                        const Eigen::Matrix<double, D, 1>& u, double rho,
+                        Linearised<D>& out) noexcept {
+    const double g = r[0] - scale.a_n * u[0];
+    out.open = g <= 0;
+    out.G.setZero();
+    out.c = r;
+    if (out.open) return g;
+    out.G(0, 0) = 1 / rho;
+    out.c[0] = u[0] / rho;
+    return g;
+}
+
 /// Coulomb's law: normal and tangential part at once.
 struct Coulomb {
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                             const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
                             size_t) noexcept {
-        const double g = r[0] - scale.a_n * u[0];
-        if (g <= 0) {
-            out.open = true;
-            out.G.setZero();
-            out.c = r;
-            return r.squaredNorm();
-        }
-        out.open = false;
+        const double g = linearise_normal<D>(scale, r, u, rho, out);
+        if (out.open) return r.squaredNorm();
         Eigen::Matrix<double, D - 1, 1> z;
         bool slides = false;
         const double error = linearise_disc<D>(r, u, scale.mu * g, scale.a_t, rho, out, z, slides);
-        out.G(0, 0) = 1 / rho;
-        out.c[0] = u[0] / rho;
-        out.G.template topRightCorner<1, D - 1>().setZero();
         if (slides) {
             out.G.template bottomLeftCorner<D - 1, 1>() = scale.mu / rho * z;
             out.c.template tail<D - 1>() += scale.mu * (1 - rho * scale.a_n) * u[0] / rho * z;
-        } else {
-            out.G.template bottomLeftCorner<D - 1, 1>().setZero();
         }
         const double phi_n = scale.a_n * u[0];
         return phi_n * phi_n + error;
@@ -227,17 +232,8 @@ struct Polygonal {
                      const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
                      size_t contact) const noexcept {
         static_assert(D == 3);
-        const double g = r[0] - scale.a_n * u[0];
-        if (g <= 0) {
-            out.open = true;
-            out.G.setZero();
-            out.c = r;
-            return r.squaredNorm();
-        }
-        out.open = false;
-        out.G.setZero();
-        out.G(0, 0) = 1 / rho;
-        out.c[0] = u[0] / rho;
+        const double g = linearise_normal<D>(scale, r, u, rho, out);
+        if (out.open) return r.squaredNorm();
         const Eigen::Vector2d r_t = r.template tail<2>();
         const Eigen::Vector2d u_t = u.template tail<2>();
         const double radius = scale.mu * g;

@@ -123,6 +123,26 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
     }
 }
 
+/// Soft fingers that are hard to this solver.
+void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
+    if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
+    std::string soft;
+    const auto look = [&](const auto& items) {
+        for (const auto& item : items) {
+            if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
+        }
+    };
+    look(plan.scene.bodies);
+    look(plan.scene.fingers);
+    if (soft.empty()) return;
+    diagnostics.warning(
+        place_of(plan, "dynamics.solver"), "dynamics.solver",
+        fmt::format("sequential_impulse takes no notice of torsion radii: contacts of {} carry no "
+                    "moment about their normal",
+                    soft),
+        "Use newton, staggered_projections or stewart_trinkle, or leave out torsion_radius_mm.");
+}
+
 void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     const int object = plan.scene.object_index();
     if (object < 0 || plan.scene.fingers.size() < 2) return;
@@ -233,6 +253,7 @@ Plan make_plan(const Request& request) {
     check_stiffness(plan, devices->devices(), diagnostics);
     check_damping(plan, devices->devices(), diagnostics);
     check_limits(plan, devices->devices(), diagnostics);
+    check_torsion(plan, diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
     diagnostics.throw_if_errors();
     plan.warnings = diagnostics.problems();

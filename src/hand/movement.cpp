@@ -11,6 +11,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/plural.h"
 #include "base/text_file.h"
 #include "base/unit.h"
 #include "hand/movement_check.h"
@@ -19,6 +20,11 @@ namespace dihaptic::hand {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// "3 frames".
+std::string counted_of(const auto& list, const std::string& noun) {
+    return counted(static_cast<int64_t>(list.size()), noun);
+}
 
 std::vector<std::string> split(std::string_view line) {
     std::vector<std::string> cells(1);
@@ -247,10 +253,11 @@ void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
         const Place place{file, lines.number()};
         const std::vector<std::string> cells = split(*line);
         if (cells.size() != columns.keys.size()) {
-            problems.error(place, "",
-                           fmt::format("has {} values where the first line names {} columns",
-                                       cells.size(), columns.keys.size()),
-                           "Complete the line, or delete it: missing frames are bridged.");
+            problems.error(
+                place, "",
+                fmt::format("has {} where the first line names {}", counted_of(cells, "value"),
+                            counted_of(columns.keys, "column")),
+                "Complete the line, or delete it: missing frames are bridged.");
             continue;
         }
         Movement::Frame frame;
@@ -261,7 +268,7 @@ void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
     if (problems.has_errors()) return;
     if (movement.frames.size() < 10) {
         problems.error({file, lines.number()}, "",
-                       fmt::format("has only {} frames", movement.frames.size()),
+                       fmt::format("has only {}", counted_of(movement.frames, "frame")),
                        "A movement needs at least 10.");
         return;
     }

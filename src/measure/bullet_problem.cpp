@@ -2,17 +2,15 @@
 
 #include <cassert>
 
+#include "dynamics/bullet/shape.h"
+
 namespace dihaptic::measure {
 namespace {
 
 constexpr double kStep = 1e-3;  // [s]; gaps over it are biases
 
-btVector3 to_bullet(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-Vec3 from_bullet(const btVector3& v) {
-    return {v.x(), v.y(), v.z()};
-}
+using dynamics::from_bullet;
+using dynamics::to_bullet;
 
 /// Where an inverse is zero, Bullet takes zero for infinite.
 double inverse(double value, double largest) {

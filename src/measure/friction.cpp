@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "measure/blocks.h"
+
 namespace dihaptic::measure {
 namespace {
 
@@ -16,22 +18,12 @@ constexpr double kGravity = 9.81;
 constexpr double kStep = 1e-3;    // [s]
 constexpr double kFallen = 0.02;  // a card or a stone that moved so far has fallen [m]
 
-scene::Body box(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {
-    scene::Body body;
-    body.name = name;
-    body.shape = scene::Shape::box(size);
-    body.position = X_WB.p;
+scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {
+    scene::Body body = box(name, size, X_WB.p, friction);
     // body.rotation is about the fixed axes x, y, z: read it back from the matrix Rz Ry Rx
     const Mat3 R = X_WB.R.toRotationMatrix();
     body.rotation = {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)),
                      std::atan2(R(1, 0), R(0, 0))};
-    body.friction = friction;
-    return body;
-}
-
-scene::Body table(double friction) {
-    scene::Body body = box("table", {1, 1, 0.1}, {Quat::Identity(), {0, 0, -0.05}}, friction);
-    body.fixed = true;
     return body;
 }
 
@@ -111,10 +103,10 @@ scene::Scene incline_scene(double slope, double turn, double friction) {
     const Quat R_block(R_table * Quat(Eigen::AngleAxisd(-turn, Vec3::UnitZ())));
     scene::Scene scene;
     scene::Body plane =
-        box("slope", {20, 20, 0.1}, {R_table, R_table * Vec3(0, 0, -0.05)}, friction);
+        box_at("slope", {20, 20, 0.1}, {R_table, R_table * Vec3(0, 0, -0.05)}, friction);
     plane.fixed = true;
-    scene::Body block = box("block", Vec3::Constant(kBlockSize),
-                            {R_block, R_table * Vec3(0, 0, kBlockSize / 2)}, friction);
+    scene::Body block = box_at("block", Vec3::Constant(kBlockSize),
+                               {R_block, R_table * Vec3(0, 0, kBlockSize / 2)}, friction);
     block.mass = 0.1;
     scene.bodies = {plane, block};
     return scene;
@@ -122,10 +114,10 @@ scene::Scene incline_scene(double slope, double turn, double friction) {
 
 scene::Scene stack_scene(int blocks) {
     scene::Scene scene;
-    scene.bodies = {table(0.8)};
+    scene.bodies = {table(1, 0.8)};
     for (int i = 0; i < blocks; ++i) {
         scene::Body block = box("block " + std::to_string(i), Vec3::Constant(kBlockSize),
-                                {Quat::Identity(), {0, 0, (i + 0.5) * kBlockSize}}, 0.8);
+                                {0, 0, (i + 0.5) * kBlockSize}, 0.8);
         block.mass = 0.1;
         scene.bodies.push_back(block);
     }
@@ -145,12 +137,13 @@ scene::Scene cards_scene(int storeys) {
     const double outermost = centre_x + u * std::sin(lean) + n * std::cos(lean);
     const double pitch = 2 * outermost + thick;
     scene::Scene scene;
-    scene.bodies = {table(friction)};
+    scene.bodies = {table(1, friction)};
     // decks side by side must not overlap
     const double deck = storeys > 2 ? std::min(length, pitch - thick / 4) : length;
     const auto card = [&](const Vec3& position, double angle, double size) {
-        scene::Body body = box("card " + std::to_string(scene.bodies.size()), {thick, width, size},
-                               {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
+        scene::Body body =
+            box_at("card " + std::to_string(scene.bodies.size()), {thick, width, size},
+                   {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
         body.mass = 0.008;
         scene.bodies.push_back(body);
     };
@@ -173,7 +166,7 @@ scene::Scene cards_scene(int storeys) {
 scene::Scene arch_scene(int voussoirs) {
     const double inner = 0.08, outer = 0.12, depth = 0.04, friction = 0.7;
     scene::Scene scene;
-    scene.bodies = {table(friction)};
+    scene.bodies = {table(1, friction)};
     for (int i = 0; i < voussoirs; ++i) {
         scene::Body stone;
         stone.name = "voussoir " + std::to_string(i);

@@ -1,16 +1,9 @@
 #include "measure/plant.h"
 
+#include "measure/blocks.h"
+
 namespace dihaptic::measure {
 namespace {
-
-scene::Body body(const std::string& name, const Vec3& size, const Vec3& position, double friction) {
-    scene::Body out;
-    out.name = name;
-    out.shape = scene::Shape::box(size);
-    out.position = position;
-    out.friction = friction;
-    return out;
-}
 
 scene::Finger pad(const std::string& name, double friction) {
     scene::Finger out;
@@ -28,8 +21,8 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
         const int column = i % 32;
         const int row = i / 32;
         scene::Body block =
-            body("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
-                 {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
+            box("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
+                {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
         block.mass = 0.1;
         scene.bodies.push_back(block);
     }
@@ -49,10 +42,10 @@ Node device_options(const BenchSetup& setup) {
 
 scene::Scene grasp_scene(const BenchSetup& setup) {
     scene::Scene scene;
-    scene::Body table = body("table", {2.0, 4.0, 0.1}, {0, 1.5, -0.05}, setup.friction);
+    scene::Body table = box("table", {2.0, 4.0, 0.1}, {0, 1.5, -0.05}, setup.friction);
     table.fixed = true;
     scene::Body block =
-        body("block", Vec3::Constant(kBlockSize), {0, 0, kBlockSize / 2}, setup.friction);
+        box("block", Vec3::Constant(kBlockSize), {0, 0, kBlockSize / 2}, setup.friction);
     block.mass = setup.mass;
     scene.bodies = {table, block};
     scene.object = "block";
@@ -94,7 +87,7 @@ hand::HandSpec grasp_hand(const BenchSetup& setup) {
 
 scene::Scene wall_scene(const BenchSetup& setup) {
     scene::Scene scene;
-    scene::Body wall = body("wall", {0.2, 0.5, 0.5}, {0.1, 0, 0}, setup.friction);
+    scene::Body wall = box("wall", {0.2, 0.5, 0.5}, {0.1, 0, 0}, setup.friction);
     wall.fixed = true;
     scene.bodies = {wall};
     scene.fingers = {pad("thumb", setup.friction)};

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "measure/blocks.h"
 #include "measure/friction.h"
 
 namespace dihaptic::measure {
@@ -88,6 +89,7 @@ struct Course {
 /// Shakes every body that can move, ever more.
 std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, const Course& course) {
     dynamics::Settings settings;
+    settings.solver = dynamics::Solver::sequential_impulse;
     settings.sleeping = false;
     dynamics::World world(scene, settings);
     std::vector<RecordedProblem> out;
@@ -153,23 +155,6 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
     return out;
 }
 
-scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double density) {
-    scene::Body body;
-    body.name = name;
-    body.shape = scene::Shape::box(size);
-    body.position = position;
-    body.friction = kFriction;
-    body.density = density;
-    return body;
-}
-
-scene::Body table() {
-    scene::Body body = box("table", {2, 2, 0.1}, {0, 0, -0.05}, 1000);
-    body.density.reset();
-    body.fixed = true;
-    return body;
-}
-
 }  // namespace
 
 scene::Scene brick_wall_scene(int bricks, int courses) {
@@ -177,12 +162,14 @@ scene::Scene brick_wall_scene(int bricks, int courses) {
     const double pitch = size.x() + 0.002;  // joints stay open: bricks touch above and below alone
     const double shift = 0.4 * pitch;       // less than half, or end bricks would stand on an edge
     scene::Scene scene;
-    scene.bodies = {table()};
+    scene.bodies = {table(2, kFriction)};
     for (int course = 0; course < courses; ++course) {
         for (int i = 0; i < bricks; ++i) {
             const double x = i * pitch + (course % 2) * shift;
-            scene.bodies.push_back(box(fmt::format("brick {}.{}", course, i), size,
-                                       {x, 0, (course + 0.5) * size.z()}, 1000));
+            scene::Body brick = box(fmt::format("brick {}.{}", course, i), size,
+                                    {x, 0, (course + 0.5) * size.z()}, kFriction);
+            brick.density = 1000;
+            scene.bodies.push_back(brick);
         }
     }
     return scene;
@@ -194,7 +181,7 @@ scene::Scene pile_scene(int boxes) {
     for (int side = 0; side < 4; ++side) {
         const double slope = 40 * std::numbers::pi / 180;  // steeper than friction holds
         const double turn = side * std::numbers::pi / 2;
-        scene::Body body = table();
+        scene::Body body = table(2, kFriction);
         body.name = fmt::format("side {}", side);
         body.rotation = {0, slope, turn};
         body.position = rotation_xyz(body.rotation) * Vec3(-1, 0, -0.05);
@@ -209,7 +196,8 @@ scene::Scene pile_scene(int boxes) {
         const Vec3 cell(i % columns - middle, i / columns % columns - middle,
                         i / (columns * columns) + 0.7 * columns);
         const Vec3 loose(random.uniform(-0.005, 0.005), random.uniform(-0.005, 0.005), 0.04);
-        scene::Body body = box(fmt::format("box {}", i), size, pitch * cell + loose, 600);
+        scene::Body body = box(fmt::format("box {}", i), size, pitch * cell + loose, kFriction);
+        body.density = 600;
         body.rotation =
             Vec3(random.uniform(-3, 3), random.uniform(-1.5, 1.5), random.uniform(-3, 3));
         scene.bodies.push_back(body);

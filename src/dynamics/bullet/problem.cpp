@@ -150,4 +150,15 @@ double ManifoldProblem::judge(std::span<btPersistentManifold*> manifolds) noexce
     return contact::natural_map_residual(problem_, impulses_, scratch_);
 }
 
+void even_out(btPersistentManifold& manifold) noexcept {
+    constexpr double kShare = 0.1;
+    const int count = manifold.getNumContacts();
+    btScalar sum = 0;
+    for (int i = 0; i < count; ++i) sum += manifold.getContactPoint(i).m_appliedImpulse;
+    for (int i = 0; i < count; ++i) {
+        btScalar& impulse = manifold.getContactPoint(i).m_appliedImpulse;
+        impulse += kShare * (sum / count - impulse);
+    }
+}
+
 }  // namespace dihaptic::dynamics

@@ -38,6 +38,14 @@ class ManifoldProblem {
     std::vector<Eigen::Matrix<double, 6, 1>> scratch_;
 };
 
+/// Moves the impulses that a step starts from, those of a patch of contacts along their normals, a
+/// tenth of the way to an even share. Which of a pad's four corners carries its load is
+/// undetermined when the pad cannot turn: every share solves the step, and any solver stays near
+/// the one that it started from. Shares that a transient left would stay, until one corner carries
+/// all and the held object turns about it. Shares that the load does determine are restored by the
+/// solve itself.
+void even_out(btPersistentManifold& manifold) noexcept;
+
 /// Moment about the normal in the last step [N*m*s]. Bullet knows none; this is a member that it
 /// keeps when it replaces a point, and that its solver for rigid bodies does not read.
 inline btScalar& torsion_impulse(btManifoldPoint& point) {

@@ -87,15 +87,4 @@ btScalar SequentialImpulse::solveSingleIteration(
         info, draw);
 }
 
-void even_out(btPersistentManifold& manifold) {
-    constexpr double kShare = 0.1;
-    const int count = manifold.getNumContacts();
-    btScalar sum = 0;
-    for (int i = 0; i < count; ++i) sum += manifold.getContactPoint(i).m_appliedImpulse;
-    for (int i = 0; i < count; ++i) {
-        btScalar& impulse = manifold.getContactPoint(i).m_appliedImpulse;
-        impulse += kShare * (sum / count - impulse);
-    }
-}
-
 }  // namespace dihaptic::dynamics

@@ -34,10 +34,4 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
     int iterations_ = 0;
 };
 
-/// Moves the warm-start impulses of a contact patch toward an even share. Which of a pad's four
-/// corners carries its load is undetermined when the pad cannot turn, and a sequential solver
-/// started from nothing loads the first corner alone: the held object then turns about that corner.
-/// Shares that the load does determine are restored by the solve itself.
-void even_out(btPersistentManifold& manifold);
-
 }  // namespace dihaptic::dynamics

@@ -5,44 +5,18 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "dynamics/world.h"
+#include "dynamics/test/blocks.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::dynamics {
 namespace {
 
-constexpr double kStep = 1e-3;
-constexpr double kGravity = 9.81;
-
-scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
-                double friction = 0.8) {
-    scene::Body body;
-    body.name = name;
-    body.shape = scene::Shape::box(size);
-    body.position = position;
-    body.friction = friction;
-    if (mass > 0) {
-        body.mass = mass;
-    } else {
-        body.fixed = true;
-    }
-    return body;
-}
-scene::Body table(double friction = 0.8) {
-    return box("table", {2, 2, 0.1}, {0, 0, -0.05}, 0, friction);
-}
-
 class EachSolver : public ::testing::TestWithParam<Solver> {
   protected:
-    World make(std::vector<scene::Body> bodies) const {
-        scene::Scene scene;
-        scene.bodies = std::move(bodies);
-        Settings settings;
+    World world_of(std::vector<scene::Body> bodies) const {
+        Settings settings = awake();
         settings.solver = GetParam();
-        settings.sleeping = false;
-        World world(scene, settings);
-        world.activate();
-        return world;
+        return make(std::move(bodies), settings);
     }
 };
 INSTANTIATE_TEST_SUITE_P(World, EachSolver,
@@ -54,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(World, EachSolver,
                          });
 
 TEST_P(EachSolver, SlidesAsFarAsCoulombSays) {
-    World world = make({table(0.5), box("block", Vec3::Constant(0.04), {0, 0, 0.02}, 0.1, 0.5)});
+    World world = world_of({table(0.5), block({0, 0, 0.02}, 0.5)});
     world.set_velocity({1}, {0.6, 0.3, 0});
     const double speed = std::hypot(0.6, 0.3);
     for (int i = 0; i < 400; ++i) world.step(kStep);
@@ -87,7 +61,7 @@ TEST_P(EachSolver, NeverGainsEnergy) {
             const scene::VolumeIntegrals unit = scene::integrate(body.shape);
             inertia.push_back((body.fixed ? 0 : *body.mass) / unit.volume * unit.inertia);
         }
-        World world = make(bodies);
+        World world = world_of(bodies);
         const auto energy = [&] {
             double sum = 0;
             for (size_t i = 1; i < bodies.size(); ++i) {
@@ -115,7 +89,7 @@ TEST_P(EachSolver, StepsWithoutAllocating) {
         bodies.push_back(box("block " + std::to_string(i), Vec3::Constant(0.04),
                              {0.02 * (i % 3), 0.01 * (i % 2), 0.021 + 0.042 * i}, 0.1));
     }
-    World world = make(bodies);
+    World world = world_of(bodies);
     dihaptic::testing::AllocationGuard guard;
     for (int i = 0; i < 400; ++i) world.step(kStep);
     EXPECT_EQ(guard.count(), 0u);
@@ -123,8 +97,8 @@ TEST_P(EachSolver, StepsWithoutAllocating) {
 
 TEST_P(EachSolver, RepeatsItselfToTheBit) {
     const auto end = [&] {
-        World world = make({table(), box("a", Vec3::Constant(0.04), {0, 0, 0.03}, 0.1),
-                            box("b", Vec3::Constant(0.04), {0.013, 0.01, 0.08}, 0.1)});
+        World world = world_of({table(), box("a", Vec3::Constant(0.04), {0, 0, 0.03}, 0.1),
+                                box("b", Vec3::Constant(0.04), {0.013, 0.01, 0.08}, 0.1)});
         for (int i = 0; i < 500; ++i) world.step(kStep);
         return std::vector<BodyState>(world.states().begin(), world.states().end());
     };
@@ -137,7 +111,7 @@ TEST_P(EachSolver, RepeatsItselfToTheBit) {
 }
 
 TEST_P(EachSolver, TellsItsResidual) {
-    World world = make({table(), box("block", Vec3::Constant(0.04), {0, 0, 0.02}, 0.1)});
+    World world = world_of({table(), block({0, 0, 0.02})});
     for (int i = 0; i < 50; ++i) {
         world.apply({1}, {0.3, 0, 0}, Vec3::Zero());
         world.step(kStep);
@@ -149,13 +123,9 @@ TEST_P(EachSolver, TellsItsResidual) {
 }
 
 TEST(Solvers, ChangeWhileRunningWithoutAJump) {
-    scene::Scene scene;
-    scene.bodies = {table(), box("lower", Vec3::Constant(0.04), {0, 0, 0.02}, 0.1),
-                    box("upper", Vec3::Constant(0.04), {0.005, 0, 0.06}, 0.1)};
-    Settings settings;
-    settings.sleeping = false;
-    World world(scene, settings);
-    world.activate();
+    World world = make({table(), box("lower", Vec3::Constant(0.04), {0, 0, 0.02}, 0.1),
+                        box("upper", Vec3::Constant(0.04), {0.005, 0, 0.06}, 0.1)},
+                       awake());
     for (int i = 0; i < 800; ++i) {
         if (i % 100 == 0) world.set_solver(static_cast<Solver>(i / 100 % contact::kSolvers));
         world.step(kStep);
@@ -173,9 +143,8 @@ World held_rod(Solver solver, double radius) {
     scene::Scene scene;
     scene::Body rod = box("rod", {0.01, 0.2, 0.01}, {0, 0.09, 0.3}, 0.02);
     scene.bodies = {table(), rod};
-    Settings settings;
+    Settings settings = awake();
     settings.solver = solver;
-    settings.sleeping = false;
     World world(scene, settings);
     for (const double side : {-1.0, 1.0}) {
         scene::Finger finger;

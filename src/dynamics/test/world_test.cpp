@@ -4,48 +4,14 @@
 
 #include <numbers>
 
+#include "dynamics/test/blocks.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::dynamics {
 namespace {
 
-constexpr double kStep = 1e-3;
-constexpr double kGravity = 9.81;
 constexpr double kDegree = std::numbers::pi / 180;
 
-scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
-                double friction = 0.8) {
-    scene::Body body;
-    body.name = name;
-    body.shape = scene::Shape::box(size);
-    body.position = position;
-    body.friction = friction;
-    if (mass > 0) {
-        body.mass = mass;
-    } else {
-        body.fixed = true;
-    }
-    return body;
-}
-scene::Body table(double friction = 0.8) {
-    return box("table", {1, 1, 0.1}, {0, 0, -0.05}, 0, friction);
-}
-scene::Body block(const Vec3& position, double friction = 0.8) {
-    return box("block", Vec3::Constant(0.04), position, 0.1, friction);
-}
-
-World make(std::vector<scene::Body> bodies, Settings settings = {}) {
-    scene::Scene scene;
-    scene.bodies = std::move(bodies);
-    World world(scene, settings);
-    world.activate();
-    return world;
-}
-Settings awake() {
-    Settings settings;
-    settings.sleeping = false;
-    return settings;
-}
 void run(World& world, double time) {
     for (double t = kStep / 2; t < time; t += kStep) world.step(kStep);
 }

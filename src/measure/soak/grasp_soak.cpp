@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "measure/plant.h"
+#include "measure/test/bars.h"
 
 namespace dihaptic::measure {
 namespace {
@@ -15,10 +15,7 @@ INSTANTIATE_TEST_SUITE_P(Grasps, Soak,
                          ::testing::Values(dynamics::Solver::stewart_trinkle,
                                            dynamics::Solver::staggered_projections,
                                            dynamics::Solver::newton),
-                         [](const auto& which) {
-                             return std::string(
-                                 enum_names(dynamics::Solver{})[static_cast<size_t>(which.param)]);
-                         });
+                         solver_name);
 
 TEST_P(Soak, AMillionSolvesOfGrasps) {
     constexpr int kSolves = 1'000'000;

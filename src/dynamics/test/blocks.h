@@ -1,0 +1,50 @@
+// Boxes and tables that tests of the World are made of.
+#pragma once
+
+#include <string>
+
+#include "dynamics/world.h"
+
+namespace dihaptic::dynamics {
+
+constexpr double kStep = 1e-3;     // [s]
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+/// Fixed when it has no mass.
+inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
+                       double friction = 0.8) {
+    scene::Body body;
+    body.name = name;
+    body.shape = scene::Shape::box(size);
+    body.position = position;
+    body.friction = friction;
+    if (mass > 0) {
+        body.mass = mass;
+    } else {
+        body.fixed = true;
+    }
+    return body;
+}
+inline scene::Body table(double friction = 0.8) {
+    return box("table", {2, 2, 0.1}, {0, 0, -0.05}, 0, friction);
+}
+inline scene::Body block(const Vec3& position, double friction = 0.8) {
+    return box("block", Vec3::Constant(0.04), position, 0.1, friction);
+}
+
+/// Nothing sleeps.
+inline Settings awake() {
+    Settings settings;
+    settings.sleeping = false;
+    return settings;
+}
+
+inline World make(std::vector<scene::Body> bodies, const Settings& settings = {}) {
+    scene::Scene scene;
+    scene.bodies = std::move(bodies);
+    World world(scene, settings);
+    world.activate();
+    return world;
+}
+
+}  // namespace dihaptic::dynamics
