@@ -11,6 +11,8 @@ namespace dihaptic::contact {
 class Anderson {
   public:
     static constexpr int kDepth = 10;
+    /// A column is left out when less than this share of it is not in the newer ones.
+    static constexpr double kNothingNew = 1e-8;
 
     void reserve(size_t size) {
         for (auto& column : dx_) column.reserve(size);
@@ -67,7 +69,7 @@ class Anderson {
                 for (size_t i = 0; i < n; ++i) e[i] -= R[m][rank] * basis_[m][i];
             }
             const double after = norm(e);
-            if (after <= 1e-10 * before) continue;  // says nothing new
+            if (after <= kNothingNew * before) continue;
             for (double& value : e) value /= after;
             R[rank][rank] = after;
             gamma[rank] = dot(e, f_);

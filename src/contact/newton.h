@@ -92,10 +92,10 @@ constexpr NewtonStart kNewtonStarts[] = {
 template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
-                        size_t starts = std::size(kNewtonStarts)) {
+                        std::span<const NewtonStart> starts = kNewtonStarts) {
     using Vec = typename System::Vec;
     constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
-    constexpr double kLeastRho = 1e-9;
+    constexpr double kLeastRho = 1e-7;
     constexpr double kMostRho = 1.0;
     constexpr double kRhoOfResidual = 0.3;
     constexpr double kReduced = 0.05;  // of the squared error
@@ -143,7 +143,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
 
     std::copy(r.begin(), r.end(), memory.best.begin());
     judge();
-    for (const NewtonStart& start : std::span(kNewtonStarts).first(starts)) {
+    for (const NewtonStart& start : starts) {
         if (out.converged) break;
         if (start.from_zero) {
             for (Vec& impulse : r) impulse.setZero();

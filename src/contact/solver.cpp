@@ -82,7 +82,7 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     std::copy(r.begin(), r.end(), newton_memory.best.begin());
     project();
     Residual residual = cone_residual();
-    if (residual.judged() > kTolerance) {
+    if (!(residual.judged() <= kTolerance)) {
         const auto swap = [&] {
             std::swap_ranges(r.begin(), r.end(), newton_memory.best.begin());
             return cone_residual();
@@ -92,7 +92,7 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     }
     stats.residual = residual.given;
     stats.missed = solver != Solver::stewart_trinkle || stats.fallback
-                       ? residual.judged() > kTolerance
+                       ? !(residual.judged() <= kTolerance)
                        : !outcome.converged;
 }
 

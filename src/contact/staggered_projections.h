@@ -7,8 +7,9 @@
 // repeated until they agree. Each is solved exactly, by the proximal Newton method, which for a
 // convex problem finds the active set; inexact inner solutions stall the outer loop at their own
 // error. Contacts without load are no part of the friction problem. Anderson acceleration of the
-// normal impulses shortens the loop. Every pair ends with a contact projection, so none leaves
-// bodies approaching; the best pair is the answer.
+// normal impulses shortens the loop; what still wanders is moved on by projected Gauss-Seidel
+// sweeps. Every pair ends with a contact projection, so none leaves bodies approaching; the best
+// pair is the answer.
 #pragma once
 
 #include "contact/anderson.h"
@@ -38,30 +39,38 @@ template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {
     using Vec = typename System::Vec;
-    constexpr double kInnerTolerance = 1e-10;  // of |q|; kTarget of it is aimed at
+    // Of |q|; kTarget of it is aimed at. No need to be far more exact than the loop has become.
+    constexpr double kInnerTolerance = 1e-10;
+    constexpr double kInnerOfLast = 1e-3;
+    // Loads that nothing determines must not wander from pair to pair: a large rho that falls
+    // slowly keeps the inner answer near its start.
+    constexpr NewtonStart kInnerStart[] = {{false, 0, 1e-3, 40, 6, 12, false, 0}};
     constexpr int kPlainIterations = 3;
+    constexpr int kPatience = 15;  // iterations before sweeps move on
+    constexpr int kSweeps = 200;
     const size_t n = system.size();
     const double size = load(system);
-    const double inner = kInnerTolerance * size;
     memory.best.resize(n);
     memory.normal.resize(n);
     memory.image.resize(n);
     memory.anderson.start(n);
+    Outcome out;
+    double last = std::numeric_limits<double>::infinity();
     const auto solve = [&](const auto& law) {
+        const double enough = std::isfinite(last) ? kInnerOfLast * last : 0;
         proximal_newton(
-            system, law, r, inner, memory.newton,
+            system, law, r, std::max(kInnerTolerance, enough) * size, memory.newton,
             [&](std::span<const Vec> impulse, std::span<const Vec> u) {
                 double error = 0;
                 for (size_t j = 0; j < n; ++j)
                     error += law.template residual<System::D>(system.scale(j), impulse[j], u[j], j);
                 return std::sqrt(error);
             },
-            1);
+            kInnerStart);
     };
 
-    Outcome out;
-    double last = std::numeric_limits<double>::infinity();
     int stalled = 0;
+    int plain = kPlainIterations;
     memory.newton.resize(n);
     const auto judge = [&] {
         const double residual = coulomb_residual(system, std::span<const Vec>(r),
@@ -98,8 +107,16 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
             break;
         if (residual > 2 * last) memory.anderson.forget();
         last = residual;
+        if (out.iterations % kPatience == 0) {
+            system.sweep(law::Coulomb{}, r, kSweeps);
+            for (size_t j = 0; j < n; ++j) memory.normal[j] = r[j][0];
+            memory.anderson.forget();
+            plain = kPlainIterations;
+            continue;
+        }
         for (size_t j = 0; j < n; ++j) memory.image[j] = r[j][0];
-        if (out.iterations <= kPlainIterations) {
+        if (plain > 0) {
+            --plain;
             // Coulomb's law may have several solutions: begin gently, to find the one nearest
             memory.normal.swap(memory.image);
             continue;

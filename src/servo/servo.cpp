@@ -1,6 +1,7 @@
 #include "servo/servo.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::servo {
 namespace {
@@ -159,8 +160,10 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.v_WB = states[i].v_WB;
         out.w_WB = states[i].w_WB;
         out.awake = states[i].awake ? 1 : 0;
-        if (!out.X_WB.p.allFinite() || !out.v_WB.allFinite() || !out.w_WB.allFinite())
-            frame_.status |= kNotFinite;
+        // squares too: what overflows in the next computation has diverged already
+        const double size =
+            out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
+        if (!std::isfinite(size)) frame_.status |= kNotFinite;
         frame_.changed.push_back(i);
     };
     frame_.changed.clear();
