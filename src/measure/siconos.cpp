@@ -69,8 +69,7 @@ std::vector<std::string> siconos_solvers() {
 }
 
 PeerAnswer solve_by_siconos(const std::string& solver, const contact::DelassusProblem&) {
-    throw Error(solver + " is not in this build",
-                "Run ./dev bench --peers.");
+    throw Error(solver + " is not in this build", "Run ./dev bench --peers.");
 }
 
 #endif
