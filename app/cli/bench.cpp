@@ -88,30 +88,37 @@ void add_friction(CLI::App& bench) {
     auto* command = bench.add_subcommand(
         "friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
     auto options = std::make_shared<Options>();
-    command->add_option("--solver", options->solver, "only this contact solver; otherwise all");
+    command->add_option("--solver", options->solver,
+                        "only this contact solver; otherwise all, and peers");
     command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
     command->footer("\nExample:\n  dihaptic bench friction");
     command->callback([options] {
         resolve(*options);
         std::vector<dynamics::Solver> solvers{options->setup.settings.dynamics.solver};
+        std::vector<measure::Simulator> peers;
         if (options->solver.empty()) {
             solvers.clear();
             for (int i = 0; i < contact::kSolvers; ++i)
                 solvers.push_back(static_cast<dynamics::Solver>(i));
+            peers = measure::peer_simulators();
         }
         std::vector<measure::FrictionFigures> figures;
         {
             ProgressLine line("bench friction");
+            const auto say = [&](std::string_view name) {
+                const auto done = static_cast<double>(figures.size());
+                const auto all = static_cast<double>(solvers.size() + peers.size());
+                return [&line, name, done, all](const std::string& what, double share) {
+                    line.show((done + share) / all, fmt::format("{}, {}", name, what));
+                };
+            };
             for (const dynamics::Solver solver : solvers) {
                 dynamics::Settings settings = options->setup.settings.dynamics;
                 settings.solver = solver;
-                const auto done = static_cast<double>(figures.size());
-                figures.push_back(
-                    measure::bench_friction(settings, [&](const std::string& what, double share) {
-                        line.show((done + share) / static_cast<double>(solvers.size()),
-                                  fmt::format("{}, {}", enum_name(solver), what));
-                    }));
+                figures.push_back(measure::bench_friction(settings, say(enum_name(solver))));
             }
+            for (const measure::Simulator& peer : peers)
+                figures.push_back(measure::bench_peer_friction(peer, say(peer.name)));
         }
         fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
     });

@@ -26,9 +26,8 @@ double scattered(int attempt, int i) noexcept {
 void Lemke::reserve(int variables) {
     capacity_ = variables;
     const auto n = static_cast<size_t>(variables);
-    M_.resize(n * n);
-    reduced_.resize(n * n);
-    tableau_.resize(n * (2 * n + 2));
+    M_ = std::make_unique_for_overwrite<double[]>(n * n);
+    tableau_ = std::make_unique_for_overwrite<double[]>(n * (2 * n + 2));
     for (auto* v : {&q_, &z_, &w_, &right_}) v->resize(n);
     basis_.reserve(n);
     last_basis_.reserve(n);
@@ -39,7 +38,7 @@ void Lemke::start(int variables) noexcept {
     n_ = variables;
     stride_ = 2 * static_cast<size_t>(variables) + 2;
     pivots_ = 0;
-    std::fill_n(M_.begin(), static_cast<size_t>(n_) * static_cast<size_t>(n_), 0.0);
+    std::fill_n(M_.get(), static_cast<size_t>(n_) * static_cast<size_t>(n_), 0.0);
     std::fill_n(q_.begin(), static_cast<size_t>(n_), 0.0);
 }
 
@@ -158,7 +157,7 @@ bool Lemke::try_last_basis() noexcept {
     if (m == 0) return false;
     // Gaussian elimination in memory of our own: Eigen's factorisations would allocate
     const auto at = [&](int i, int j) -> double& {
-        return reduced_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];
+        return tableau_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];
     };
     for (int i = 0; i < m; ++i) {
         const int row_index = last_basis_[static_cast<size_t>(i)];

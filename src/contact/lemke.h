@@ -4,13 +4,16 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <vector>
 
 namespace dihaptic::contact {
 
 class Lemke {
   public:
-    /// Memory for problems up to so many variables.
+    /// Memory for problems up to so many variables. It is not touched: the system gives pages when
+    /// problems first need them, and most programs never do. Beside the
+    /// pivots, page faults of the first use are too few to measure.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 
@@ -45,11 +48,11 @@ class Lemke {
     int n_ = 0;
     size_t stride_ = 0;  // w, z, z0, right side
     int pivots_ = 0;
-    std::vector<double> M_, q_, z_, w_;
-    std::vector<double> tableau_;
+    std::unique_ptr<double[]> M_;
+    std::unique_ptr<double[]> tableau_;  // try_last_basis has its own use for it
+    std::vector<double> q_, z_, w_;
     std::vector<int> basis_;       // by row: which column is basic
     std::vector<int> last_basis_;  // z that were basic in the last solution
-    std::vector<double> reduced_;  // memory for try_last_basis
     std::vector<double> right_;
 };
 

@@ -3,35 +3,10 @@
 #include <algorithm>
 
 #include "dynamics/world_impl.h"
+#include "scene/solid.h"
 
 namespace dihaptic::dynamics {
 namespace {
-
-/// Mass, centre of mass and principal inertia of a solid.
-struct Solid {
-    double mass = 0;
-    Vec3 inertia = Vec3::Zero();  ///< principal moments [kg*m^2]
-    Pose X_BM;                    ///< centre of mass and principal axes in B
-};
-
-Solid solid_of(const scene::Shape& shape, double mass) {
-    Solid out;
-    out.mass = mass;
-    const scene::VolumeIntegrals unit = scene::integrate(shape);
-    if (mass <= 0 || unit.volume <= 0) return out;
-    const double density = mass / unit.volume;
-    const Eigen::SelfAdjointEigenSolver<Mat3> axes(density * unit.inertia);
-    out.X_BM.p = unit.centre;
-    if (unit.inertia.isDiagonal(1e-9)) {
-        out.inertia = density * unit.inertia.diagonal();
-    } else {
-        Mat3 R = axes.eigenvectors();
-        if (R.determinant() < 0) R.col(0) *= -1;
-        out.X_BM.R = Quat(R);
-        out.inertia = axes.eigenvalues();
-    }
-    return out;
-}
 
 btVector3 factors(scene::Axes axes) {
     return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
@@ -48,7 +23,7 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     item.friction = friction_coefficient;
     item.torsion_radius = torsion_radius;
     item.can_move = mass > 0 && !(linear.isZero() && angular.isZero());
-    Solid solid = solid_of(shape, item.can_move ? mass : 0);
+    scene::Solid solid = scene::solid_of(shape, item.can_move ? mass : 0);
     const bool one_axis = angular.length2() == 1;
     if (one_axis) {
         // held to one axis e, only I_ee counts; spread over all axes, any orientation of M gives it

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -9,14 +10,14 @@
 #include <numbers>
 
 #include "measure/blocks.h"
+#include "model/grasp.h"
 
 namespace dihaptic::measure {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGravity = 9.81;
-constexpr double kStep = 1e-3;    // [s]
-constexpr double kFallen = 0.02;  // a card or a stone that moved so far has fallen [m]
+constexpr double kFallen = 0.02;  // what moved so far has fallen [m]
 
 scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {
     scene::Body body = box(name, size, X_WB.p, friction);
@@ -27,37 +28,28 @@ scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, 
     return body;
 }
 
-dynamics::World make_world(const scene::Scene& scene, dynamics::Settings settings) {
-    settings.sleeping = false;
-    dynamics::World world(scene, settings);
-    world.activate();
-    return world;
+int steps(double time) {
+    return static_cast<int>(std::lround(time / kStep));
 }
 
 /// Largest displacement of any movable body's centre of volume after some time [m]; of what has
 /// fallen before, some displacement beyond `fallen`.
-double drift(const scene::Scene& scene, const dynamics::Settings& settings, double time,
+double drift(const scene::Scene& scene, const Simulator& simulator, double time,
              double fallen = std::numeric_limits<double>::infinity()) {
-    dynamics::World world = make_world(scene, settings);
     std::vector<Vec3> centre;
     std::vector<Vec3> start;
-    for (size_t i = 0; i < scene.bodies.size(); ++i) {
-        centre.push_back(scene::integrate(scene.bodies[i].shape).centre);
-        start.push_back(world.states()[i].X_WB * centre[i]);
+    for (const scene::Body& body : scene.bodies) {
+        centre.push_back(scene::integrate(body.shape).centre);
+        start.push_back(body.pose() * centre.back());
     }
-    const auto displacement = [&] {
-        double most = 0;
-        for (size_t i = 0; i < scene.bodies.size(); ++i) {
-            most = std::max(most, (world.states()[i].X_WB * centre[i] - start[i]).norm());
-        }
-        return most;
-    };
-    const auto steps = static_cast<int>(std::lround(time / kStep));
-    for (int i = 0; i < steps; ++i) {
-        world.step(kStep);
-        if (i % 50 == 0 && displacement() > fallen) break;
-    }
-    return displacement();
+    double most = 0;
+    simulator.run({scene, {}}, steps(time), [&](std::span<const Pose> X_WB) {
+        most = 0;
+        for (size_t i = 0; i < start.size(); ++i)
+            most = std::max(most, (X_WB[i] * centre[i] - start[i]).norm());
+        return most <= fallen;
+    });
+    return most;
 }
 
 std::optional<double> standing(double drift) {
@@ -65,50 +57,79 @@ std::optional<double> standing(double drift) {
 }
 
 /// Storeys of the highest house of cards, of 2 to 6, that stands for 3 s.
-int storeys_held(const dynamics::Settings& settings, const std::function<void(int)>& say) {
+int storeys_held(const Simulator& simulator, const std::function<void(int)>& say) {
     for (int storeys = 6; storeys >= 2; --storeys) {
         say(storeys);
-        if (drift(cards_scene(storeys), settings, 3, kFallen) < kFallen) return storeys;
+        if (drift(cards_scene(storeys), simulator, 3, kFallen) < kFallen) return storeys;
     }
     return 0;
 }
 
-/// Slides for a second on a slope from rest; displacement along the slope, and angle off the fall
-/// line.
+/// How a block slides from rest: its acceleration down the slope, and its angle off the fall line,
+/// of the last 0.8 of a second. Soft contacts take the first 0.2 to settle.
 struct Slide {
     double acceleration = 0;
     double off_fall_line = 0;
 };
-Slide slide(double slope, double turn, const dynamics::Settings& settings) {
-    const scene::Scene scene = incline_scene(slope, turn, 0.5);
-    dynamics::World world = make_world(scene, settings);
-    const Vec3 start = world.states()[1].X_WB.p;
-    const int steps = 1000;
-    for (int i = 0; i < steps; ++i) world.step(kStep);
-    const Vec3 way = world.states()[1].X_WB.p - start;
-    // semi-implicit Euler from rest: x_n = a h^2 n (n + 1) / 2
-    const double covered = kStep * kStep * steps * (steps + 1) / 2;
+Slide slide(double slope, double turn, const Simulator& simulator) {
+    const Trial trial{incline_scene(slope, turn, 0.5, simulator.slope), {}};
+    std::array<Vec3, 3> p_WB;
+    const int apart = steps(0.4);
+    int step = 0;
+    simulator.run(trial, steps(1), [&](std::span<const Pose> X_WB) {
+        ++step;
+        if (step % apart == steps(0.2)) p_WB[static_cast<size_t>(step / apart)] = X_WB[1].p;
+        return true;
+    });
+    const Vec3 way = p_WB[2] - p_WB[0];
+    const Vec3 gained = p_WB[2] - 2 * p_WB[1] + p_WB[0];
     const Vec3 fall =
         Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ())) * Vec3(std::cos(slope), 0, -std::sin(slope));
-    return {way.dot(fall) / covered, std::atan2(way.cross(fall).norm(), way.dot(fall))};
+    const double time = apart * kStep;
+    return {gained.dot(fall) / (time * time), std::atan2(way.cross(fall).norm(), way.dot(fall))};
+}
+
+/// Largest slip of a pad, in the block's frame, in a minute after the first second [m].
+double pinch_slip(const Simulator& simulator) {
+    const int settled = steps(1);
+    const auto pad_on_block = [](std::span<const Pose> X_WB, size_t pad) {
+        return X_WB[0].inverse() * X_WB[pad].p;
+    };
+    std::array<Vec3, 2> start;
+    double most = 0;
+    int step = 0;
+    simulator.run(pinch_trial(), settled + steps(60), [&](std::span<const Pose> X_WB) {
+        ++step;
+        for (size_t i = 0; i < start.size(); ++i) {
+            const Vec3 p_BP = pad_on_block(X_WB, i + 1);
+            if (step <= settled) start[i] = p_BP;
+            most = std::max(most, (p_BP - start[i]).norm());
+            if (!p_BP.allFinite() || X_WB[0].p.norm() > 1)
+                most = std::numeric_limits<double>::infinity();
+        }
+        return most <= kFallen;
+    });
+    return most;
 }
 
 }  // namespace
 
-scene::Scene incline_scene(double slope, double turn, double friction) {
+scene::Scene incline_scene(double slope, double turn, double friction, scene::ShapeKind kind) {
     // the fall line is turned about the vertical; the block's edges keep to the world's, so that
     // nothing is aligned
     const Quat R_table(Eigen::AngleAxisd(turn, Vec3::UnitZ()) *
                        Eigen::AngleAxisd(slope, Vec3::UnitY()));
     const Quat R_block(R_table * Quat(Eigen::AngleAxisd(-turn, Vec3::UnitZ())));
     scene::Scene scene;
-    scene::Body plane =
-        box_at("slope", {20, 20, 0.1}, {R_table, R_table * Vec3(0, 0, -0.05)}, friction);
-    plane.fixed = true;
+    const bool is_box = kind == scene::ShapeKind::box;
+    scene::Body ground = box_at("slope", {20, 20, 0.1},
+                                {R_table, R_table * Vec3(0, 0, is_box ? -0.05 : 0)}, friction);
+    ground.shape.kind = kind;
+    ground.fixed = true;
     scene::Body block = box_at("block", Vec3::Constant(kBlockSize),
                                {R_block, R_table * Vec3(0, 0, kBlockSize / 2)}, friction);
     block.mass = 0.1;
-    scene.bodies = {plane, block};
+    scene.bodies = {ground, block};
     return scene;
 }
 
@@ -188,37 +209,63 @@ scene::Scene arch_scene(int voussoirs) {
     return scene;
 }
 
-FrictionFigures bench_friction(const dynamics::Settings& settings, const Progress& progress) {
+Trial pinch_trial() {
+    Trial trial;
+    const double grip = model::series_spring_force(kSqueeze, kHandStiffness, 1000);
+    scene::Body block = box("block", Vec3::Constant(kBlockSize), Vec3::Zero(), 0.8);
+    block.mass = 0.1;
+    trial.scene.bodies = {block};
+    for (const double side : {-1.0, 1.0}) {
+        const double x = side * (kBlockSize + kPadThickness) / 2;
+        scene::Body pad =
+            box(side < 0 ? "left" : "right", {kPadThickness, 0.020, 0.020}, {x, 0, 0}, 0.8);
+        pad.mass = 0.075;
+        pad.moves = scene::Axes::x;
+        pad.turns = scene::Axes::none;
+        trial.pushes.push_back({trial.scene.bodies.size(), {-side * grip, 0, 0}});
+        trial.scene.bodies.push_back(pad);
+    }
+    return trial;
+}
+
+FrictionFigures bench_peer_friction(const Simulator& simulator, const Progress& progress) {
     FrictionFigures out;
-    out.solver = settings.solver;
+    out.solver = simulator.name;
     double done = 0;
     const auto say = [&](const std::string& what) {
-        if (progress) progress(what, done++ / 8);
+        if (progress) progress(what, done++ / 9);
     };
     say("incline, held");
-    out.drift_mm = drift(incline_scene(26 * kDegree, 0, 0.5), settings, 5) * 1e3;
+    out.drift_mm = drift(incline_scene(26 * kDegree, 0, 0.5, simulator.slope), simulator, 5) * 1e3;
     say("incline, released");
     const double slope = 27 * kDegree;
-    out.accel_error = slide(slope, 0, settings).acceleration /
+    out.accel_error = slide(slope, 0, simulator).acceleration /
                           (kGravity * (std::sin(slope) - 0.5 * std::cos(slope))) -
                       1;
     say("incline, turned");
     for (int i = 0; i <= 12; ++i) {
         out.direction_error_deg =
             std::max(out.direction_error_deg,
-                     slide(30 * kDegree, i * 7.5 * kDegree, settings).off_fall_line / kDegree);
+                     slide(30 * kDegree, i * 7.5 * kDegree, simulator).off_fall_line / kDegree);
     }
     say("stack");
-    out.stack_drift_mm = drift(stack_scene(10), settings, 10) * 1e3;
+    out.stack_drift_mm = drift(stack_scene(10), simulator, 10) * 1e3;
     say("house of cards");
-    out.cards_drift_mm = standing(drift(cards_scene(2), settings, 10, kFallen));
-    out.cards_storeys = storeys_held(settings, [&](int storeys) {
-        if (progress) progress(fmt::format("house of {} storeys", storeys), done / 8);
+    out.cards_drift_mm = standing(drift(cards_scene(2), simulator, 10, kFallen));
+    out.cards_storeys = storeys_held(simulator, [&](int storeys) {
+        if (progress) progress(fmt::format("house of {} storeys", storeys), done / 9);
     });
     ++done;
     say("arch");
-    out.arch_drift_mm = standing(drift(arch_scene(9), settings, 10, kFallen));
-    say("creep of a held block");
+    out.arch_drift_mm = standing(drift(arch_scene(9), simulator, 10, kFallen));
+    say("pinched block");
+    out.pinch_mm = standing(pinch_slip(simulator));
+    return out;
+}
+
+FrictionFigures bench_friction(const dynamics::Settings& settings, const Progress& progress) {
+    FrictionFigures out = bench_peer_friction(world_simulator(settings), progress);
+    if (progress) progress("creep of a held block", 8.0 / 9);
     BenchSetup setup;
     setup.settings.dynamics = settings;
     setup.settings.coupling.stiffness = 1000;
@@ -232,8 +279,8 @@ namespace {
 nlohmann::json or_null(const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
-std::string or_fell(const std::optional<double>& value) {
-    return value ? fmt::format("{:.5f}", *value) : "fell";
+std::string or_word(const std::optional<double>& value, const char* word) {
+    return value ? fmt::format("{:.5f}", *value) : word;
 }
 
 }  // namespace
@@ -241,7 +288,7 @@ std::string or_fell(const std::optional<double>& value) {
 std::string to_json(const std::vector<FrictionFigures>& figures) {
     nlohmann::ordered_json out;
     for (const FrictionFigures& f : figures) {
-        out["solvers"].push_back({{"solver", enum_name(f.solver)},
+        out["solvers"].push_back({{"solver", f.solver},
                                   {"drift_mm", f.drift_mm},
                                   {"accel_error", f.accel_error},
                                   {"direction_error_deg", f.direction_error_deg},
@@ -249,23 +296,25 @@ std::string to_json(const std::vector<FrictionFigures>& figures) {
                                   {"cards_drift_mm", or_null(f.cards_drift_mm)},
                                   {"cards_storeys", f.cards_storeys},
                                   {"arch_drift_mm", or_null(f.arch_drift_mm)},
-                                  {"creep_mm", f.creep_mm}});
+                                  {"pinch_mm", or_null(f.pinch_mm)},
+                                  {"creep_mm", or_null(f.creep_mm)}});
     }
     return out.dump(2) + "\n";
 }
 
 std::string to_table(const std::vector<FrictionFigures>& figures) {
-    std::string out =
-        fmt::format("{:21s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>7s} {:>10s} {:>10s}\n",
-                    "solver", "26 deg mm", "accel err", "dir deg", "stack mm", "cards mm",
-                    "storeys", "arch mm", "creep mm");
+    std::string out = fmt::format(
+        "{:21s} {:>10s} {:>10s} {:>10s} {:>10s} {:>10s} {:>7s} {:>10s} {:>10s} {:>10s}\n", "solver",
+        "26 deg mm", "accel err", "dir deg", "stack mm", "cards mm", "storeys", "arch mm",
+        "pinch mm", "creep mm");
     for (const FrictionFigures& f : figures) {
         out += fmt::format(
-            "{:21s} {:10.5f} {:10.5f} {:10.4f} {:10.5f} {:>10s} {:>7s} {:>10s} {:10.6f}\n",
-            enum_name(f.solver), f.drift_mm, f.accel_error, f.direction_error_deg, f.stack_drift_mm,
-            or_fell(f.cards_drift_mm),
-            f.cards_storeys > 0 ? std::to_string(f.cards_storeys) : "< 2", or_fell(f.arch_drift_mm),
-            f.creep_mm);
+            "{:21s} {:10.5f} {:10.5f} {:10.4f} {:10.5f} {:>10s} {:>7s} {:>10s} {:>10s} {:>10s}\n",
+            f.solver, f.drift_mm, f.accel_error, f.direction_error_deg, f.stack_drift_mm,
+            or_word(f.cards_drift_mm, "fell"),
+            f.cards_storeys > 0 ? std::to_string(f.cards_storeys) : "< 2",
+            or_word(f.arch_drift_mm, "fell"), or_word(f.pinch_mm, "fell"),
+            or_word(f.creep_mm, "-"));
     }
     return out;
 }

@@ -3,7 +3,7 @@
 #include "base/diagnostics.h"
 #include "contact/solver.h"
 
-#ifdef DIHAPTIC_SICONOS
+#ifdef DIHAPTIC_PEERS
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
 #include <NonSmoothDrivers.h>
@@ -18,7 +18,7 @@
 
 namespace dihaptic::measure {
 
-#ifdef DIHAPTIC_SICONOS
+#ifdef DIHAPTIC_PEERS
 
 std::vector<std::string> siconos_solvers() {
     return {"siconos_nsgs", "siconos_nsn"};
@@ -69,8 +69,7 @@ std::vector<std::string> siconos_solvers() {
 }
 
 PeerAnswer solve_by_siconos(const std::string& solver, const contact::DelassusProblem&) {
-    throw Error(solver + " is not in this build",
-                "Install libsiconos-numerics-dev and build again.");
+    throw Error(solver + " is not in this build", "Run ./dev bench --peers.");
 }
 
 #endif

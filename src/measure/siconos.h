@@ -1,5 +1,4 @@
-// Siconos (INRIA) beside our solvers, where its numerics library was installed when this was built:
-// docs/measures.md says how to get it.
+// Siconos (INRIA) beside our solvers, where this was built with peers (docs/measures.md).
 #pragma once
 
 #include <string>

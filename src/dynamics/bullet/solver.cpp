@@ -66,12 +66,7 @@ void SequentialImpulse::convertContacts(btPersistentManifold** manifolds, int ma
                 const btScalar impulse = std::clamp(
                     last_friction_[contact].dot(friction.m_contactNormal1), -limit, limit);
                 friction.m_appliedImpulse = impulse;
-                btSolverBody& a = m_tmpSolverBodyPool[friction.m_solverBodyIdA];
-                btSolverBody& b = m_tmpSolverBodyPool[friction.m_solverBodyIdB];
-                a.internalApplyImpulse(friction.m_contactNormal1 * a.internalGetInvMass(),
-                                       friction.m_angularComponentA, impulse);
-                b.internalApplyImpulse(friction.m_contactNormal2 * b.internalGetInvMass(),
-                                       friction.m_angularComponentB, impulse);
+                apply(friction, impulse);
             }
         }
     }
@@ -82,9 +77,37 @@ btScalar SequentialImpulse::solveSingleIteration(
     int manifold_count, btTypedConstraint** constraints, int constraint_count,
     const btContactSolverInfo& info, btIDebugDraw* draw) {
     iterations_ = iteration + 1;
-    return btSequentialImpulseConstraintSolver::solveSingleIteration(
+    const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
         iteration, bodies, body_count, manifolds, manifold_count, constraints, constraint_count,
         info, draw);
+    return std::max(residual, release_friction());
+}
+
+btScalar SequentialImpulse::release_friction() {
+    // Bullet leaves friction alone where the normal impulse has gone: it knows only friction that
+    // began at zero. Ours began at the last step's, and would push on contacts that open.
+    btScalar most = 0;
+    for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
+        btSolverConstraint& friction = m_tmpSolverContactFrictionConstraintPool[i];
+        const btScalar impulse = friction.m_appliedImpulse;
+        if (impulse == 0 ||
+            m_tmpSolverContactConstraintPool[friction.m_frictionIndex].m_appliedImpulse > 0)
+            continue;
+        apply(friction, -impulse);
+        friction.m_appliedImpulse = 0;
+        const btScalar change = impulse / friction.m_jacDiagABInv;
+        most = std::max(most, change * change);
+    }
+    return most;
+}
+
+void SequentialImpulse::apply(const btSolverConstraint& row, btScalar impulse) {
+    btSolverBody& a = m_tmpSolverBodyPool[row.m_solverBodyIdA];
+    btSolverBody& b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+    a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA,
+                           impulse);
+    b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB,
+                           impulse);
 }
 
 }  // namespace dihaptic::dynamics

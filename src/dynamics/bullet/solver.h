@@ -29,6 +29,10 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
                                   btPersistentManifold** manifolds, int manifold_count,
                                   btTypedConstraint** constraints, int constraint_count,
                                   const btContactSolverInfo& info, btIDebugDraw* draw) override;
+    /// Takes friction off contacts whose normal impulse is zero; the largest change of velocity,
+    /// squared.
+    btScalar release_friction();
+    void apply(const btSolverConstraint& row, btScalar impulse);
 
     std::vector<btVector3> last_friction_;  // by contact, impulse of the last step on body 0
     int iterations_ = 0;

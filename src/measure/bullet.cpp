@@ -1,0 +1,79 @@
+// Bullet as it comes.
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "dynamics/bullet/shape.h"
+#include "measure/simulator.h"
+#include "scene/solid.h"
+
+namespace dihaptic::measure {
+namespace {
+
+using dynamics::from_bullet;
+using dynamics::to_bullet;
+
+struct Body {
+    Pose X_MB;
+    std::unique_ptr<btCollisionShape> shape;
+    std::unique_ptr<btRigidBody> body;
+};
+
+btVector3 factors(scene::Axes axes) {
+    return {scene::contains(axes, 0) ? 1.0 : 0.0, scene::contains(axes, 1) ? 1.0 : 0.0,
+            scene::contains(axes, 2) ? 1.0 : 0.0};
+}
+
+Body make_body(const scene::Body& body) {
+    const bool moves = body.moves_at_all();
+    const scene::Solid solid = scene::solid_of(body.shape, moves ? scene::mass(body) : 0);
+    Body out;
+    out.X_MB = solid.X_BM.inverse();
+    out.shape = dynamics::bullet_shape(body.shape, solid.X_BM);
+    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, out.shape.get(),
+                                                  to_bullet(solid.inertia));
+    info.m_startWorldTransform = to_bullet(body.pose() * solid.X_BM);
+    info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two of a pair
+    out.body = std::make_unique<btRigidBody>(info);
+    if (moves) {
+        out.body->setLinearFactor(factors(body.moves));
+        out.body->setAngularFactor(factors(body.turns));
+        out.body->setActivationState(DISABLE_DEACTIVATION);
+    }
+    return out;
+}
+
+void run(const Trial& trial, int steps, const Watch& watch) {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+    world.setGravity(to_bullet(trial.scene.gravity));
+    // our World, in the same program, changes it
+    constexpr double kBulletsDefault = 0.02;
+    gContactBreakingThreshold = kBulletsDefault;
+    std::vector<Body> bodies;
+    for (const scene::Body& body : trial.scene.bodies) {
+        bodies.push_back(make_body(body));
+        world.addRigidBody(bodies.back().body.get());
+    }
+    std::vector<Pose> X_WB(bodies.size());
+    for (int i = 0; i < steps; ++i) {
+        for (const Trial::Push& push : trial.pushes)
+            bodies[push.body].body->applyCentralForce(to_bullet(push.force_W));
+        world.stepSimulation(kStep, 0);
+        for (size_t b = 0; b < bodies.size(); ++b)
+            X_WB[b] = from_bullet(bodies[b].body->getWorldTransform()) * bodies[b].X_MB;
+        if (!watch(X_WB)) break;
+    }
+    for (const Body& body : bodies) world.removeRigidBody(body.body.get());
+}
+
+}  // namespace
+
+Simulator bullet_simulator() {
+    return {"bullet_default", run};
+}
+
+}  // namespace dihaptic::measure
