@@ -103,8 +103,11 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     constexpr double kGrown = 4;
     constexpr int kFewSteps = 4;
     constexpr int kRescueSweeps = 5;
+    // contacts times steps, of all starts: a heap that jams must not stop the tick for long
+    constexpr size_t kMostWork = 32000;
 
     const size_t n = system.size();
+    const auto most_steps = static_cast<int>(kMostWork / std::max<size_t>(n, 1));
     memory.resize(n);
     Outcome out;
     double residual = 0;
@@ -144,7 +147,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     std::copy(r.begin(), r.end(), memory.best.begin());
     judge();
     for (const NewtonStart& start : starts) {
-        if (out.converged) break;
+        if (out.converged || out.iterations >= most_steps) break;
         if (start.from_zero) {
             for (Vec& impulse : r) impulse.setZero();
         }
@@ -154,7 +157,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         double first = restart_proximal(rho);
         double error = first;
         int inner = 0;
-        for (int step = 0; step < start.most_steps; ++step) {
+        for (int step = 0; step < start.most_steps && out.iterations < most_steps; ++step) {
             system.newton_step(memory.linearised, memory.d);
             ++inner;
             if (step_by(1)) break;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr int kLastSweeps = 2000;
+/// As a fallback: pairs times contacts times contacts, and sweeps times contacts.
+constexpr size_t kMostStaggeredWork = 20'000;
+constexpr size_t kMostSweepWork = 60'000;
 
 template <class System>
 struct SolverMemory {
@@ -32,6 +35,7 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     const std::span<Vec> r(memory.r);
     NewtonMemory<System>& newton_memory = memory.staggered.newton;
     const double size = load(system);
+    const size_t n = std::max<size_t>(r.size(), 1);
     newton_memory.resize(r.size());
     const auto cone_residual = [&] {
         system.velocity(r, newton_memory.u);
@@ -67,14 +71,16 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
         hand_over([&] { return newton(system, r, kTolerance, newton_memory); });
     if (solver != Solver::staggered_projections) {
         hand_over([&] {
-            return staggered_projections(system, r, kTolerance, kMostStaggeredIterations,
-                                         memory.staggered);
+            const auto pairs = static_cast<int>(kMostStaggeredWork / (n * n));
+            return staggered_projections(
+                system, r, kTolerance, std::min(pairs, kMostStaggeredIterations), memory.staggered);
         });
     }
     hand_over([&] {
-        system.sweep(law::Coulomb{}, r, kLastSweeps);
+        const int sweeps = std::min(kLastSweeps, static_cast<int>(kMostSweepWork / n));
+        system.sweep(law::Coulomb{}, r, sweeps);
         Outcome last = newton(system, r, kTolerance, newton_memory);
-        last.iterations += kLastSweeps;
+        last.iterations += sweeps;
         return last;
     });
     // what is left of an error shall not pull: impulses end inside the cone, unless that small
