@@ -10,8 +10,10 @@ function(dihaptic_room name)
     cmake_parse_arguments(ROOM "" "" "USES;LINKS;SOURCES;TEST_USES" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
-    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
-    list(FILTER sources EXCLUDE REGEX "/(test|soak)/")
+    # relative: the folder that holds the project may be called test itself
+    file(GLOB_RECURSE sources RELATIVE ${folder} CONFIGURE_DEPENDS ${folder}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "(^|/)(test|soak)/")
+    list(TRANSFORM sources PREPEND ${folder}/)
     set(room dihaptic_${name})
     if(sources)
         add_library(${room} STATIC ${sources} ${ROOM_SOURCES})
