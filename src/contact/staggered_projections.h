@@ -44,7 +44,8 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
     constexpr double kInnerOfLast = 1e-3;
     // Loads that nothing determines must not wander from pair to pair: a large rho that falls
     // slowly keeps the inner answer near its start.
-    constexpr NewtonStart kInnerStart[] = {{false, 0, 1e-3, 40, 6, 12, false, 0}};
+    constexpr NewtonStart kInnerStart[] = {
+        {NewtonStart::From::given, 1e-3, 40, 6, 12, false, 0, 0}};
     constexpr int kPlainIterations = 3;
     constexpr int kPatience = 15;  // iterations before sweeps move on
     constexpr int kSweeps = 200;
