@@ -405,6 +405,8 @@ class Interruptions(unittest.TestCase):
             stdout, _ = process.communicate(timeout=60)
             told = re.compile(r"(\d+) ticks \(([0-9.]+) ms\) never were")
             self.assertGreater(int(told.search(stdout).group(1)), 250, stdout)
+            late = re.search(r"wake-ups late by (\d+) us median, \d+ us p99.9, (\d+) us at worst; \d+ overrun", stdout)
+            self.assertIn(late.group(0).split(";")[0], pathlib.Path(session_of(out) + "session.yaml").read_text())
             recovered = dihaptic("recover", session_of(out)).stdout
             self.assertEqual(told.search(recovered).group(0), told.search(stdout).group(0))
 

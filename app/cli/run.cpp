@@ -7,6 +7,7 @@
 #include "base/plural.h"
 #include "base/table.h"
 #include "command.h"
+#include "servo/real_time.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -28,6 +29,11 @@ void run_one(const Options& options) {
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
     if (plan.movement) print_movement(*plan.movement, 12);
+    if (options.run.clock == experiment::Clock::real) {
+        // before an hour of somebody's time, not after it
+        const std::string refused = servo::real_time_refused(plan.settings.real_time_priority);
+        if (!refused.empty()) fmt::print("note: {}\n", refused);
+    }
     std::fflush(stdout);
     experiment::RunResult result;
     {

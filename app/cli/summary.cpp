@@ -63,16 +63,17 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
                    ticks, counted(figures.frames, "tick"), text.what,
                    text.remedy.empty() ? "" : ": " + text.remedy);
     }
+    const servo::Timing& timing = result.timing;
     fmt::print(
         "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "
         "{:.1f} us max; period {:.0f} us\n",
         result.simulated, result.elapsed, result.simulated / result.elapsed,
-        result.tick_times.quantile(0.5), result.tick_times.quantile(0.99),
-        result.tick_times.quantile(1), plan.settings.tick() * 1e6);
-    if (result.overruns > 0 || result.dropped > 0) {
-        fmt::print("{}, {} not recorded\n", counted(result.overruns, "overrun"),
-                   counted(result.dropped, "frame"));
+        timing.ticks.quantile(0.5), timing.ticks.quantile(0.99), timing.ticks.quantile(1),
+        plan.settings.tick() * 1e6);
+    if (timing.lateness.count() > 0) {
+        fmt::print("{}; {}\n", describe(timing), counted(timing.overruns, "overrun"));
     }
+    if (result.dropped > 0) fmt::print("{} not recorded\n", counted(result.dropped, "frame"));
     if (figures.log.left_out > 0)
         fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
     if (result.interrupted) fmt::print("interrupted: what was done until then is complete\n");

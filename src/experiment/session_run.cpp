@@ -178,7 +178,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.lock.emplace(folder);
     servo->activate();
     const Time whole = from_seconds(plan.driver->duration());
-    result.tick_times.reserve(static_cast<size_t>(whole / servo->period()) + 2);
+    result.timing.reserve(static_cast<size_t>(whole / servo->period()) + 2);
     std::atomic<int64_t> reached{0};
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
@@ -195,11 +195,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     {
         const Watcher watcher(reached, whole, progress);
         if (real) {
-            result.overruns =
-                servo::run_real(*servo, director, sink, whole, stop, result.tick_times, reached)
-                    .overruns;
+            servo::run_real(*servo, director, sink, Time(0), whole, stop, result.timing);
         } else {
-            servo::run_virtual(*servo, director, sink, whole, stop, &result.tick_times);
+            servo::run_virtual(*servo, director, sink, whole, stop, &result.timing.ticks);
         }
     }
     result.elapsed = since(begin);
@@ -216,7 +214,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     info.interrupted = result.interrupted;
     info.finished =
         fmt::format("{}, {}, {} not recorded", counted(info.ticks, "tick"),
-                    counted(result.overruns, "overrun"), counted(result.dropped, "frame"));
+                    counted(result.timing.overruns, "overrun"), counted(result.dropped, "frame"));
+    if (real) info.finished += "; " + servo::describe(result.timing);
+    if (!result.timing.refused.empty()) info.notes.push_back(result.timing.refused);
     folder.write_info(info);
     info.state = result.interrupted ? recording::SessionState::interrupted
                                     : recording::SessionState::complete;

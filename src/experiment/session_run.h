@@ -29,8 +29,7 @@ struct RunResult {
     double elapsed = 0;    ///< wall time of the ticks [s]
     int64_t ticks = 0;
     int64_t dropped = 0;  ///< frames that the recorder could not take
-    int64_t overruns = 0;
-    servo::TickTimes tick_times;
+    servo::Timing timing;
 };
 
 /// Share of the session done, from 0 to 1; called about ten times a second of wall time.

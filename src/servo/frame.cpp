@@ -26,8 +26,9 @@ StatusText describe(Status bit) {
         case kNoMoreData:
             return {"the recording ended", ""};
         case kOverrun:
-            return {"a tick took longer than its period",
-                    "close other programs, or lower the rate"};
+            return {"the tick before had ended too late, and those that it missed were left out",
+                    "allow what the note on real time names, close other programs, or lower the "
+                    "rate"};
         case kSolverFallback:
             return {
                 "the contact solver missed its tolerance and another answered",

@@ -1,9 +1,14 @@
 #include "servo/run.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <thread>
+
+#include "servo/real_time.h"
 
 namespace dihaptic::servo {
 namespace {
@@ -34,6 +39,13 @@ double TickTimes::quantile(double share) const {
     return sorted[static_cast<size_t>(at)];
 }
 
+std::string describe(const Timing& timing) {
+    if (timing.lateness.count() == 0) return "";
+    return fmt::format("wake-ups late by {:.0f} us median, {:.0f} us p99.9, {:.0f} us at worst",
+                       timing.lateness.quantile(0.5), timing.lateness.quantile(0.999),
+                       timing.lateness.quantile(1));
+}
+
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times) {
     Time now{0};
@@ -47,38 +59,33 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
     return now;
 }
 
-RealTimeResult run_real(Servo& servo, const Director& director, const FrameSink& sink, Time most,
-                        const std::atomic<bool>& stop, TickTimes& times,
-                        std::atomic<int64_t>& reached) {
-    RealTimeResult result;
+void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
+              const std::atomic<bool>& stop, Timing& timing) {
     std::thread thread([&] {
-        const auto start = Steady::now();
+        const int priority = servo.settings().real_time_priority;
+        const RealTime real_time(priority);
+        timing.refused = describe(real_time.refusals(), priority, geteuid() == 0);
+        Pace pace{servo.period(), first};
         double last_tick = kUnmeasured;
-        bool overrun = false;
-        Time now{0};
-        while (now <= most && !stop.load(std::memory_order_relaxed)) {
-            sleep_until(start + now);
+        const auto start = Steady::now() + pace.period - first;  // when time was, or would be, zero
+        while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
+            sleep_until(start + pace.due);
             const auto begin = Steady::now();
-            servo.note_timing(std::chrono::duration<double>(begin - (start + now)).count(),
-                              last_tick, overrun);
-            const Frame& frame = servo.tick(now, director);
+            const double lateness = seconds(begin - (start + pace.due));
+            servo.note_timing(lateness, last_tick, pace.late);
+            const Frame& frame = servo.tick(pace.due, director);
             if (sink) sink(frame);
-            last_tick = elapsed(begin);
-            times.add(last_tick);
-            result.reached = now;
-            reached.store(now.count(), std::memory_order_relaxed);
+            const auto end = Steady::now();
+            last_tick = seconds(end - begin);
+            timing.ticks.add(last_tick);
+            timing.lateness.add(lateness);
+            timing.reached = pace.due;
             if (servo.stopped()) break;
-            now += servo.period();
-            const Time late = Steady::now() - (start + now);
-            overrun = late > Time(0);
-            if (overrun) {
-                ++result.overruns;
-                now += late / servo.period() * servo.period();
-            }
+            pace.end_tick(end - start);
         }
+        timing.overruns = pace.overruns;
     });
     thread.join();
-    return result;
 }
 
 }  // namespace dihaptic::servo

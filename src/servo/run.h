@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 #include <vector>
 
 #include "servo/servo.h"
@@ -13,7 +14,7 @@ namespace dihaptic::servo {
 /// memory.
 using FrameSink = std::function<void(const Frame&)>;
 
-/// How long ticks took. Reserve before a real-time run.
+/// Times, one a tick. Reserve before a real-time run: those beyond are left out.
 class TickTimes {
   public:
     void reserve(size_t ticks) { us_.reserve(ticks); }
@@ -28,20 +29,31 @@ class TickTimes {
     std::vector<float> us_;
 };
 
+/// How a run kept time; on the virtual clock, which is never late, only `ticks`.
+struct Timing {
+    TickTimes ticks;
+    TickTimes lateness;  ///< of each tick's wake-up
+    Time reached{0};     ///< the last tick's
+    int64_t overruns = 0;
+    std::string refused;  ///< describe(RealTime::Refusals)
+
+    void reserve(size_t count) {
+        ticks.reserve(count);
+        lateness.reserve(count);
+    }
+};
+
+/// The wake-ups of a run in real time, in words; "" without any.
+std::string describe(const Timing& timing);
+
 /// Ticks until the director stops, `stop` becomes true, or `most` time has passed. Returns the time
 /// reached.
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
-/// The same in real time, in a thread of its own, one tick each period of the monotonic clock. A
-/// tick that ends after the next should have begun is an overrun: the ticks that it missed are left
-/// out. `reached` follows the session's time for whoever watches. Returns the number of overruns.
-struct RealTimeResult {
-    Time reached{0};
-    int64_t overruns = 0;
-};
-RealTimeResult run_real(Servo& servo, const Director& director, const FrameSink& sink, Time most,
-                        const std::atomic<bool>& stop, TickTimes& times,
-                        std::atomic<int64_t>& reached);
+/// The same in real time, from `first` to `last`, in a thread of its own with what RealTime gets
+/// it: a tick at each deadline of Pace, on the monotonic clock.
+void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
+              const std::atomic<bool>& stop, Timing& timing);
 
 }  // namespace dihaptic::servo

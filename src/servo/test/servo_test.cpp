@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <thread>
+
 #include "hand/script.h"
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
@@ -47,6 +50,7 @@ struct Grasp {
         devices::Context context;
         context.driver = driver.get();
         context.impedance = hand.impedance;
+        context.tick = settings.tick();
         servo = std::make_unique<Servo>(scene, settings, rig::make_devices(rig, fingers, context),
                                         rig::poses(rig, fingers));
         servo->activate();
@@ -209,25 +213,114 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
     EXPECT_GT(times.quantile(1), 0);
 }
 
-TEST(Run, RealTimeKeepsPaceAndCountsOverruns) {
+TEST(Servo, HoldsTheSameGraspAtEveryRate) {
+    // what the hand feels is statics, whatever the rate: the block's weight, and the two springs in
+    // series
+    for (const double rate : {1000.0, 2000.0, 4000.0}) {
+        Settings settings;
+        settings.rate = rate;
+        Grasp grasp(settings);
+        const std::atomic<bool> stop{false};
+        Frame frame;
+        run_virtual(
+            *grasp.servo, {}, [&](const Frame& last) { frame = last; },
+            from_seconds(grasp.driver->duration()), stop);
+        EXPECT_EQ(frame.time, from_seconds(1.1)) << rate;
+        EXPECT_EQ(frame.sequence, std::lround(1.1 * rate)) << rate;
+        EXPECT_EQ(frame.status, 0u) << rate;
+        EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4) << rate;
+        EXPECT_NEAR(frame.grip_force / (0.0075 * 300 * 1000 / 1300), 1, 0.01) << rate;
+        EXPECT_NEAR((-frame.fingers[0].f_sent_W.z() - frame.fingers[1].f_sent_W.z()) / (0.1 * 9.81),
+                    1, 0.01)
+            << rate;
+    }
+}
+
+TEST(Servo, FreeFallIsTheSameAtEveryRate) {
+    // semi-implicit steps of h fall g t (t + h) / 2: exactly, at each rate
+    for (const double rate : {1000.0, 2000.0, 4000.0}) {
+        Settings settings;
+        settings.rate = rate;
+        Grasp grasp(settings);
+        dynamics::World& world = grasp.servo->world();
+        Pose high;
+        high.p = {0, 0.3, 0.5};
+        world.set_pose({1}, high);
+        const auto ticks = static_cast<int>(0.2 * rate);
+        for (int i = 0; i < ticks; ++i) grasp.servo->tick(i * grasp.servo->period(), {});
+        const double fallen = 9.81 / 2 * 0.2 * (0.2 + 1 / rate);
+        EXPECT_NEAR(world.state({1}).X_WB.p.z(), 0.5 - fallen, 1e-9) << rate;
+    }
+}
+
+TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     Grasp grasp;
     const std::atomic<bool> stop{false};
-    std::atomic<int64_t> reached{0};
-    TickTimes times;
-    times.reserve(1000);
-    const auto begin = std::chrono::steady_clock::now();
-    const RealTimeResult result = run_real(
+    Timing timing;
+    timing.reserve(1000);
+    struct Seen {
+        Frame frame;
+        std::chrono::steady_clock::time_point ended;
+    };
+    std::vector<Seen> seen;
+    seen.reserve(1000);
+    const Time first = std::chrono::milliseconds(7);
+    run_real(
         *grasp.servo, {},
         [&](const Frame& frame) {
-            EXPECT_GE(frame.lateness, 0);
             if (frame.sequence == 50)
-                std::this_thread::sleep_for(std::chrono::milliseconds(20));  // an overrun
+                std::this_thread::sleep_for(std::chrono::microseconds(20300));  // an overrun
+            seen.push_back({frame, std::chrono::steady_clock::now()});
         },
-        std::chrono::milliseconds(200), stop, times, reached);
-    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
-    EXPECT_GE(result.overruns, 1);
-    EXPECT_EQ(result.reached, Time(reached.load()));
-    EXPECT_LT(times.count(), 201u - 15u);  // the missed ticks are left out
+        first, first + std::chrono::milliseconds(200), stop, timing);
+    ASSERT_GT(seen.size(), 60u);
+    EXPECT_EQ(seen.front().frame.time, first);
+    EXPECT_EQ(timing.reached, seen.back().frame.time);
+    EXPECT_GE(timing.overruns, 1);
+    EXPECT_GE(seen[51].frame.time - seen[50].frame.time, std::chrono::milliseconds(21));
+    EXPECT_TRUE(seen[51].frame.status & kOverrun);
+    int64_t recorded = 0;
+    // time was zero at this moment or, by what the quickest tick took, before
+    auto zero = seen.front().ended - seen.front().frame.time;
+    for (const Seen& s : seen) zero = std::min(zero, s.ended - s.frame.time);
+    for (size_t i = 0; i < seen.size(); ++i) {
+        const Frame& frame = seen[i].frame;
+        EXPECT_EQ((frame.time - first) % grasp.servo->period(), Time(0));
+        EXPECT_GE(frame.lateness, 0);
+        recorded += (frame.status & kOverrun) != 0;
+        if (i == 0) continue;
+        EXPECT_GE(zero + frame.time, seen[i - 1].ended);  // no burst: each waits for its time
+        EXPECT_EQ((frame.status & kOverrun) != 0,
+                  frame.time - seen[i - 1].frame.time > grasp.servo->period());
+    }
+    EXPECT_LE(timing.overruns - recorded, 1);  // that of the last tick has no frame to be in
+    EXPECT_EQ(timing.ticks.count(), seen.size());
+    EXPECT_EQ(timing.lateness.count(), seen.size());
+    EXPECT_NE(describe(timing).find("at worst"), std::string::npos);
+}
+
+TEST(Run, RealTimeAllocatesNothing) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Grasp grasp;
+    const std::atomic<bool> stop{false};
+    Timing timing;
+    timing.reserve(1000);
+    std::optional<testing::AllocationGuard> guard;  // counts in the thread that it is made in
+    size_t count = 1;
+    run_real(
+        *grasp.servo, {},
+        [&](const Frame& frame) {
+            if (frame.sequence == 0) guard.emplace();
+            if (frame.sequence == 20)
+                std::this_thread::sleep_for(std::chrono::milliseconds(3));  // overruns included
+            if (frame.sequence == 100) {
+                count = guard->count();
+                guard.reset();
+            }
+        },
+        Time(0), std::chrono::milliseconds(300), stop, timing);
+    EXPECT_EQ(count, 0u);
+    EXPECT_GE(timing.overruns, 1);
 }
 
 }  // namespace

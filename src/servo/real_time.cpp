@@ -1,0 +1,111 @@
+#include "servo/real_time.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <pthread.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <thread>
+#include <vector>
+
+namespace dihaptic::servo {
+namespace {
+
+constexpr const char* kAwake = "/dev/cpu_dma_latency";
+
+int ask_priority(int priority) {
+    // ordinary threads may be woken 50 us late, to save power; one that FIFO is refused need not be
+    prctl(PR_SET_TIMERSLACK, 1UL, 0, 0, 0);
+    sched_param wanted{};
+    wanted.sched_priority = priority;
+    return pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+}
+
+int ask_memory() {
+    // Under a limit, memory that other threads ask for later must not be locked too: they would be
+    // refused it altogether.
+    rlimit limit{};
+    const bool free = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
+    return mlockall(free ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0 ? 0 : errno;
+}
+
+int ask_awake(int& file) {
+    file = open(kAwake, O_WRONLY | O_CLOEXEC);
+    // absent: a kernel that manages no sleep, in a container or a virtual machine
+    if (file < 0) return errno == ENOENT ? 0 : errno;
+    const int32_t most_us = 0;
+    return write(file, &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
+}
+
+/// A page of stack that is first touched in a tick would cost that tick a page fault.
+void touch_stack() {
+    std::array<volatile char, 256 * 1024> stack;
+    for (size_t i = 0; i < stack.size(); i += 1024) stack[i] = 0;
+}
+
+}  // namespace
+
+RealTime::RealTime(int priority) {
+    refusals_.memory = ask_memory();
+    refusals_.awake = ask_awake(awake_);
+    touch_stack();
+    // last: what is above takes milliseconds, and would keep other programs waiting
+    refusals_.priority = ask_priority(priority);
+}
+
+RealTime::~RealTime() {
+    const sched_param ordinary{};
+    pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+    if (awake_ >= 0) close(awake_);
+    if (refusals_.memory == 0) munlockall();
+}
+
+std::string describe(const RealTime::Refusals& refusals, int priority, bool root) {
+    std::vector<std::string> refused;
+    std::vector<std::string> limits;
+    std::vector<std::string> allow;
+    std::vector<std::string> options;
+    if (refusals.priority != 0) {
+        refused.push_back(
+            fmt::format("priority {} ({})", priority, strerrorname_np(refusals.priority)));
+        limits.push_back(fmt::format("'@haptics - rtprio {}'", priority));
+        options.emplace_back("--cap-add SYS_NICE");
+    }
+    if (refusals.memory != 0) {
+        refused.push_back(fmt::format("locked memory ({})", strerrorname_np(refusals.memory)));
+        limits.emplace_back("'@haptics - memlock unlimited'");
+        options.emplace_back("--cap-add IPC_LOCK");
+    }
+    if (!limits.empty())
+        allow.push_back(
+            fmt::format("{} to /etc/security/limits.d/dihaptic.conf", fmt::join(limits, " and ")));
+    if (refusals.awake != 0) {
+        refused.push_back(fmt::format("wakeful processors ({})", strerrorname_np(refusals.awake)));
+        allow.emplace_back(
+            "'KERNEL==\"cpu_dma_latency\", GROUP=\"haptics\", MODE=\"0660\"' to "
+            "/etc/udev/rules.d/70-dihaptic.rules");
+        options.push_back(fmt::format("--device {}", kAwake));
+    }
+    if (refused.empty()) return "";
+    const std::string what = fmt::format("real time: Linux refused {}, so ticks may come late",
+                                         fmt::join(refused, ", "));
+    if (root) return fmt::format("{}; start the container with {}", what, fmt::join(options, " "));
+    return fmt::format(
+        "{}; add {}, join the group (sudo groupadd -f haptics; sudo usermod -aG haptics $USER), {}",
+        what, fmt::join(allow, ", "), refusals.awake != 0 ? "restart" : "log in again");
+}
+
+std::string real_time_refused(int priority) {
+    RealTime::Refusals refusals;
+    std::thread([&] { refusals = RealTime(priority).refusals(); }).join();
+    return describe(refusals, priority, geteuid() == 0);
+}
+
+}  // namespace dihaptic::servo
