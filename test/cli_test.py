@@ -37,7 +37,8 @@ def session_of(out):
 class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
-                    ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"]]
+                    ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
+                    ["bench", "jitter"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -181,6 +182,48 @@ class Commands(unittest.TestCase):
         figures = json.loads(result.stdout)
         self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us"})
         self.assertEqual(set(figures["tick"][0]["awake"]), {"median_us", "p99_us", "max_us"})
+
+    def test_bench_jitter_measures_the_servo_beside_cyclictest(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def jitter(cyclictest, *options):
+                path = pathlib.Path(folder) / "cyclictest"
+                path.unlink(missing_ok=True)
+                if cyclictest:
+                    path.write_text("#!/bin/sh\n" + cyclictest)
+                    path.chmod(0o755)
+                return dihaptic("bench", "jitter", "--time", "1", *options, env={**os.environ, "PATH": folder})
+
+            # a stand-in: 1000 wake-ups, one of them beyond its histogram
+            thread = {"histogram": {"20": 980, "500": 19}, "cycles": 1000, "max": 2000000}
+            script = f"""echo "$@" > {folder}/asked
+                for option; do case $option in --json=*) file=${{option#--json=}};; esac; done
+                echo '{json.dumps({"thread": {"0": thread}})}' > $file"""
+            result = jitter(script, "--rate", "4000", "--extra", "2", "--json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            figures = json.loads(result.stdout)
+            self.assertEqual(figures["cyclictest_us"], {"median": 20, "p99": 500, "p999": 500, "max": 2000000})
+            late = sum(count for us, count in [(20, 980), (500, 19), (2000000, 1)] if us > figures["slack_us"])
+            self.assertEqual(figures["cyclictest_late"], late)
+            asked = (pathlib.Path(folder) / "asked").read_text().split()
+            self.assertIn("--interval=250", asked)
+            self.assertIn("--loops=4000", asked)
+            self.assertEqual("--priority=80" in asked, "priority" not in (figures["refused"] or ""))
+            self.assertEqual(set(figures["lateness_us"]), {"median", "p99", "p999", "max"})
+            self.assertEqual(set(figures["tick_us"]), {"median", "p99", "p999", "max"})
+            self.assertTrue(figures["held"])
+            self.assertGreater(figures["ticks"], 0)
+            self.assertLessEqual(figures["ticks"], 4000)
+            self.assertEqual(figures["seconds"], 1)
+
+            table = jitter(None).stdout
+            self.assertIn("cyclictest is not installed (Debian package rt-tests)", table)
+            self.assertRegex(table, r"overruns? in \d+ ticks")
+            self.assertIsNone(json.loads(jitter("exit 1", "--json").stdout)["cyclictest_us"])
+            self.assertIn("no peer: cyclictest failed", jitter("exit 1").stdout)
+        for wrong in ["0", "nan", "1e9"]:
+            result = dihaptic("bench", "jitter", "--time", wrong)
+            self.assertEqual(result.returncode, 2, wrong)
+            self.assertIn(f"--time: must be a number from 1 to 3600, is '{wrong}'", result.stderr)
 
     def test_bench_contact_measures_what_it_can_and_names_the_rest(self):
         problems = "../shared/data/contact-problems"

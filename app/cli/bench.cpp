@@ -4,6 +4,7 @@
 #include "measure/contact.h"
 #include "measure/friction.h"
 #include "measure/grasp.h"
+#include "measure/jitter.h"
 #include "measure/scale.h"
 #include "measure/solvers.h"
 
@@ -230,6 +231,41 @@ void add_solvers(CLI::App& bench) {
     });
 }
 
+void add_jitter(CLI::App& bench) {
+    auto* command = bench.add_subcommand(
+        "jitter",
+        "How punctual the real-time thread is, beside cyclictest, and how long ticks take");
+    auto options = std::make_shared<Options>();
+    auto time = std::make_shared<double>(60);
+    command->add_option("--time", *time, "in real time, cyclictest's as much again [s]")
+        ->check(time_range())
+        ->capture_default_str();
+    command
+        ->add_option("--extra", options->setup.extra_blocks, "more blocks on the table, kept awake")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    add_common(*command, *options);
+    command->footer(
+        "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic bench jitter\n"
+        "  dihaptic bench jitter --rate 4000 --time 10");
+    command->callback([options, time] {
+        resolve(*options);
+        measure::JitterFigures figures;
+        {
+            ProgressLine line("bench jitter");
+            figures = measure::bench_jitter(
+                options->setup, *time, stop_requested,
+                [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        if (figures.ticks == 0) {
+            exit_code = kFailed;
+            return;
+        }
+        fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
+        if (stop_requested || !figures.held) exit_code = kFailed;
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -242,6 +278,7 @@ void add_bench(CLI::App& app) {
     add_scale(*bench);
     add_contact(*bench);
     add_solvers(*bench);
+    add_jitter(*bench);
 }
 
 }  // namespace dihaptic::cli

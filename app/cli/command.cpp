@@ -90,6 +90,10 @@ CLI::Validator rate_range() {
     return range(100.0, 10000.0, "number");
 }
 
+CLI::Validator time_range() {
+    return range(1.0, 3600.0, "number");
+}
+
 CLI::Validator seed_range() {
     return range(uint64_t{0}, std::numeric_limits<uint64_t>::max(), "whole number");
 }

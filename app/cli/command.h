@@ -48,8 +48,9 @@ void remember_command_line(int argc, char** argv);
 /// Prints problems, warnings and errors alike.
 void print(const std::vector<Problem>& problems, std::FILE* to = stderr);
 
-/// What --rate takes, and --seed.
+/// What --rate takes, --time and --seed.
 CLI::Validator rate_range();
+CLI::Validator time_range();
 CLI::Validator seed_range();
 
 }  // namespace dihaptic::cli

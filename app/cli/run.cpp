@@ -7,7 +7,6 @@
 #include "base/plural.h"
 #include "base/table.h"
 #include "command.h"
-#include "servo/real_time.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -31,8 +30,9 @@ void run_one(const Options& options) {
     if (plan.movement) print_movement(*plan.movement, 12);
     if (options.run.clock == experiment::Clock::real) {
         // before an hour of somebody's time, not after it
-        const std::string refused = servo::real_time_refused(plan.settings.real_time_priority);
-        if (!refused.empty()) fmt::print("note: {}\n", refused);
+        const int priority = plan.settings.real_time_priority;
+        const auto refusals = servo::try_real_time(priority);
+        if (refusals.any()) fmt::print("note: {}\n", servo::describe(refusals, priority));
     }
     std::fflush(stdout);
     experiment::RunResult result;

@@ -216,7 +216,10 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         fmt::format("{}, {}, {} not recorded", counted(info.ticks, "tick"),
                     counted(result.timing.overruns, "overrun"), counted(result.dropped, "frame"));
     if (real) info.finished += "; " + servo::describe(result.timing);
-    if (!result.timing.refused.empty()) info.notes.push_back(result.timing.refused);
+    if (result.timing.refusals.any()) {
+        info.notes.push_back(
+            servo::describe(result.timing.refusals, plan.settings.real_time_priority));
+    }
     folder.write_info(info);
     info.state = result.interrupted ? recording::SessionState::interrupted
                                     : recording::SessionState::complete;

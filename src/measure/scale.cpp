@@ -2,13 +2,11 @@
 
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <chrono>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "recording/recorder.h"
+#include "measure/bench_log.h"
 
 namespace dihaptic::measure {
 namespace {
@@ -16,34 +14,11 @@ namespace {
 /// What the fingers did in each tick, so that the bare world can be driven through the same grasp.
 using HandleTrace = std::vector<std::vector<haptics::Handle>>;
 
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "dihaptic-bench-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw Error("no temporary folder can be made", "Free some space in /tmp.");
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    std::string file(const std::string& name) const { return path_ + "/" + name; }
-
-  private:
-    std::string path_;
-};
-
 Cost measure_ticks(const BenchSetup& setup, HandleTrace* trace) {
     const scene::Scene scene = grasp_scene(setup);
     Bench bench(scene, grasp_hand(setup), setup);
-    recording::LogHead head;
-    head.tick = setup.settings.tick();
-    head.fingers = scene::finger_names(scene);
-    for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
-    const TemporaryFolder folder;
-    recording::Recorder recorder(folder.file("raw.log"), head, recording::Writing::in_place);
+    const BenchLog log(scene, setup.settings);
+    recording::Recorder recorder = log.record(recording::Writing::in_place);
     servo::TickTimes times;
     times.reserve(static_cast<size_t>(bench.driver().duration() / setup.settings.tick()) + 2);
     bench.run(

@@ -1,6 +1,7 @@
 #include "recording/recorder.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::recording {
 namespace {
@@ -11,7 +12,9 @@ size_t most_contacts(const LogHead& head) {
 }
 
 /// A second of frames, even while the disk is busy.
-constexpr size_t kRingFrames = 1024;
+size_t ring_frames(const LogHead& head) {
+    return static_cast<size_t>(std::ceil(1 / head.tick));
+}
 constexpr size_t kMostRing = 64u << 20;
 
 }  // namespace
@@ -20,7 +23,9 @@ Recorder::Recorder(const std::string& file, const LogHead& head, Writing writing
     : log_(file, head),
       writing_(writing),
       encoded_(most_bytes(head.layout(), most_contacts(head))),
-      ring_(writing == Writing::in_place ? 0 : std::min(kMostRing, kRingFrames * encoded_.size())) {
+      ring_(writing == Writing::in_place
+                ? 0
+                : std::min(kMostRing, ring_frames(head) * encoded_.size())) {
     if (writing_ == Writing::in_thread) thread_ = std::thread([this] { run(); });
 }
 

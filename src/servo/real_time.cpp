@@ -102,10 +102,14 @@ std::string describe(const RealTime::Refusals& refusals, int priority, bool root
         what, fmt::join(allow, ", "), refusals.awake != 0 ? "restart" : "log in again");
 }
 
-std::string real_time_refused(int priority) {
+std::string describe(const RealTime::Refusals& refusals, int priority) {
+    return describe(refusals, priority, geteuid() == 0);
+}
+
+RealTime::Refusals try_real_time(int priority) {
     RealTime::Refusals refusals;
     std::thread([&] { refusals = RealTime(priority).refusals(); }).join();
-    return describe(refusals, priority, geteuid() == 0);
+    return refusals;
 }
 
 }  // namespace dihaptic::servo

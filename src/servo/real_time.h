@@ -25,6 +25,8 @@ class RealTime {
         int priority = 0;
         int memory = 0;
         int awake = 0;  ///< processors kept from deep sleep
+
+        bool any() const { return priority != 0 || memory != 0 || awake != 0; }
     };
     const Refusals& refusals() const { return refusals_; }
 
@@ -36,10 +38,11 @@ class RealTime {
 /// What was refused and how to allow it, in one line; "" when nothing was. `root`: whom the system
 /// refuses although nobody may more, in a container.
 std::string describe(const RealTime::Refusals& refusals, int priority, bool root);
+/// The same, for who runs this process.
+std::string describe(const RealTime::Refusals& refusals, int priority);
 
-/// Whether this process could keep real time now: describe()'s line, of a thread that asks and
-/// ends.
-std::string real_time_refused(int priority);
+/// What a thread of this process would be refused now.
+RealTime::Refusals try_real_time(int priority);
 
 /// Deadlines a period apart that keep their phase: a tick that ends after the next deadline is an
 /// overrun, and the tick after it begins at the first deadline to come. Those that passed are left

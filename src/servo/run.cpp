@@ -1,14 +1,11 @@
 #include "servo/run.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <thread>
-
-#include "servo/real_time.h"
 
 namespace dihaptic::servo {
 namespace {
@@ -62,9 +59,8 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
               const std::atomic<bool>& stop, Timing& timing) {
     std::thread thread([&] {
-        const int priority = servo.settings().real_time_priority;
-        const RealTime real_time(priority);
-        timing.refused = describe(real_time.refusals(), priority, geteuid() == 0);
+        const RealTime real_time(servo.settings().real_time_priority);
+        timing.refusals = real_time.refusals();
         Pace pace{servo.period(), first};
         double last_tick = kUnmeasured;
         const auto start = Steady::now() + pace.period - first;  // when time was, or would be, zero
@@ -83,7 +79,7 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             if (servo.stopped()) break;
             pace.end_tick(end - start);
         }
-        timing.overruns = pace.overruns;
+        timing.overruns += pace.overruns;
     });
     thread.join();
 }

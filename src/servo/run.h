@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "servo/real_time.h"
 #include "servo/servo.h"
 
 namespace dihaptic::servo {
@@ -22,6 +23,7 @@ class TickTimes {
         if (us_.size() < us_.capacity()) us_.push_back(static_cast<float>(seconds * 1e6));
     }
     size_t count() const { return us_.size(); }
+    std::span<const float> us() const { return us_; }
     /// The share-quantile, e.g. 0.5 for the median [us]; NaN without ticks.
     double quantile(double share) const;
 
@@ -29,13 +31,13 @@ class TickTimes {
     std::vector<float> us_;
 };
 
-/// How a run kept time; on the virtual clock, which is never late, only `ticks`.
+/// How runs kept time; on the virtual clock, which is never late, only `ticks`.
 struct Timing {
     TickTimes ticks;
     TickTimes lateness;  ///< of each tick's wake-up
     Time reached{0};     ///< the last tick's
     int64_t overruns = 0;
-    std::string refused;  ///< describe(RealTime::Refusals)
+    RealTime::Refusals refusals;
 
     void reserve(size_t count) {
         ticks.reserve(count);

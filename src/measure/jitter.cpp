@@ -1,0 +1,170 @@
+#include "measure/jitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/plural.h"
+#include "measure/bench_log.h"
+
+namespace dihaptic::measure {
+namespace {
+
+// ours, then cyclictest's, short enough for the machine's other load to fall on both [s]
+constexpr double kTurn = 5;
+
+/// Lifts the block on the virtual clock; returns when it is held.
+Time lift(Bench& bench) {
+    const double held = bench.driver().phases()[kRise].end;
+    Time reached{0};
+    bench.run([&](const servo::Frame& frame) { reached = frame.time; },
+              [&](const servo::Frame& last, std::span<const haptics::Handle>,
+                  servo::Commands& commands) { commands.stop = seconds(last.time) >= held; });
+    return reached;
+}
+
+Spread spread(const auto& times) {
+    return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.quantile(1)};
+}
+
+constexpr std::array kSteps{0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
+
+/// A count, drawn by its logarithm: what is rare matters here.
+std::string bar(int64_t count) {
+    const auto length = count > 0 ? static_cast<size_t>(std::log2(count)) + 1 : 0;
+    return fmt::format("{:<22s} {:8d}", std::string(length, '#'), count);
+}
+
+}  // namespace
+
+double JitterFigures::p999_ratio() const {
+    return lateness.p999 / cyclictest.quantile(0.999);
+}
+
+JitterFigures bench_jitter(const BenchSetup& base, double whole, const std::atomic<bool>& stop,
+                           const Progress& progress) {
+    BenchSetup setup = base;
+    setup.settings.dynamics.sleeping = setup.extra_blocks == 0;
+    setup.hold_time = whole + kTurn;
+    const scene::Scene scene = grasp_scene(setup);
+    Bench bench(scene, grasp_hand(setup), setup);
+    const BenchLog log(scene, setup.settings);
+    JitterFigures figures;
+    figures.rate = setup.settings.rate;
+    figures.extra = setup.extra_blocks;
+    const Time period = bench.servo().period();
+    servo::Timing timing;
+    timing.reserve(static_cast<size_t>(whole * setup.settings.rate) + 2);
+    timing.reached = lift(bench);
+    double height = 0;
+    while (figures.seconds < whole - 1e-9 && !stop) {
+        const double turn = std::min(kTurn, whole - figures.seconds);
+        const auto say = [&](const char* what, double done) {
+            if (progress) progress(what, (figures.seconds + done * turn) / whole);
+        };
+        say("servo", 0);
+        recording::Recorder recorder = log.record(recording::Writing::in_thread);
+        const Time first = timing.reached + period;
+        servo::run_real(
+            bench.servo(), {},
+            [&](const servo::Frame& frame) {
+                recorder.record(frame);
+                height = frame.bodies[1].X_WB.p.z();
+            },
+            first, first + from_seconds(turn) - period, stop, timing);
+        recorder.finish();
+        figures.dropped += recorder.dropped();
+        if (figures.no_cyclictest.empty() && !stop) {
+            say("cyclictest", 0.5);
+            const Cyclictest peer{setup.settings, timing.refusals.priority == 0,
+                                  timing.refusals.memory == 0, log.file("cyclictest.json")};
+            figures.no_cyclictest = run_cyclictest(peer, turn, figures.cyclictest);
+        }
+        figures.seconds += turn;
+    }
+    figures.ticks = static_cast<int64_t>(timing.ticks.count());
+    figures.lateness = spread(timing.lateness);
+    figures.tick = spread(timing.ticks);
+    figures.overruns = timing.overruns;
+    figures.held = height - kBlockSize / 2 >= 0.09;
+    figures.refused = servo::describe(timing.refusals, setup.settings.real_time_priority);
+    for (const float us : timing.lateness.us()) figures.wakeups.add(static_cast<int>(us));
+    return figures;
+}
+
+std::string to_json(const JitterFigures& f) {
+    using Json = nlohmann::ordered_json;
+    const auto spread_json = [](const Spread& s) {
+        return Json{{"median", s.median}, {"p99", s.p99}, {"p999", s.p999}, {"max", s.max}};
+    };
+    const bool peer = f.cyclictest.count() > 0;
+    Json out;
+    out["rate_hz"] = f.rate;
+    out["extra"] = f.extra;
+    out["seconds"] = f.seconds;
+    out["lateness_us"] = spread_json(f.lateness);
+    out["tick_us"] = spread_json(f.tick);
+    out["ticks"] = f.ticks;
+    out["overruns"] = f.overruns;
+    out["dropped"] = f.dropped;
+    out["held"] = f.held;
+    out["cyclictest_us"] = peer ? spread_json(spread(f.cyclictest)) : Json();
+    out["lateness_p999_ratio"] = peer ? Json(f.p999_ratio()) : Json();
+    out["tick_p99_share"] = f.tick.p99 / f.period();
+    out["slack_us"] = f.slack();
+    out["cyclictest_late"] = peer ? Json(f.cyclictest_late()) : Json();
+    out["refused"] = f.refused.empty() ? Json() : Json(f.refused);
+    return out.dump(2) + "\n";
+}
+
+std::string to_table(const JitterFigures& f) {
+    std::string out = fmt::format(
+        "two fingers hold a block for {:g} s at {:g} Hz{}\n\n"
+        "us                    median      p99    p99.9       max\n",
+        f.seconds, f.rate,
+        f.extra > 0 ? fmt::format(", {} awake on the table", counted(f.extra, "more block")) : "");
+    const auto row = [&](const char* name, const Spread& s, int decimals) {
+        out += fmt::format("{:18s} {:9.{}f} {:8.{}f} {:8.{}f} {:9.{}f}\n", name, s.median, decimals,
+                           s.p99, decimals, s.p999, decimals, s.max, decimals);
+    };
+    const bool peer = f.cyclictest.count() > 0;
+    row("lateness", f.lateness, 1);
+    if (peer) row("cyclictest's", spread(f.cyclictest), 0);
+    row("tick", f.tick, 1);
+    out += fmt::format(
+        "\nwake-ups by lateness, us; each further # is twice as many\n{:>14s}  {:34s}{}\n", "",
+        "servo", peer ? "cyclictest" : "");
+    for (size_t i = 0; i < kSteps.size(); ++i) {
+        const bool last = i + 1 == kSteps.size();
+        const auto within = [&](const Wakeups& w) {
+            return w.later_than(kSteps[i] - 1) - (last ? 0 : w.later_than(kSteps[i + 1] - 1));
+        };
+        const int64_t ours = within(f.wakeups);
+        const int64_t theirs = within(f.cyclictest);
+        if (ours == 0 && theirs == 0) continue;
+        out += fmt::format("{:>14s}  {:34s}{}\n",
+                           last ? fmt::format("from {}", kSteps[i])
+                                : fmt::format("{} to {}", kSteps[i], kSteps[i + 1]),
+                           bar(ours), peer ? bar(theirs) : "");
+    }
+    out +=
+        fmt::format("\n{} in {}; a tick's p99 is {:.1f} % of the period, which leaves {:.0f} us\n",
+                    counted(f.overruns, "overrun"), counted(f.ticks, "tick"),
+                    100 * f.tick.p99 / f.period(), f.slack());
+    if (peer) {
+        out += fmt::format(
+            "cyclictest woke later than that {}; p99.9 of lateness is {:.2f} times cyclictest's\n",
+            counted(f.cyclictest_late(), "time"), f.p999_ratio());
+    } else {
+        out += "no peer: " + f.no_cyclictest + "\n";
+    }
+    if (f.dropped > 0) out += fmt::format("{} not recorded\n", counted(f.dropped, "frame"));
+    if (!f.held) out += "the block was NOT held\n";
+    if (!f.refused.empty()) out += "note: " + f.refused + "\n";
+    return out;
+}
+
+}  // namespace dihaptic::measure
