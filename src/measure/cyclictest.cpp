@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -22,6 +23,7 @@ constexpr int kMostLate = 1000000;  // [us]; cyclictest counts later wake-ups ap
 /// Runs it to its end, silently. Returns what failed.
 std::string run(std::vector<std::string> arguments) {
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t files;
@@ -77,7 +79,7 @@ std::string run_cyclictest(const Cyclictest& wanted, double seconds, Wakeups& wa
         arguments.emplace_back("--policy=other");
     }
     if (wanted.locked_memory) arguments.emplace_back("--mlockall");
-    if (const std::string failed = run(arguments); !failed.empty()) return failed;
+    if (std::string failed = run(std::move(arguments)); !failed.empty()) return failed;
     try {
         std::ifstream file(wanted.file);
         const auto thread = nlohmann::json::parse(file).at("thread").at("0");

@@ -46,7 +46,7 @@ int ask_awake(int& file) {
 
 /// A page of stack that is first touched in a tick would cost that tick a page fault.
 void touch_stack() {
-    std::array<volatile char, 256 * 1024> stack;
+    std::array<volatile char, 262144> stack;
     for (size_t i = 0; i < stack.size(); i += 1024) stack[i] = 0;
 }
 
