@@ -10,6 +10,7 @@ namespace dihaptic::servo {
 struct Settings {
     double rate = 1000;  ///< ticks a second [Hz]
     dynamics::Settings dynamics;
+    haptics::ProxySettings proxy;
     haptics::CouplingSettings coupling;
     haptics::SafetySettings safety;
 
@@ -17,6 +18,7 @@ struct Settings {
     void visit(Visitor& v) {
         v("rate", rate, Field::of(Quantity::frequency).at_least(100).at_most(10000));
         v("dynamics", dynamics);
+        v("proxy", proxy);
         v("coupling", coupling);
         v("safety", safety);
     }
