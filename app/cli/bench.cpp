@@ -15,6 +15,7 @@ struct Options {
     measure::BenchSetup setup;
     std::string solver;
     std::string coupling;
+    std::string proxy;
     bool json = false;
 };
 
@@ -45,6 +46,7 @@ void choose(const std::string& word, const char* option, E& value) {
 
 void resolve(Options& options) {
     choose(options.solver, "--solver", options.setup.settings.dynamics.solver);
+    choose(options.proxy, "--proxy", options.setup.settings.proxy.kind);
     choose(options.coupling, "--coupling", options.setup.settings.coupling.kind);
 }
 
@@ -53,19 +55,19 @@ void add_grasp(CLI::App& bench) {
         "grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
     auto options = std::make_shared<Options>();
     add_common(*command, *options);
-    command->add_option("--proxy", "what a finger is in the world: rigid")
-        ->check(CLI::IsMember({"rigid"}));
+    command->add_option("--proxy", options->proxy, "what a finger is in the world: rigid, point");
     command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
     command->add_option("--friction", options->setup.friction, "coefficient")
         ->capture_default_str();
     command->footer(
-        "\nWithout --coupling the table has both couplings, the JSON object the default "
-        "one.\n\nExample:\n"
+        "\nWithout --coupling the table has both couplings of rigid proxies, the JSON object the "
+        "default one.\n\nExample:\n"
         "  dihaptic bench grasp --coupling dual_spring --mass 0.2");
     command->callback([options] {
         resolve(*options);
         std::vector<measure::GraspResult> results{{options->setup, {}}};
-        if (!options->json && options->coupling.empty()) {
+        const bool rigid = options->setup.settings.proxy.kind == haptics::ProxyKind::rigid;
+        if (!options->json && options->coupling.empty() && rigid) {
             results.push_back(results.front());
             results.back().setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;
         }

@@ -19,6 +19,7 @@ struct Options {
     experiment::RunOptions run;
     std::string solver;
     std::string coupling;
+    std::string proxy;
     double rate = 0;
     std::string clock = "virtual";
 };
@@ -152,6 +153,7 @@ void run(Options& options) {
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
+    if (!options.proxy.empty()) options.request.set.push_back("proxy.kind=" + options.proxy);
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
     options.run.clock =
         options.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
@@ -179,8 +181,7 @@ void add_run(CLI::App& app) {
         "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
     command->add_option("--coupling", options->coupling,
                         "coupling of handle and proxy: implicit, dual_spring");
-    command->add_option("--proxy", "what a finger is in the world: rigid")
-        ->check(CLI::IsMember({"rigid"}));
+    command->add_option("--proxy", options->proxy, "what a finger is in the world: rigid, point");
     command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
     command
         ->add_option("--clock", options->clock,

@@ -74,6 +74,14 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
     return {size() - 1};
 }
 
+BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP) {
+    impl_->add(finger.name, finger.shape, 0, finger.friction, 0,
+               {rotation_xyz(finger.rotation), p_WP}, btVector3(0, 0, 0), btVector3(0, 0, 0));
+    impl_->items.back().is_proxy = true;
+    impl_->items.back().is_point = true;
+    return {size() - 1};
+}
+
 void World::activate() {
     Impl& w = *impl_;
     const size_t count = w.items.size();
@@ -101,7 +109,7 @@ void World::activate() {
     w.friction.resize(count * count);
     for (size_t i = 0; i < count; ++i) {
         Impl::Item& item = w.items[i];
-        w.collision->add(*item.body, item.can_move);
+        if (!item.is_point) w.collision->add(*item.body, item.can_move);
         if (item.can_move) w.can_move.push_back(i);
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;
@@ -182,6 +190,17 @@ void World::apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noe
     item.force += force_W;
     item.torque += torque_W;
     impl_->wake(i, states_);
+}
+
+void World::apply_at(BodyIndex body, const Vec3& force_W, const Vec3& p_W) noexcept {
+    const btRigidBody& b = *impl_->items[static_cast<size_t>(body.value)].body;
+    apply(body, force_W, (p_W - from_bullet(b.getCenterOfMassPosition())).cross(force_W));
+}
+
+void World::set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexcept {
+    BodyState& state = states_[static_cast<size_t>(point.value)];
+    state.X_WB.p = p_WP;
+    state.v_WB = v_WP;
 }
 
 }  // namespace dihaptic::dynamics

@@ -48,6 +48,9 @@ class World {
 
     /// Adds a finger's proxy at a position. Gravity does not act on it and it does not turn.
     BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP);
+    /// Adds a finger whose proxy is a point that touches nothing in the dynamics: whoever places it
+    /// applies what it does to bodies.
+    BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP);
     /// Reserves all memory that steps need.
     void activate();
 
@@ -78,6 +81,10 @@ class World {
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
+    /// The same for a force that acts at p_W [m].
+    void apply_at(BodyIndex body, const Vec3& force_W, const Vec3& p_W) noexcept;
+    /// Where a point is, and how fast it got there.
+    void set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexcept;
 
     /// The solver of the next steps; it starts from the last one's impulses.
     void set_solver(Solver solver) noexcept;

@@ -32,6 +32,7 @@ struct World::Impl {
         double friction = 0;
         double torsion_radius = 0;
         bool is_proxy = false;
+        bool is_point = false;
         bool can_move = false;
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();

@@ -78,6 +78,7 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
     }
     const double explicit_limit = coupling.body_mass / (h * h);
     if (coupling.kind == haptics::CouplingKind::dual_spring &&
+        plan.settings.proxy.kind == haptics::ProxyKind::rigid &&
         coupling.stiffness > explicit_limit) {
         diagnostics.warning(
             place, "coupling.stiffness",
@@ -108,6 +109,22 @@ void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
     }
 }
 
+/// Settings that a point has no use for.
+void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
+    if (plan.settings.proxy.kind != haptics::ProxyKind::point) return;
+    if (plan.settings.coupling.kind == haptics::CouplingKind::dual_spring) {
+        diagnostics.warning(place_of(plan, "coupling.kind"), "coupling.kind",
+                            "a dual spring ties handles to rigid proxies; these proxies are points",
+                            "Leave it out, or use proxy: kind: rigid.");
+    }
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (finger.torsion_radius <= 0) continue;
+        diagnostics.warning(finger.place, "torsion_radius",
+                            "a point carries no moment about a contact's normal",
+                            "Leave it out, or use proxy: kind: rigid.");
+    }
+}
+
 /// A force limit that no device reaches is none: the devices' own is what holds.
 void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     if (!plan.settings.safety.max_force) return;
@@ -126,6 +143,7 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
 /// Soft fingers that are hard to this solver.
 void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
     if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
+    const bool points = plan.settings.proxy.kind == haptics::ProxyKind::point;
     std::string soft;
     const auto look = [&](const auto& items) {
         for (const auto& item : items) {
@@ -133,7 +151,7 @@ void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
         }
     };
     look(plan.scene.bodies);
-    look(plan.scene.fingers);
+    if (!points) look(plan.scene.fingers);
     if (soft.empty()) return;
     diagnostics.warning(
         place_of(plan, "dynamics.solver"), "dynamics.solver",
@@ -253,6 +271,7 @@ Plan make_plan(const Request& request) {
     check_stiffness(plan, devices->devices(), diagnostics);
     check_damping(plan, devices->devices(), diagnostics);
     check_limits(plan, devices->devices(), diagnostics);
+    check_proxy(plan, diagnostics);
     check_torsion(plan, diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
     diagnostics.throw_if_errors();

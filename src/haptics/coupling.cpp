@@ -8,11 +8,6 @@ double damping(const CouplingSettings& settings, double h) {
     return settings.damping.value_or(settings.stiffness * h / 2);
 }
 
-Coupling make_coupling(const CouplingSettings& settings, double mass) {
-    if (settings.kind == CouplingKind::dual_spring) return DualSpring(settings);
-    return ImplicitCoupling(settings, mass);
-}
-
 void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,
                                    double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);

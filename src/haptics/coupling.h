@@ -1,8 +1,6 @@
 // Couplings between a handle and its proxy. README.md has the equations.
 #pragma once
 
-#include <variant>
-
 #include "dynamics/world.h"
 #include "haptics/settings.h"
 
@@ -65,9 +63,6 @@ class DualSpring {
     CouplingSettings settings_;
     Vec3 f_H_W_ = Vec3::Zero();  // smoothed [N]
 };
-
-using Coupling = std::variant<ImplicitCoupling, DualSpring>;
-Coupling make_coupling(const CouplingSettings& settings, double mass);
 
 /// c, the setting or else its default for a world step of h [N*s/m].
 double damping(const CouplingSettings& settings, double h);

@@ -5,27 +5,53 @@ namespace dihaptic::haptics {
 Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
                double max_force, double max_force_rate)
     : proxy_(proxy),
-      coupling_(make_coupling(coupling, finger.mass)),
-      limiter_(max_force, max_force_rate) {}
+      coupling_(ImplicitCoupling(coupling, finger.mass)),
+      limiter_(max_force, max_force_rate) {
+    if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
+}
+
+Finger::Finger(PointProxy point, BodyIndex proxy, double max_force, double max_force_rate)
+    : proxy_(proxy), coupling_(std::move(point)), limiter_(max_force, max_force_rate) {}
+
+std::span<const contact::Contact> Finger::contacts() const noexcept {
+    const auto* point = std::get_if<PointProxy>(&coupling_);
+    return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
+}
+
+void Finger::place(World& world, const Handle& handle) noexcept {
+    if (auto* point = std::get_if<PointProxy>(&coupling_)) {
+        point->place(world, handle.p_WH);
+        return;
+    }
+    Pose X_WP = world.state(proxy_).X_WB;
+    X_WP.p = handle.p_WH;
+    world.set_pose(proxy_, X_WP);
+}
 
 void Finger::begin_tick(const World& world, const Handle& handle, double step) noexcept {
+    step_ = step;
     if (auto* dual = std::get_if<DualSpring>(&coupling_)) dual->sample(world, proxy_, handle, step);
 }
 
 void Finger::before_step(World& world, const Handle& handle, double step) noexcept {
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
         implicit->before_step(world, proxy_, handle, step);
-    } else {
-        std::get<DualSpring>(coupling_).before_step(world, proxy_, handle, step, touch_.touching);
+    } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
+        dual->before_step(world, proxy_, handle, step, touch_.touching);
     }
 }
 
 void Finger::after_step(const World& world) noexcept {
+    // a point feels bodies where they are now: in force()
+    if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
+}
+
+void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
     touch_ = {};
     Vec3 normal = Vec3::Zero();
     double pressed = 0;
     double weighted_friction = 0;
-    for (const contact::Contact& c : world.contacts()) {
+    for (const contact::Contact& c : contacts) {
         if (c.a != proxy_ && c.b != proxy_) continue;
         const double sign = c.b == proxy_ ? 1.0 : -1.0;
         normal += sign * c.normal_force * c.n_W;
@@ -40,12 +66,16 @@ void Finger::after_step(const World& world) noexcept {
     touch_.friction = weighted_friction / pressed;
 }
 
-Finger::Output Finger::force(const World& world, const Handle& handle, double tick) noexcept {
+Finger::Output Finger::force(World& world, const Handle& handle, double tick) noexcept {
     Output out;
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
         out.f_asked_W = implicit->force(world, proxy_, touch_, handle);
+    } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
+        out.f_asked_W = dual->force();
     } else {
-        out.f_asked_W = std::get<DualSpring>(coupling_).force();
+        auto& point = std::get<PointProxy>(coupling_);
+        out.f_asked_W = point.render(world, handle, tick, step_);
+        feel(point.contacts());
     }
     out.f_H_W = limiter_.limit(out.f_asked_W, tick, out.flags);
     return out;

@@ -2,8 +2,12 @@
 // limiter that every force passes on its way to the device.
 #pragma once
 
+#include <span>
+#include <variant>
+
 #include "haptics/coupling.h"
 #include "haptics/limiter.h"
+#include "haptics/point_proxy.h"
 
 namespace dihaptic::haptics {
 
@@ -12,9 +16,16 @@ class Finger {
     /// `finger`'s proxy is body `proxy` of the world. `max_force`: the magnitude limit [N].
     Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
            double max_force, double max_force_rate);
+    /// The same with a point for a proxy.
+    Finger(PointProxy point, BodyIndex proxy, double max_force, double max_force_rate);
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
+    /// Contacts that the world does not know of: a point's, of the last force().
+    std::span<const contact::Contact> contacts() const noexcept;
+
+    /// Puts the proxy at the handle, before the first tick.
+    void place(World& world, const Handle& handle) noexcept;
 
     /// First in every tick; `step` is the world's [s].
     void begin_tick(const World& world, const Handle& handle, double step) noexcept;
@@ -28,13 +39,16 @@ class Finger {
         unsigned flags = 0;             ///< LimitFlags
     };
     /// Last in every tick: force for the handle as it is now. `tick`: its length [s].
-    Output force(const World& world, const Handle& handle, double tick) noexcept;
+    Output force(World& world, const Handle& handle, double tick) noexcept;
 
   private:
+    void feel(std::span<const contact::Contact> contacts) noexcept;
+
     BodyIndex proxy_;
-    Coupling coupling_;
+    std::variant<ImplicitCoupling, DualSpring, PointProxy> coupling_;
     Limiter limiter_;
     ProxyTouch touch_;
+    double step_ = 0;  // of the world [s]
 };
 
 }  // namespace dihaptic::haptics

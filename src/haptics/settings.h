@@ -40,6 +40,23 @@ struct CouplingSettings {
     }
 };
 
+enum class ProxyKind { rigid, point };
+constexpr auto enum_names(ProxyKind) {
+    return std::array{"rigid", "point"};
+}
+
+/// What a finger is in the world.
+struct ProxySettings {
+    ProxyKind kind = ProxyKind::rigid;  ///< the finger's shape, or a point kept on surfaces
+    double sliding_friction = 1;        ///< point: dynamic friction, as a share of static friction
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind);
+        v("sliding_friction", sliding_friction, Field::number().within(0, 1));
+    }
+};
+
 /// What no force may exceed, whatever computed it.
 struct SafetySettings {
     std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force

@@ -119,7 +119,7 @@ KickFigures measure_kick(BenchSetup setup, double speed) {
     bench.run([&](const servo::Frame& frame) {
         const servo::FingerFrame& finger = frame.fingers[0];
         const double push = -finger.f_sent_W.x();
-        const double depth = finger.p_WH.x() + kPadThickness / 2;
+        const double depth = finger.p_WH.x() + reach(setup);
         if (frame.phase < 2) {
             peak = std::max(peak, push);
             if (ticks_since_touch >= 0) ++ticks_since_touch;
@@ -241,7 +241,7 @@ std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
     nlohmann::ordered_json out;
     out["coupling"] = enum_name(setup.settings.coupling.kind);
     out["solver"] = enum_name(setup.settings.dynamics.solver);
-    out["proxy"] = "rigid";
+    out["proxy"] = enum_name(setup.settings.proxy.kind);
     out["damping"] = fmt::format("{:g} s * K", figures.damping_per_k);
     for (const HoldFigures& h : figures.hold) {
         out["hold"].push_back({{"k", h.k},

@@ -40,6 +40,10 @@ Node device_options(const BenchSetup& setup) {
 
 }  // namespace
 
+double reach(const BenchSetup& setup) {
+    return setup.settings.proxy.kind == haptics::ProxyKind::point ? 0 : kPadThickness / 2;
+}
+
 scene::Scene grasp_scene(const BenchSetup& setup) {
     scene::Scene scene;
     scene::Body table = box("table", {2.0, 4.0, 0.1}, {0, 1.5, -0.05}, setup.friction);
@@ -56,7 +60,7 @@ scene::Scene grasp_scene(const BenchSetup& setup) {
 
 hand::HandSpec grasp_hand(const BenchSetup& setup) {
     hand::HandSpec hand;
-    const double contact = kBlockSize + kPadThickness;
+    const double contact = kBlockSize + 2 * reach(setup);
     hand.centre = {0, 0, kBlockSize / 2};
     hand.aperture = contact + 2 * kStartGap;
     const double closed = contact - 2 * kSqueeze;
@@ -94,9 +98,9 @@ scene::Scene wall_scene(const BenchSetup& setup) {
     return scene;
 }
 
-hand::HandSpec wall_hand(const BenchSetup&) {
+hand::HandSpec wall_hand(const BenchSetup& setup) {
     hand::HandSpec hand;
-    hand.centre = {-kPadThickness / 2 - kStartGap, 0, 0};
+    hand.centre = {-reach(setup) - kStartGap, 0, 0};
     hand.script = {{"close", 1, {}, {kStartGap + kSqueeze, 0, 0}, false},
                    {"hold", 5, {}, Vec3::Zero(), false}};
     return hand;

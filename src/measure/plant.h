@@ -39,10 +39,12 @@ struct BenchSetup {
 
 constexpr double kBlockSize = 0.04;      // [m]
 constexpr double kPadThickness = 0.005;  // [m]
-constexpr double kSqueeze = 0.015;       // targets go so far beyond contact [m]
-constexpr double kStartGap = 0.03;       // fingers start so far off the faces [m]
-constexpr double kLift = 0.1;            // [m]
-constexpr double kHandStiffness = 300;   // [N/m]
+/// From a finger's proxy to its face: half a pad, or nothing for a point [m].
+double reach(const BenchSetup& setup);
+constexpr double kSqueeze = 0.015;      // targets go so far beyond contact [m]
+constexpr double kStartGap = 0.03;      // fingers start so far off the faces [m]
+constexpr double kLift = 0.1;           // [m]
+constexpr double kHandStiffness = 300;  // [N/m]
 
 scene::Scene grasp_scene(const BenchSetup& setup);
 /// Close 1 s, wait 1 s, rise 1 s, hold 5 s, open 1 s.

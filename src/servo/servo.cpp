@@ -29,9 +29,16 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
         const double peak = devices_->info(static_cast<int>(i)).peak_force;
         const double max_force = std::min(settings.safety.max_force.value_or(peak), peak);
-        const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
-        fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force,
-                              settings.safety.max_force_rate);
+        if (settings.proxy.kind == haptics::ProxyKind::point) {
+            const dynamics::BodyIndex proxy = world_.add_point(scene.fingers[i], Vec3::Zero());
+            fingers_.emplace_back(
+                haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy,
+                max_force, settings.safety.max_force_rate);
+        } else {
+            const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
+            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force,
+                                  settings.safety.max_force_rate);
+        }
         X_DW_.push_back(X_WD_[i].inverse());
     }
     const size_t n = fingers_.size();
@@ -108,10 +115,7 @@ void Servo::measure(Time now) noexcept {
     for (size_t i = 0; i < fingers_.size(); ++i) {
         handles_[i].p_WH = X_WD_[i] * readings_[i].p_DH;
         handles_[i].v_WH = X_WD_[i].R * readings_[i].v_DH;
-        if (frame_.sequence >= 0) continue;
-        Pose X_WP = world_.state(fingers_[i].proxy()).X_WB;
-        X_WP.p = handles_[i].p_WH;
-        world_.set_pose(fingers_[i].proxy(), X_WP);
+        if (frame_.sequence < 0) fingers_[i].place(world_, handles_[i]);
     }
 }
 
@@ -179,10 +183,15 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
 }
 
 void Servo::merge_contacts() noexcept {
-    // the world lists the points of a pair one after the other
     frame_.contacts.clear();
+    merge_contacts(world_.contacts());
+    for (const haptics::Finger& finger : fingers_) merge_contacts(finger.contacts());
+}
+
+void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept {
+    // the points of a pair come one after the other
     double pressed = 0;
-    for (const contact::Contact& c : world_.contacts()) {
+    for (const contact::Contact& c : contacts) {
         const bool same = !frame_.contacts.empty() && frame_.contacts.back().a == c.a.value &&
                           frame_.contacts.back().b == c.b.value;
         if (!same) {

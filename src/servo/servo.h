@@ -75,6 +75,7 @@ class Servo {
     void measure(Time now) noexcept;
     void make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept;
     void merge_contacts() noexcept;
+    void merge_contacts(std::span<const contact::Contact> contacts) noexcept;
     void measure_grasp() noexcept;
 
     Settings settings_;

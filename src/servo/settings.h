@@ -11,6 +11,7 @@ struct Settings {
     double rate = 1000;           ///< ticks a second [Hz]
     int real_time_priority = 80;  ///< SCHED_FIFO's, above the kernel's interrupt threads (50)
     dynamics::Settings dynamics;
+    haptics::ProxySettings proxy;
     haptics::CouplingSettings coupling;
     haptics::SafetySettings safety;
 
@@ -19,6 +20,7 @@ struct Settings {
         v("rate", rate, Field::of(Quantity::frequency).at_least(100).at_most(10000));
         v("real_time_priority", real_time_priority, Field::number().at_least(1).at_most(95));
         v("dynamics", dynamics);
+        v("proxy", proxy);
         v("coupling", coupling);
         v("safety", safety);
     }

@@ -23,6 +23,18 @@ TEST(World, FallsFreelyByTheClosedFormOfItsIntegrator) {
     EXPECT_NEAR(world.states()[0].v_WB.z(), -kGravity * 0.3, 1e-12);
 }
 
+TEST(World, AForceOffTheCentreTurnsABlock) {
+    // at the middle of a face's edge, across it: w = h r x f / I, with I = m a^2 / 6 of a cube
+    World world = make({block({0.3, 0.2, 1})});
+    const Vec3 r(0.02, 0, 0.02);
+    const Vec3 f(0, 0.5, 0);
+    world.apply_at({0}, f, Vec3(0.3, 0.2, 1) + r);
+    world.step(kStep);
+    const double inertia = 0.1 * 0.04 * 0.04 / 6;
+    EXPECT_LT((world.states()[0].w_WB - kStep / inertia * r.cross(f)).norm(), 1e-9);
+    EXPECT_NEAR(world.states()[0].v_WB.y(), kStep * 0.5 / 0.1, 1e-12);
+}
+
 TEST(World, ContactForcesCarryTheWeight) {
     World world = make({table(), block({0, 0, 0.02})}, awake());
     run(world, 0.5);

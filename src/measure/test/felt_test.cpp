@@ -1,15 +1,25 @@
 // What one finger feels, against mechanics.
 #include <gtest/gtest.h>
 
-#include "measure/plant.h"
+#include "measure/grasp.h"
 
 namespace dihaptic::measure {
 namespace {
 
 constexpr double kGravity = 9.81;
 
-TEST(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
+/// With either kind of proxy.
+class Felt : public ::testing::TestWithParam<haptics::ProxyKind> {
+  protected:
     BenchSetup setup;
+    Felt() { setup.settings.proxy.kind = GetParam(); }
+    bool point() const { return GetParam() == haptics::ProxyKind::point; }
+};
+INSTANTIATE_TEST_SUITE_P(Proxies, Felt,
+                         ::testing::Values(haptics::ProxyKind::rigid, haptics::ProxyKind::point),
+                         [](const auto& of) { return std::string(enum_name(of.param)); });
+
+TEST_P(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     setup.friction = 0.3;
     scene::Scene scene = grasp_scene(setup);
     scene.fingers.resize(1);
@@ -18,11 +28,15 @@ TEST(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     hand.script = {{"push", 1, {}, {0.2, 0, 0}, false}, {"stop", 0.3, {}, Vec3::Zero(), false}};
     Bench bench(scene, hand, setup);
     Vec3 v_before = Vec3::Zero();
+    double force_before = 0;
     int compared = 0;
     double last_ratio = 0;
     bench.run([&](const servo::Frame& frame) {
         const Vec3 v = frame.bodies[1].v_WB;
-        const double force = -frame.fingers[0].f_sent_W.x();
+        // what a point does to the block acts in the next step
+        const double now = -frame.fingers[0].f_sent_W.x();
+        const double force = point() ? force_before : now;
+        force_before = now;
         const double expected = setup.mass * (v.x() - v_before.x()) / setup.settings.tick() +
                                 setup.friction * setup.mass * kGravity;
         // while it is pushed and slides; the first ticks of touch bring it from rest to speed
@@ -36,8 +50,7 @@ TEST(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     EXPECT_GT(compared, 300) << last_ratio;
 }
 
-TEST(Felt, LiftingABeadOnItsStringIsItsWeight) {
-    BenchSetup setup;
+TEST_P(Felt, LiftingABeadOnItsStringIsItsWeight) {
     scene::Scene scene;
     scene::Body bead;
     bead.name = "bead";
@@ -66,8 +79,7 @@ TEST(Felt, LiftingABeadOnItsStringIsItsWeight) {
     EXPECT_GT(trace.samples().back().X_WB.p.z(), 0.08);
 }
 
-TEST(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
-    BenchSetup setup;
+TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     scene::Scene scene;
     scene::Body plane;
     plane.name = "plane";
@@ -81,17 +93,71 @@ TEST(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     scene.fingers = {finger};
     hand::HandSpec hand;
     hand.centre = {0, 0, 0.03};
-    hand.script = {{"press", 1, {}, {0, 0, -0.03}, false}, {"slide", 1, {}, {0.2, 0, 0}, false}};
+    hand.script = {{"press", 1, {}, {0, 0, point() ? -0.038 : -0.03}, false},
+                   {"slide", 1, {}, {0.2, 0, 0}, false}};
     Bench bench(scene, hand, setup);
     bench.run([&](const servo::Frame& frame) {
         const servo::FingerFrame& f = frame.fingers[0];
         // nothing but the proxy's own gram, at the peak acceleration of minimum jerk over 0.2 m in
-        // 1 s
-        EXPECT_LT(f.f_sent_W.head<2>().norm(), 1.02 * scene.fingers[0].mass * 5.774 * 0.2);
+        // 1 s; a point weighs nothing
+        const double drag = point() ? 1e-12 : 1.02 * scene.fingers[0].mass * 5.774 * 0.2;
+        EXPECT_LT(f.f_sent_W.head<2>().norm(), drag);
+        const double radius = point() ? haptics::kSkin : 0.008;
         if (seconds(frame.time) > 1.2) {
-            EXPECT_NEAR(f.f_sent_W.z() / (1000 * (0.008 - f.p_WH.z())), 1, 0.005);
+            EXPECT_NEAR(f.f_sent_W.z() / (1000 * (radius - f.p_WH.z())), 1, 0.005);
         }
     });
+}
+
+TEST(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
+    BenchSetup setup;
+    setup.settings.proxy.kind = haptics::ProxyKind::point;
+    for (const double k : {300.0, 1000.0, 2000.0}) {
+        for (const double speed : {0.1, 0.3, 0.5}) {
+            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
+            setup.settings.coupling.stiffness = k;
+            const KickFigures kick = measure_kick(setup, speed);
+            EXPECT_LE(kick.kick_ratio, 1.02);
+            EXPECT_LE(kick.touch_step_n, 0.02);
+            EXPECT_LE(kick.leave_pull_n, 0.005);
+        }
+    }
+    EXPECT_EQ(measure_drag(setup), 0);
+}
+
+TEST(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
+    // 6 mm deep at 1000 N/m, static friction 0.5, dynamic friction 0.6 of it
+    BenchSetup setup;
+    setup.settings.proxy = {haptics::ProxyKind::point, 0.6};
+    scene::Scene scene;
+    scene::Body plane;
+    plane.name = "plane";
+    plane.shape.kind = scene::ShapeKind::plane;
+    plane.fixed = true;
+    plane.friction = 0.5;
+    scene.bodies = {plane};
+    scene::Finger finger;
+    finger.name = "index";
+    finger.friction = 0.5;
+    finger.shape = scene::Shape::sphere(0.008);
+    scene.fingers = {finger};
+    hand::HandSpec hand;
+    hand.impedance.stiffness = 3000;  // against the hand's own stick and slip
+    hand.centre = {0, 0, 0.01};
+    hand.script = {{"press", 1, {}, {0, 0, -0.018}, false}, {"slide", 2, {}, {0.1, 0, 0}, true}};
+    Bench bench(scene, hand, setup);
+    double largest = 0;
+    double least = 1;
+    bench.run([&](const servo::Frame& frame) {
+        if (seconds(frame.time) < 1) return;
+        const Vec3& f = frame.fingers[0].f_sent_W;
+        const double ratio = f.head<2>().norm() / f.z();
+        largest = std::max(largest, ratio);
+        if (seconds(frame.time) > 1.5) least = std::min(least, ratio);
+    });
+    EXPECT_LE(largest, 0.5 + 1e-9);
+    EXPECT_GT(largest, 0.495);
+    EXPECT_NEAR(least, 0.3, 1e-6);
 }
 
 }  // namespace

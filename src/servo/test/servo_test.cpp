@@ -68,6 +68,43 @@ struct Grasp {
 /// The fingers sag by half the weight over 300 and 1000 N/m in series.
 constexpr double kLiftedHeight = 0.07 - 0.1 * 9.81 / 2 / (300.0 * 1000 / 1300);
 
+TEST(Servo, TwoPointsLiftABlockAndMeasureTheGrasp) {
+    Settings settings;
+    settings.proxy.kind = haptics::ProxyKind::point;
+    Grasp grasp(settings);
+    double momentum = 0;
+    Vec3 impulse = Vec3::Zero();
+    const Frame& frame = grasp.run(0, 1.1, [&](const Frame& f) {
+        // what hands are told, the block gets: in the next step, and on either side alike
+        momentum = f.bodies[1].v_WB.x() * 0.1;
+        EXPECT_NEAR(impulse.x(), momentum, 1e-6);
+        for (const FingerFrame& finger : f.fingers) {
+            impulse -= finger.f_contact_W * 1e-3;
+            EXPECT_EQ(finger.f_asked_W, finger.f_contact_W);
+        }
+    });
+    EXPECT_EQ(frame.status, 0u);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
+    // without the pads' thickness, targets are 5 mm beyond contact
+    EXPECT_NEAR(frame.grip_force / (0.005 * 300 * 1000 / 1300), 1, 0.01);
+    EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
+    ASSERT_EQ(frame.contacts.size(), 2u);
+    EXPECT_EQ(frame.contacts[0].a, 1);
+    EXPECT_EQ(frame.contacts[0].b, 2);
+    EXPECT_EQ(frame.contacts[0].points, 1);
+    EXPECT_NEAR(frame.contacts[0].p_WC.x(), -0.02, 2e-5);
+}
+
+TEST(Servo, PointsAllocateNothingInATick) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Settings settings;
+    settings.proxy.kind = haptics::ProxyKind::point;
+    Grasp grasp(settings);
+    const testing::AllocationGuard guard;
+    for (int i = 0; i < 1000; ++i) grasp.servo->tick(from_seconds(i * 1e-3), {});
+    EXPECT_EQ(guard.count(), 0u);
+}
+
 TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
     Grasp grasp;
     const Frame& frame = grasp.run(0, 1.1);

@@ -1,0 +1,92 @@
+// The point proxy's place: a point that follows the handle and cannot enter any body. It is where
+// the point would go by itself if it were pulled to the handle and rubbed against what it touches.
+//
+// In each tick the bodies move first, then the point:
+//
+//   carry   what it touched with friction takes it along (a mean by how hard it presses)
+//   push    in each body's frame the point's own straight path of the tick is followed; where it
+//           enters, the face that it came through becomes a constraint, and the nearest place that
+//           obeys all of them is taken (half_spaces.h)
+//   pull    straight toward the handle, to the first body in the way; then along it, and so on with
+//           up to three bodies at once, until friction holds it or nothing nearer can be reached
+//
+// Each part is a path outside all bodies, so nothing is ever tunnelled, and the face that was
+// entered stays the one that is felt: past a thin wedge's edge, too.
+//
+// Friction (Harwin and Melder 2002): with d the way that is still to go along the surfaces and l_i
+// the handle's depth behind each, the point rests while |d| <= sum mu_i l_i; else it slides until
+// |d| = r sum mu_i l_i. r < 1 makes it stick and slip.
+//
+// Sources: Zilles and Salisbury 1995 (active constraints); Ruspini, Kolarov and Khatib 1997 (paths
+// and pushing by moving bodies).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "dynamics/world.h"
+#include "haptics/half_spaces.h"
+#include "haptics/surface.h"
+
+namespace dihaptic::haptics {
+
+/// Surfaces are felt so far outside of where they are: without, a point that slides along a table
+/// would slip under a block that stands on it [m].
+constexpr double kSkin = 1e-5;
+
+/// What the point rests on. All of one body, which is convex: one face a body.
+struct PointContact {
+    size_t body = 0;
+    int face = 0;
+    Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
+    double depth = 0;          ///< the handle's share behind it, l [m]
+};
+
+class GodObject {
+  public:
+    /// The scene's bodies by index, with the coefficient of static friction that each has with the
+    /// point. `sliding`: dynamic friction over static friction.
+    GodObject(std::span<const scene::Body> bodies, std::vector<double> friction, double sliding,
+              double skin = kSkin);
+
+    /// Puts the point somewhere. Bodies that it is inside of are not felt until it has left them.
+    void place(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept;
+    /// One tick: the bodies are where `bodies` says, the handle is at p_WH.
+    void follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bodies) noexcept;
+
+    const Vec3& position() const noexcept { return p_; }
+    std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
+    double friction(size_t body) const noexcept { return friction_[body]; }
+    /// The way to the handle that is left along the surfaces: held by friction [m].
+    const Vec3& held() const noexcept { return held_; }
+    /// Whether it slid in the last tick; then friction is the dynamic one.
+    bool sliding() const noexcept { return sliding_; }
+    double sliding_ratio() const noexcept { return sliding_ratio_; }
+
+  private:
+    Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
+    void push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
+    void pull(const Vec3& p_WH) noexcept;
+    void gather(const Vec3& p_WH) noexcept;
+    bool touch(size_t body, int face) noexcept;
+    void untouch(size_t i) noexcept;
+    void refresh_normals() noexcept;
+    Vec3 way_to(const Vec3& p_WH) noexcept;
+    double friction_depth() const noexcept;
+    Vec3 straightened(const Vec3& way) const noexcept;
+    Vec3 in_body(size_t body, const Vec3& p_W) const noexcept;
+
+    std::vector<Surface> surfaces_;
+    std::vector<double> friction_;
+    double sliding_ratio_;
+    std::vector<Pose> X_WB_;
+    std::vector<char> inside_;
+    std::vector<size_t> near_;
+    Vec3 p_ = Vec3::Zero();
+    Vec3 held_ = Vec3::Zero();
+    std::array<PointContact, kMostHalfSpaces> contacts_;
+    size_t count_ = 0;
+    bool sliding_ = false;
+};
+
+}  // namespace dihaptic::haptics

@@ -1,0 +1,226 @@
+#include "haptics/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/polyhedron.h"
+
+namespace dihaptic::haptics {
+namespace {
+
+using scene::ShapeKind;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Roots of |p + s d| = r for p outside and d toward the origin, in as many dimensions as the
+/// vectors have. The first is written without a difference of near equals.
+struct Roots {
+    double first = kInfinity;
+    double last = -kInfinity;
+};
+
+template <class Vector>
+Roots ball_roots(const Vector& p, const Vector& d, double r) {
+    const double a = d.squaredNorm();
+    const double b = p.dot(d);
+    const double c = p.squaredNorm() - r * r;
+    const double inside = b * b - a * c;
+    if (a <= 0 || inside < 0) return {};
+    const double root = std::sqrt(inside);
+    if (b < 0) return {c / (-b + root), (-b + root) / a};
+    return {(-b - root) / a, root + b > 0 ? -c / (b + root) : 0.0};
+}
+
+}  // namespace
+
+Surface::Surface(const scene::Shape& shape, double skin) : kind_(shape.kind) {
+    switch (kind_) {
+        case ShapeKind::box:
+        case ShapeKind::mesh: {
+            const dynamics::Polyhedron hull = kind_ == ShapeKind::box
+                                                  ? dynamics::Polyhedron::box(shape.size)
+                                                  : dynamics::Polyhedron::of(shape.hull);
+            Vec3 centre = Vec3::Zero();
+            for (const Vec3& v : hull.vertices)
+                centre += v / static_cast<double>(hull.vertices.size());
+            double inner = kInfinity;
+            for (const auto& face : hull.faces) {
+                flats_.push_back({face.normal, face.offset + skin});
+                inner = std::min(inner, face.offset - face.normal.dot(centre));
+            }
+            // moved outward, the faces stay within the shape grown about a point inside by
+            // 1 + skin / inner
+            for (const Vec3& v : hull.vertices)
+                reach_ = std::max(reach_, centre.norm() + (v - centre).norm() * (1 + skin / inner));
+            break;
+        }
+        case ShapeKind::plane:
+            flats_.push_back({Vec3::UnitZ(), skin});
+            reach_ = kInfinity;
+            break;
+        case ShapeKind::sphere:
+            radius_ = reach_ = shape.radius + skin;
+            break;
+        case ShapeKind::capsule:
+            radius_ = shape.radius + skin;
+            half_ = shape.length / 2;
+            reach_ = radius_ + half_;
+            break;
+        case ShapeKind::cylinder:
+            radius_ = shape.radius + skin;
+            half_ = shape.length / 2 + skin;
+            reach_ = std::hypot(radius_, half_);
+            flats_.push_back({Vec3::UnitZ(), half_});
+            flats_.push_back({-Vec3::UnitZ(), half_});
+            break;
+    }
+}
+
+Vec3 Surface::axis_point(const Vec3& p) const noexcept {
+    return kind_ == ShapeKind::capsule ? Vec3(0, 0, std::clamp(p.z(), -half_, half_))
+                                       : Vec3(Vec3::Zero());
+}
+
+double Surface::distance(int face, const Vec3& p) const noexcept {
+    if (is_flat(face)) {
+        const Flat& flat = flats_[static_cast<size_t>(face)];
+        return flat.n.dot(p) - flat.offset;
+    }
+    if (has_side()) return p.head<2>().norm() - radius_;
+    return (p - axis_point(p)).norm() - radius_;
+}
+
+Vec3 Surface::normal(int face, const Vec3& p) const noexcept {
+    if (is_flat(face)) return flats_[static_cast<size_t>(face)].n;
+    const Vec3 from_axis = has_side() ? Vec3(p.x(), p.y(), 0) : Vec3(p - axis_point(p));
+    const double size = from_axis.norm();
+    // on the axis every direction is as good as any
+    return size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
+}
+
+double Surface::separation(const Vec3& p) const noexcept {
+    if (flats_.empty()) return distance(0, p);
+    double out = has_side() ? p.head<2>().norm() - radius_ : -kInfinity;
+    for (const Flat& flat : flats_) out = std::max(out, flat.n.dot(p) - flat.offset);
+    return out;
+}
+
+int Surface::shallowest(const Vec3& p) const noexcept {
+    int best = 0;
+    double largest = -kInfinity;
+    for (int face = 0; face < std::max(1, faces()); ++face) {
+        const double d = distance(face, p);
+        if (d > largest) {
+            largest = d;
+            best = face;
+        }
+    }
+    return best;
+}
+
+std::optional<Surface::Entry> Surface::enter(const Vec3& p, const Vec3& d) const noexcept {
+    const double apart = separation(p);
+    if (apart > d.norm() + kOnSurface) return {};
+    if (apart > kOnSurface) return flats_.empty() ? enter_ball(p, d) : enter_faces(p, d);
+    // Faces through p: a convex solid lies below each of them, so a path that one of them does not
+    // block never enters. The one that blocks least is the one that p slides along first.
+    Entry least{0, -1};
+    double fastest = -kInfinity;
+    for (int face = 0; face < std::max(1, faces()); ++face) {
+        if (distance(face, p) < std::min(apart, 0.0) - kOnSurface) continue;
+        const double leaving = normal(face, p).dot(d);
+        if (leaving >= 0) return {};
+        if (leaving > fastest) {
+            fastest = leaving;
+            least.face = face;
+        }
+    }
+    return least.face < 0 ? std::nullopt : std::optional(least);
+}
+
+std::optional<Surface::Entry> Surface::enter_ball(const Vec3& p, const Vec3& d) const noexcept {
+    double first = kInfinity;
+    const auto ball = [&](double z) {
+        const Vec3 q = p - Vec3(0, 0, z);
+        if (q.dot(d) < 0) first = std::min(first, ball_roots(q, d, radius_).first);
+    };
+    if (kind_ == ShapeKind::sphere) {
+        ball(0);
+    } else {
+        ball(half_);
+        ball(-half_);
+        const Eigen::Vector2d q = p.head<2>();
+        const Eigen::Vector2d e = d.head<2>();
+        if (q.squaredNorm() >= radius_ * radius_ && q.dot(e) < 0) {
+            const double s = ball_roots(q, e, radius_).first;
+            if (std::abs(p.z() + s * d.z()) <= half_) first = std::min(first, s);
+        }
+    }
+    if (first > 1) return {};
+    return Entry{std::max(0.0, first), 0};
+}
+
+std::optional<Surface::Entry> Surface::enter_faces(const Vec3& p, const Vec3& d) const noexcept {
+    Entry entry{-kInfinity, -1};
+    double exit = kInfinity;
+    for (size_t i = 0; i < flats_.size(); ++i) {
+        const double above = flats_[i].n.dot(p) - flats_[i].offset;
+        const double speed = flats_[i].n.dot(d);
+        if (speed < 0) {
+            const double s = -above / speed;
+            if (s > entry.share) entry = {s, static_cast<int>(i)};
+        } else if (speed > 0) {
+            exit = std::min(exit, -above / speed);
+        } else if (above > 0) {
+            return {};
+        }
+    }
+    if (has_side()) {
+        const Eigen::Vector2d q = p.head<2>();
+        const Eigen::Vector2d e = d.head<2>();
+        if (e.squaredNorm() > 0) {
+            const Roots s = ball_roots(q, e, radius_);
+            if (s.first > entry.share) entry = {s.first, static_cast<int>(flats_.size())};
+            exit = std::min(exit, s.last);
+        } else if (q.norm() > radius_) {
+            return {};
+        }
+    }
+    if (entry.face < 0 || entry.share > exit || entry.share < 0 || entry.share > 1) return {};
+    return entry;
+}
+
+Surface::Crossing Surface::cross(int face, const Vec3& p, const Vec3& d) const noexcept {
+    Crossing out;
+    if (flats_.empty()) return out;
+    const auto at = [&](double share, int beyond) {
+        if (share < out.share) out = {std::max(0.0, share), beyond};
+    };
+    for (int i = 0; i < static_cast<int>(flats_.size()); ++i) {
+        const Flat& flat = flats_[static_cast<size_t>(i)];
+        const double speed = flat.n.dot(d);
+        // a face that is as good as parallel to this one is no edge's other side
+        if (i != face && speed > 1e-12 * d.norm()) at((flat.offset - flat.n.dot(p)) / speed, i);
+    }
+    if (has_side() && is_flat(face)) {
+        const Eigen::Vector2d q = p.head<2>();
+        const Eigen::Vector2d e = d.head<2>();
+        if (e.squaredNorm() > 0 && q.dot(e) > 0) {
+            const double past = q.squaredNorm() - radius_ * radius_;
+            at(past >= 0 ? 0 : ball_roots(q, e, radius_).last, static_cast<int>(flats_.size()));
+        } else if (e.squaredNorm() > 0) {
+            const double last = ball_roots(q, e, radius_).last;
+            if (last > 0) at(last, static_cast<int>(flats_.size()));
+        }
+    }
+    return out;
+}
+
+Vec3 Surface::bent_part(int face, const Vec3& p, const Vec3& d) const noexcept {
+    if (is_flat(face)) return Vec3::Zero();
+    const bool straight_along_z =
+        has_side() || (kind_ == ShapeKind::capsule && std::abs(p.z()) < half_);
+    return straight_along_z ? Vec3(d.x(), d.y(), 0) : d;
+}
+
+}  // namespace dihaptic::haptics

@@ -1,0 +1,75 @@
+// The surface of a convex shape as a point feels it: where a straight path enters the solid, which
+// face keeps the point out there, and where a path along that face leaves it.
+//
+// A polyhedron has the faces of its hull; a cylinder has its side and two ends; sphere, capsule and
+// plane have one face. Everything is in the frame of the shape's body B.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/shape.h"
+
+namespace dihaptic::haptics {
+
+/// A point is on a surface when it is no further off. Positions are kept this exact; a stiffness of
+/// 10 000 N/m makes 10 uN of it [m].
+constexpr double kOnSurface = 1e-9;
+
+class Surface {
+  public:
+    /// The shape, with its faces moved outward by `skin` [m].
+    Surface(const scene::Shape& shape, double skin);
+
+    /// How far p is outside: negative inside, a lower bound of the distance outside [m].
+    double separation(const Vec3& p_B) const noexcept;
+
+    struct Entry {
+        double share = 0;  ///< of the path: where it enters
+        int face = -1;     ///< through which
+    };
+    /// Where the straight path p + s d, 0 <= s <= 1, enters the solid. A point on the surface, or
+    /// below it, enters at once unless d leads it along a face there or away from it.
+    std::optional<Entry> enter(const Vec3& p_B, const Vec3& d_B) const noexcept;
+    /// The face that p is nearest to, as seen from inside.
+    int shallowest(const Vec3& p_B) const noexcept;
+    /// Outward, unit, at the point of that face nearest to p.
+    Vec3 normal(int face, const Vec3& p_B) const noexcept;
+    /// Signed distance of p from that face, or its plane [m].
+    double distance(int face, const Vec3& p_B) const noexcept;
+
+    struct Crossing {
+        double share = 1;  ///< of the path, at which it ends or leaves the face
+        int face = -1;     ///< that lies beyond the edge; -1: it stays
+    };
+    /// How far a path along that face stays over it.
+    Crossing cross(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
+
+    /// The part of a tangent d along which the face bends at p, and its radius there [m]; zero
+    /// where it is flat.
+    Vec3 bent_part(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
+    double bend_radius() const noexcept { return radius_; }
+
+    /// No point of the shape is further from B's origin; infinite for a plane [m].
+    double reach() const noexcept { return reach_; }
+
+  private:
+    struct Flat {
+        Vec3 n;         // outward, unit
+        double offset;  // n . x on the face [m]
+    };
+    bool has_side() const { return kind_ == scene::ShapeKind::cylinder; }
+    int faces() const { return static_cast<int>(flats_.size()) + (has_side() ? 1 : 0); }
+    bool is_flat(int face) const { return face < static_cast<int>(flats_.size()); }
+    Vec3 axis_point(const Vec3& p_B) const noexcept;
+    std::optional<Entry> enter_ball(const Vec3& p_B, const Vec3& d_B) const noexcept;
+    std::optional<Entry> enter_faces(const Vec3& p_B, const Vec3& d_B) const noexcept;
+
+    scene::ShapeKind kind_;
+    std::vector<Flat> flats_;  // of polyhedra, ends of a cylinder, the plane
+    double radius_ = 0;        // sphere, capsule, cylinder
+    double half_ = 0;          // half the length of capsule and cylinder
+    double reach_ = 0;
+};
+
+}  // namespace dihaptic::haptics

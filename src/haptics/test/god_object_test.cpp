@@ -1,0 +1,447 @@
+// The point proxy's place, against geometry: presses on every shape, corners, wedges, moving
+// bodies, and Coulomb's law.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "base/random.h"
+#include "haptics/god_object.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::haptics {
+namespace {
+
+constexpr double kMicron = 1e-6;
+
+/// Fixed or moved by the test, with one point among them.
+struct Room {
+    std::vector<scene::Body> bodies;
+    std::vector<dynamics::BodyState> states;
+    std::unique_ptr<GodObject> point;
+
+    void add(const scene::Shape& shape, const Pose& X_WB = {}) {
+        scene::Body body;
+        body.shape = shape;
+        bodies.push_back(body);
+        states.emplace_back();
+        states.back().X_WB = X_WB;
+    }
+    double skin = 0;  // so that closed forms are exact
+
+    void start(const Vec3& p, double friction = 0, double sliding = 1) {
+        point = std::make_unique<GodObject>(bodies, std::vector<double>(bodies.size(), friction),
+                                            sliding, skin);
+        point->place(p, states);
+    }
+    const Vec3& follow(const Vec3& p_WH) {
+        point->follow(p_WH, states);
+        return point->position();
+    }
+    /// Straight there, in steps of 0.1 mm.
+    void go(const Vec3& from, const Vec3& to) {
+        const int steps = std::max(1, static_cast<int>((to - from).norm() / 1e-4));
+        for (int i = 1; i <= steps; ++i) follow(from + (to - from) * i / steps);
+    }
+    /// How far the point is inside any body [m].
+    double depth() const {
+        double deepest = 0;
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            deepest = std::max(deepest, scene::depth(bodies[i].shape,
+                                                     states[i].X_WB.inverse() * point->position()));
+        }
+        return deepest;
+    }
+};
+
+scene::Shape round(scene::ShapeKind kind, double radius, double length) {
+    scene::Shape shape;
+    shape.kind = kind;
+    shape.radius = radius;
+    shape.length = length;
+    return shape;
+}
+
+scene::Shape mesh(const std::vector<Vec3>& points) {
+    scene::Shape shape;
+    shape.kind = scene::ShapeKind::mesh;
+    shape.hull = scene::convex_hull(points);
+    return shape;
+}
+
+/// 40 mm long along y, 30 mm wide at its foot x = 0, 2 mm thick there, sharp at x = 30 mm.
+scene::Shape thin_wedge() {
+    return mesh({{0, -0.02, 0.001},
+                 {0, 0.02, 0.001},
+                 {0, -0.02, -0.001},
+                 {0, 0.02, -0.001},
+                 {0.03, -0.02, 0},
+                 {0.03, 0.02, 0}});
+}
+
+Vec3 random_vector(Random& random) {
+    return {random.normal(), random.normal(), random.normal()};
+}
+
+class EveryShape : public ::testing::TestWithParam<int> {
+  public:
+    static scene::Shape shape(int i) {
+        Random random(77, "test");
+        switch (i) {
+            case 0:
+                return scene::Shape::box({0.04, 0.02, 0.06});
+            case 1:
+                return scene::Shape::sphere(0.015);
+            case 2:
+                return round(scene::ShapeKind::capsule, 0.01, 0.03);
+            case 3:
+                return round(scene::ShapeKind::cylinder, 0.02, 0.03);
+            case 4:
+                return round(scene::ShapeKind::plane, 0, 0);
+            case 5:
+                return thin_wedge();
+            default: {
+                std::vector<Vec3> points;
+                for (int k = 0; k < 40; ++k)
+                    points.push_back(0.03 * random_vector(random).normalized());
+                return mesh(points);
+            }
+        }
+    }
+};
+
+/// Ten thousand straight ways through a shape, from outside, in strides of up to 8 mm. The point
+/// stays outside; what holds it back points out of the shape; and while the handle's foot on the
+/// face that it came through is on that face, the point is there, however thin the shape.
+TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
+    Random random(4, "presses");
+    Room room;
+    room.skin = kSkin;
+    const Pose X_WB{rotation_xyz({0.3, -0.8, 1.9}), {0.1, -0.2, 0.05}};
+    room.add(shape(GetParam()), X_WB);
+    const Surface surface(room.bodies[0].shape, kSkin);
+    double deepest = -1, worst_angle = 0, furthest_from_foot = 0;
+    int pressed = 0, kept = 0;
+    for (int press = 0; press < 10000; ++press) {
+        Vec3 from = 0.08 * random_vector(random).normalized();
+        if (room.bodies[0].shape.kind == scene::ShapeKind::plane) from.z() = std::abs(from.z());
+        const Vec3 way = (0.01 * random_vector(random) - from).normalized() * 0.14;
+        const Vec3 stride = way * random.uniform(0.005, 0.06);
+        room.start(X_WB * from);
+        int entered = -1;
+        bool left = false;
+        for (Vec3 h = from; (h - from).norm() < way.norm(); h += stride) {
+            if (const auto entry = surface.enter(h, stride); entry && entered < 0)
+                entered = entry->face;
+            const Vec3 next = h + stride;
+            const Vec3 p = room.follow(X_WB * next);
+            deepest = std::max(deepest, room.depth());
+            const auto contacts = room.point->contacts();
+            left = left || (entered >= 0 && contacts.empty());
+            if (contacts.empty()) {
+                EXPECT_LT((p - X_WB * next).norm(), 1e-9);
+                continue;
+            }
+            ++pressed;
+            const Vec3 force = p - X_WB * next;
+            EXPECT_GT(force.dot(contacts[0].n_W), 0);
+            const Vec3 foot =
+                next - surface.distance(entered, next) * surface.normal(entered, next);
+            const bool flat = surface.bent_part(entered, foot, Vec3::UnitX()).isZero(0);
+            // near its middle a round shape lets the point around to the other side, in a few ticks
+            const bool shallow =
+                flat || surface.distance(entered, next) > -0.6 * surface.bend_radius();
+            if (shallow && force.norm() > 1e-6) {
+                worst_angle =
+                    std::max(worst_angle, force.normalized().cross(contacts[0].n_W).norm());
+            }
+            if (!flat || left || surface.separation(foot) > 1e-12) continue;
+            ++kept;
+            EXPECT_EQ(contacts[0].face, entered);
+            furthest_from_foot = std::max(furthest_from_foot, (p - X_WB * foot).norm());
+        }
+    }
+    EXPECT_LT(deepest, kMicron);
+    EXPECT_LT(worst_angle, 1e-3);
+    EXPECT_LT(furthest_from_foot, 1e-9);
+    EXPECT_GT(pressed, 20000);
+    if (surface.bend_radius() == 0) {
+        EXPECT_GT(kept, 10000);
+    }
+    RecordProperty("deepest_um", std::to_string(deepest * 1e6));
+    RecordProperty("worst_angle", std::to_string(worst_angle));
+    RecordProperty("pressed", pressed);
+    RecordProperty("kept", kept);
+}
+
+std::string shape_name(const ::testing::TestParamInfo<int>& instance) {
+    constexpr std::array kNames{"box", "sphere", "capsule", "cylinder", "plane", "wedge", "hull"};
+    return kNames[static_cast<size_t>(instance.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, EveryShape, ::testing::Range(0, 7), shape_name);
+
+TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
+    Room room;
+    room.add(scene::Shape::sphere(0.01));
+    room.start({0.1, 0, 0});
+    EXPECT_EQ(room.follow({0.1, 0.2, -0.3}), Vec3(0.1, 0.2, -0.3));
+    EXPECT_TRUE(room.point->contacts().empty());
+}
+
+TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
+    // 1 mm from the edge; 5 mm below the top, the side is nearer, but it came through the top
+    Room room;
+    room.add(scene::Shape::box({0.04, 0.04, 0.04}));
+    room.start({0.019, 0, 0.025});
+    room.go({0.019, 0, 0.025}, {0.019, 0, 0.010});
+    EXPECT_LT((room.point->position() - Vec3(0.019, 0, 0.02)).norm(), 1e-9);
+    EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitZ()).norm(), 1e-12);
+    // over the edge it comes free, and back in through the side it is the side that is felt
+    room.go({0.019, 0, 0.010}, {0.022, 0, 0.010});
+    EXPECT_TRUE(room.point->contacts().empty());
+    room.go({0.022, 0, 0.010}, {0.012, 0, 0.010});
+    EXPECT_LT((room.point->position() - Vec3(0.02, 0, 0.010)).norm(), 1e-9);
+    EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitX()).norm(), 1e-12);
+}
+
+TEST(GodObject, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
+    Room room;
+    room.add(thin_wedge());
+    const Vec3 n = Vec3(0.001, 0, 0.03).normalized();  // its upper face
+    const Vec3 above(0.015, 0.003, 0.01);
+    room.start(above);
+    room.go(above, {0.015, 0.003, -0.008});
+    const Vec3 force = room.point->position() - Vec3(0.015, 0.003, -0.008);
+    EXPECT_LT((force.normalized() - n).norm(), 1e-6);
+    EXPECT_GT(force.norm(), 0.008);  // deeper than the wedge is thick
+    EXPECT_LT(room.depth(), kOnSurface);
+    // a blow through it in a single tick
+    room.start(above);
+    room.follow({0.015, 0.003, -0.02});
+    EXPECT_LT((room.point->position() - Vec3(0.015, 0.003, -0.02)).normalized().cross(n).norm(),
+              1e-6);
+    EXPECT_GT(room.point->position().z(), 0);
+}
+
+TEST(GodObject, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
+    // the walls fill x < 0, y < 0 and z < 0
+    Room room;
+    room.add(scene::Shape::box({0.2, 0.2, 0.2}), {Quat::Identity(), {-0.1, 0.05, 0.05}});
+    room.add(scene::Shape::box({0.2, 0.2, 0.2}), {Quat::Identity(), {0.05, -0.1, 0.05}});
+    room.add(round(scene::ShapeKind::plane, 0, 0));
+    room.start({0.01, 0.02, 0.03});
+    room.go({0.01, 0.02, 0.03}, {-0.004, -0.003, -0.002});
+    EXPECT_LT(room.point->position().norm(), 1e-9);
+    ASSERT_EQ(room.point->contacts().size(), 3u);
+    Vec3 sum = Vec3::Zero();
+    for (const PointContact& c : room.point->contacts()) sum += c.depth * c.n_W;
+    EXPECT_LT((sum - Vec3(0.004, 0.003, 0.002)).norm(), 1e-9);
+    // out along one wall: two constraints, then one
+    room.go({-0.004, -0.003, -0.002}, {0.01, -0.003, -0.002});
+    EXPECT_LT((room.point->position() - Vec3(0.01, 0, 0)).norm(), 1e-9);
+    EXPECT_EQ(room.point->contacts().size(), 2u);
+    room.go({0.01, -0.003, -0.002}, {0.01, 0.01, -0.002});
+    EXPECT_LT((room.point->position() - Vec3(0.01, 0.01, 0)).norm(), 1e-9);
+    EXPECT_EQ(room.point->contacts().size(), 1u);
+}
+
+TEST(GodObject, ANotchBetweenTiltedWallsIsExact) {
+    // two half spaces that meet at 60 degrees along y: forces are those of the wedge
+    Room room;
+    const double third = std::numbers::pi / 3;
+    room.add(round(scene::ShapeKind::plane, 0, 0), {rotation_xyz({0, third, 0}), Vec3::Zero()});
+    room.add(round(scene::ShapeKind::plane, 0, 0), {rotation_xyz({0, -third, 0}), Vec3::Zero()});
+    room.start({0, 0, 0.02});
+    room.go({0, 0, 0.02}, {0.0005, 0.006, -0.01});
+    EXPECT_LT((room.point->position() - Vec3(0, 0.006, 0)).norm(), 1e-9);
+    ASSERT_EQ(room.point->contacts().size(), 2u);
+    Vec3 sum = Vec3::Zero();
+    for (const PointContact& c : room.point->contacts()) sum += c.depth * c.n_W;
+    EXPECT_LT((sum - Vec3(-0.0005, 0, 0.01)).norm(), 1e-9);
+}
+
+TEST(GodObject, AMovingBodyPushesIt) {
+    // a box comes from the left at 0.5 m/s, the handle stands still
+    Room room;
+    room.add(scene::Shape::box({0.02, 0.04, 0.04}), {Quat::Identity(), {-0.03, 0, 0}});
+    room.start({0, 0.005, 0});
+    for (int i = 0; i < 100; ++i) {
+        room.states[0].X_WB.p.x() += 0.5e-3;
+        room.follow({0, 0.005, 0});
+        EXPECT_LT(room.depth(), 2 * kOnSurface);
+        const double face = room.states[0].X_WB.p.x() + 0.01;
+        EXPECT_NEAR(room.point->position().x(), std::max(0.0, face), 1e-9);
+    }
+    EXPECT_NEAR(room.point->position().y(), 0.005, 1e-9);
+}
+
+TEST(GodObject, AFastThinBodyDoesNotPassThroughIt) {
+    // a plate of 1 mm that goes 20 mm in a tick
+    Room room;
+    room.add(scene::Shape::box({0.001, 0.04, 0.04}), {Quat::Identity(), {-0.01, 0, 0}});
+    room.start({0, 0.005, 0});
+    room.states[0].X_WB.p.x() = 0.01;
+    room.follow({0, 0.005, 0});
+    EXPECT_NEAR(room.point->position().x(), 0.0105, 1e-9);
+    EXPECT_GT(room.point->contacts()[0].n_W.x(), 0.999);
+}
+
+TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
+    // stuck to a turntable: it turns with it to the bit, while the handle turns with both
+    Room room;
+    room.add(round(scene::ShapeKind::cylinder, 0.05, 0.02), {Quat::Identity(), {0, 0, -0.01}});
+    room.start({0.03, 0, 0.001}, 2.0);
+    room.follow({0.03, 0, -0.003});
+    for (int i = 1; i <= 2000; ++i) {
+        const Quat R = rotation_xyz({0, 0, i * 1e-3});
+        room.states[0].X_WB.R = R;
+        // it lags by 4 mm: within the cone, of 2 x 3 mm
+        room.follow(R * Vec3(0.03, -0.004, -0.003));
+    }
+    const Quat R = rotation_xyz({0, 0, 2.0});
+    EXPECT_LT((room.point->position() - R * Vec3(0.03, 0, 0)).norm(), 1e-7);
+    EXPECT_FALSE(room.point->sliding());
+}
+
+TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
+    // in the corner of a box and a plate that fly off as one, turning on the way
+    Room room;
+    room.skin = kSkin;
+    room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
+    room.add(scene::Shape::box({0.02, 0.1, 0.1}), {Quat::Identity(), {-0.01, 0, 0.05}});
+    const std::vector<dynamics::BodyState> first = room.states;
+    room.start({0.002, 0, 0.002}, 0.5);
+    room.follow({-0.003, 0.0005, -0.004});
+    EXPECT_EQ(room.point->contacts().size(), 2u);
+    const Vec3 p = room.point->position();
+    for (int i = 1; i <= 1000; ++i) {
+        const Pose X{rotation_xyz({1e-3 * i, 0, 0.5e-3 * i}), {0.2e-3 * i, 0, 0.1e-3 * i}};
+        for (size_t b = 0; b < 2; ++b) room.states[b].X_WB = X * first[b].X_WB;
+        room.follow(X * Vec3(-0.003, 0.0005, -0.004));
+        EXPECT_LT(room.depth(), kMicron);
+        EXPECT_LT((room.point->position() - X * p).norm(), kMicron);
+    }
+}
+
+TEST(GodObject, DoesNotSlipUnderABlockThatStandsOnATable) {
+    // 1 um off the table, as solvers leave it
+    Room room;
+    room.skin = kSkin;
+    room.add(round(scene::ShapeKind::plane, 0, 0));
+    room.add(scene::Shape::box({0.04, 0.04, 0.04}), {Quat::Identity(), {0, 0, 0.020001}});
+    room.start({0.03, 0, 0.001});
+    room.go({0.03, 0, 0.001}, {0.03, 0, -0.003});
+    room.go({0.03, 0, -0.003}, {0.01, 0.002, -0.003});
+    EXPECT_LT((room.point->position() - Vec3(0.02 + kSkin, 0.002, kSkin)).norm(), 1e-9);
+    EXPECT_EQ(room.point->contacts().size(), 2u);
+}
+
+TEST(GodObject, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
+    // 2 mm deep; static friction 0.8 holds 1.6 mm, dynamic friction 0.5 of it holds 0.8 mm
+    Room room;
+    room.add(round(scene::ShapeKind::plane, 0, 0));
+    room.start({0, 0, 0.001}, 0.8, 0.5);
+    room.go({0, 0, 0.001}, {0, 0, -0.002});
+    room.go({0, 0, -0.002}, {0.0015, 0, -0.002});
+    EXPECT_LT(room.point->position().norm(), 1e-9);
+    room.follow({0.00159, 0, -0.002});
+    EXPECT_LT(room.point->position().norm(), 1e-9);
+    EXPECT_FALSE(room.point->sliding());
+    room.follow({0.00161, 0, -0.002});
+    EXPECT_TRUE(room.point->sliding());
+    EXPECT_NEAR(room.point->position().x(), 0.00161 - 0.0008, 1e-9);
+    // it slides on behind the handle, and rests when that stops
+    room.go({0.00161, 0, -0.002}, {0.01, 0, -0.002});
+    EXPECT_NEAR(room.point->position().x(), 0.01 - 0.0008, 1e-9);
+    EXPECT_NEAR(room.point->held().norm(), 0.0008, 1e-9);
+    room.follow({0.01, 0, -0.002});
+    EXPECT_FALSE(room.point->sliding());
+    // then it sticks again, up to the static cone
+    room.follow({0.01075, 0, -0.002});
+    EXPECT_NEAR(room.point->position().x(), 0.0092, 1e-9);
+    room.follow({0.01085, 0, -0.002});
+    EXPECT_TRUE(room.point->sliding());
+}
+
+TEST(GodObject, WithoutFrictionItKeepsToTheFoot) {
+    Room room;
+    room.add(round(scene::ShapeKind::plane, 0, 0));
+    room.start({0, 0, 0.001});
+    room.go({0, 0, 0.001}, {0, 0, -0.004});
+    room.go({0, 0, -0.004}, {0.02, 0.01, -0.004});
+    EXPECT_LT((room.point->position() - Vec3(0.02, 0.01, 0)).norm(), 1e-9);
+    EXPECT_EQ(room.point->held().norm(), 0);
+}
+
+TEST(GodObject, OnASphereItIsNearestToTheHandle) {
+    Room room;
+    room.add(scene::Shape::sphere(0.015));
+    room.start({0, 0, 0.02});
+    room.go({0, 0, 0.02}, {0, 0, 0.010});
+    // around the sphere, 5 mm deep and 12 mm deep
+    for (const double radius : {0.010, 0.003}) {
+        double worst = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const double a = 1e-3 * i;
+            const Vec3 h = radius * Vec3(std::sin(a), 0, std::cos(a));
+            worst = std::max(worst, (room.follow(h) - 0.015 * h.normalized()).norm());
+        }
+        EXPECT_LT(worst, kMicron) << radius;
+        room.go(room.point->position(), {0, 0, 0.02});
+        room.go({0, 0, 0.02}, {0, 0, 0.003});
+    }
+}
+
+TEST(GodObject, WhatItStartsInsideOfIsFeltOnceItHasLeft) {
+    Room room;
+    room.add(scene::Shape::box({0.02, 0.02, 0.02}));
+    room.start(Vec3::Zero());
+    EXPECT_EQ(room.follow({0, 0, 0.005}), Vec3(0, 0, 0.005));
+    room.follow({0, 0, 0.012});
+    room.follow({0, 0, 0.005});
+    EXPECT_NEAR(room.point->position().z(), 0.01, 1e-9);
+}
+
+TEST(GodObject, RandomRoomsAreNeverEntered) {
+    // bodies of every kind drift and turn through each other's neighbourhood, apart from each other
+    Random random(12, "test");
+    for (int trial = 0; trial < 40; ++trial) {
+        Room room;
+        room.skin = kSkin;
+        for (int i = 0; i < 7; ++i) {
+            const double a = 2 * std::numbers::pi * i / 7;
+            room.add(EveryShape::shape(i == 4 ? 0 : i), {rotation_xyz(random_vector(random)),
+                                                         0.12 * Vec3(std::cos(a), std::sin(a), 0)});
+        }
+        room.start(Vec3::Zero(), trial % 2 ? 0.5 : 0.0);
+        Vec3 h = Vec3::Zero();
+        Vec3 v = Vec3::Zero();
+        std::vector<Vec3> turn(7);
+        for (Vec3& w : turn) w = random_vector(random);
+        double deepest = 0;
+        for (int i = 0; i < 2000; ++i) {
+            v += 0.05 * random_vector(random) - 0.02 * v;
+            h += 1e-3 * v;
+            if (h.norm() > 0.2) v = -h;
+            for (size_t b = 0; b < 7; ++b) {
+                Pose& X = room.states[b].X_WB;
+                X.R = (rotation_xyz(1e-3 * turn[b]) * X.R).normalized();
+            }
+            room.follow(h);
+            deepest = std::max(deepest, room.depth());
+        }
+        EXPECT_LT(deepest, kMicron) << trial;
+    }
+}
+
+TEST(GodObject, AllocatesNothing) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Room room;
+    for (int i = 0; i < 7; ++i) room.add(EveryShape::shape(i));
+    room.start({0, 0, 0.1}, 0.4, 0.7);
+    const testing::AllocationGuard guard;
+    room.go({0, 0, 0.1}, {0.02, 0.01, -0.05});
+    EXPECT_EQ(guard.count(), 0u);
+}
+
+}  // namespace
+}  // namespace dihaptic::haptics
