@@ -30,6 +30,7 @@ struct RunResult {
     int64_t ticks = 0;
     int64_t dropped = 0;  ///< frames that the recorder could not take
     int64_t overruns = 0;
+    std::string fault;  ///< why force was switched off, and what to do; empty: it was not
     servo::TickTimes tick_times;
 };
 
