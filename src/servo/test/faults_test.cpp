@@ -61,7 +61,7 @@ struct Grasp {
     FailingGroup* devices = nullptr;
     std::unique_ptr<Servo> servo;
 
-    explicit Grasp(const FailingGroup::Plan& plan) {
+    explicit Grasp(const FailingGroup::Plan& plan, const Settings& settings = {}) {
         scene::Scene scene;
         scene::Body table;
         table.name = "table";
@@ -89,7 +89,7 @@ struct Grasp {
         auto group = std::make_unique<FailingGroup>(rig::make_devices(rig, fingers, context), plan);
         devices = group.get();
         servo =
-            std::make_unique<Servo>(scene, Settings{}, std::move(group), rig::poses(rig, fingers));
+            std::make_unique<Servo>(scene, settings, std::move(group), rig::poses(rig, fingers));
         servo->activate();
     }
 };
@@ -157,6 +157,27 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{Injected::gone, haptics::FaultKind::not_answering, kNotAnswering},
                       Case{Injected::jump, haptics::FaultKind::too_fast, kTooFast},
                       Case{Injected::late, haptics::FaultKind::late, kLate}));
+
+TEST(Faults, AForceThatIsNoNumberIsOneAndEndsForce) {
+    Settings settings;  // an explicit spring far beyond m / h^2 diverges
+    settings.coupling.kind = haptics::CouplingKind::dual_spring;
+    settings.coupling.stiffness = 1e6;
+    settings.coupling.body_mass = 1e-7;
+    Grasp grasp({Injected::nan, -1, 0}, settings);  // the devices are well
+    int off = 0;
+    for (int i = 0; i < 800; ++i) {
+        const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), {});
+        const bool bad =
+            !frame.fingers[0].f_asked_W.allFinite() || !frame.fingers[1].f_asked_W.allFinite();
+        if (off == 0 && !bad) continue;
+        ++off;
+        ASSERT_NE(frame.status & kForceOff, 0u) << i;
+        ASSERT_EQ(grasp.devices->told[0], Vec3::Zero()) << i;
+        ASSERT_EQ(grasp.devices->told[1], Vec3::Zero()) << i;
+    }
+    EXPECT_GT(off, 0);
+    EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::not_finite);
+}
 
 TEST(FaultsInRealTime, ACallThatBlocksLeavesNoForceInTheNextTick) {
     constexpr int kTick = 400;
