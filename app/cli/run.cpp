@@ -44,7 +44,7 @@ void run_one(const Options& options) {
     }
     const analysis::SessionFigures figures = finish(result);
     print_summary(figures, plan, result);
-    if (result.interrupted || figures.diverged()) exit_code = kFailed;
+    if (result.interrupted || figures.failed()) exit_code = kFailed;
 }
 
 /// One movement of a batch: its row, printed and kept.
@@ -64,13 +64,17 @@ std::vector<Table::Cell> run_movement(const Options& options, const std::string&
     const experiment::MovementReport& report = *plan.movement;
     const bool guessed = report.bridged_share > hand::kMuchBridged;
     const char* outcome = figures.diverged()   ? "diverged"
+                          : figures.failed()   ? "force off"
                           : result.interrupted ? "interrupted"
                                                : "done";
-    if (figures.diverged()) exit_code = kFailed;
+    if (figures.failed()) exit_code = kFailed;
     fmt::print("{:28s} {:7.2f} {:6.1f} %{} {:6d} {:5.1f} mm {:8.3f} {:8.3f} {:8.3f} {:8d}  {}{}\n",
                name, report.duration, 100 * report.bridged_share, guessed ? '!' : ' ',
                report.faults.size(), report.block_width * 1e3, grip, peak, force, limited,
-               figures.diverged() ? "DIVERGED " : "", result.folder);
+               figures.diverged() ? "DIVERGED "
+               : figures.failed() ? "FORCE OFF "
+                                  : "",
+               result.folder);
     return {name,
             outcome,
             report.duration,
@@ -100,7 +104,7 @@ void run_batch(const Options& options) {
 
     Table summary;
     summary.columns = {{"movement", ""},
-                       {"outcome", "done, interrupted, diverged, or refused"},
+                       {"outcome", "done, interrupted, diverged, force off, or refused"},
                        {"duration_s", ""},
                        {"bridged_percent", ""},
                        {"mostly_bridged", ""},

@@ -148,7 +148,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                      {"trial_num", "number in the session, from 1"},
                      {"block_num", "number, from 1"},
                      {"trial_num_in_block", "number, from 1"},
-                     {"outcome", "done, interrupted, or diverged"},
+                     {"outcome", "done, interrupted, diverged, or force off"},
                      {"peak_grip_N", "largest grip force"},
                      {"peak_force_N", "largest force on any finger"}};
     std::map<int, std::vector<const PhaseFigures*>> by_trial;
@@ -167,6 +167,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                               info.participant.id, 1.0, static_cast<double>(trial), 1.0,
                               static_cast<double>(trial),
                               figures.diverged() ? "diverged"
+                              : figures.failed() ? "force off"
                               : done             ? "done"
                                                  : "interrupted",
                               grip, force});

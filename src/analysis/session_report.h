@@ -37,6 +37,8 @@ struct SessionFigures {
 
     /// Something was not a number: no figure can be trusted.
     bool diverged() const { return (status & servo::kNotFinite) != 0; }
+    /// Diverged, or force was off after another fault: what was felt is not what was planned.
+    bool failed() const { return diverged() || (status & servo::kForceOff) != 0; }
     int64_t ticks_with(servo::Status bit) const {
         return status_ticks[static_cast<size_t>(std::countr_zero(static_cast<uint32_t>(bit)))];
     }

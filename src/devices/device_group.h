@@ -29,6 +29,7 @@ enum DeviceStatus : uint32_t {
         1u << 0,  ///< beyond what the device can reach: move the hand, or the rig's device
     kForceClamped = 1u << 1,  ///< asked for more than its peak force: soften the coupling
     kNoMoreData = 1u << 2,    ///< a recording has ended
+    kNotAnswering = 1u << 3,  ///< no state came: the rest of the reading means nothing
 };
 
 /// State of one device, in its base frame D.

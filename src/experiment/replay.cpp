@@ -75,7 +75,9 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         if (recorded == nullptr) return false;
         for (size_t i = 0; i < readings.size(); ++i) {
             const servo::FingerFrame& finger = recorded->fingers[i];
-            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, 0};
+            const bool gone = (finger.status & servo::kNotAnswering) != 0;
+            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons,
+                           gone ? uint32_t{devices::kNotAnswering} : 0};
         }
         return true;
     };

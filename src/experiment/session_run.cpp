@@ -207,6 +207,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.ticks = recorder.frames();
     result.dropped = recorder.dropped();
     result.interrupted = stop.load();
+    if (const haptics::Fault& fault = servo->fault()) {
+        const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
+        result.fault =
+            haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
+        info.notes.push_back(result.fault);
+    }
 
     if (progress && !result.interrupted) progress(1);
 

@@ -30,6 +30,7 @@ struct RunResult {
     int64_t ticks = 0;
     int64_t dropped = 0;  ///< frames that the recorder could not take
     servo::Timing timing;
+    std::string fault;  ///< why force was switched off, and what to do; empty: it was not
 };
 
 /// Share of the session done, from 0 to 1; called about ten times a second of wall time.

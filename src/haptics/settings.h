@@ -57,15 +57,20 @@ struct ProxySettings {
     }
 };
 
-/// What no force may exceed, whatever computed it.
+/// What no force may exceed, whatever computed it, and what switches force off.
 struct SafetySettings {
     std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force
     double max_force_rate = 3000;     ///< change of force, magnitude [N/s]
+    double max_speed = 10;            ///< of a handle; a hand that throws reaches a few m/s [m/s]
+    double max_pause =
+        0.04;  ///< from one tick to the next; so long a force may be held. Longer than any tick [s]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("max_force", max_force, Field::of(Quantity::force).positive());
         v("max_force_rate", max_force_rate, Field::of(Quantity::force_rate).positive());
+        v("max_speed", max_speed, Field::of(Quantity::speed).positive());
+        v("max_pause", max_pause, Field::of(Quantity::time).within(0.02, 1));
     }
 };
 

@@ -33,6 +33,21 @@ StatusText describe(Status bit) {
             return {
                 "the contact solver missed its tolerance and another answered",
                 "nothing, when it is rare; otherwise choose settings: dynamics: solver: newton"};
+        case kForceOff:
+            return {"force was off, after a fault",
+                    "look at the first fault, then start the session again"};
+        case kBadReading:
+            return {"a device gave a position or a velocity that is not a number",
+                    "look at its cables and its calibration"};
+        case kNotAnswering:
+            return {"a device did not answer", "look at its power and its cables"};
+        case kTooFast:
+            return {"a handle jumped, or moved faster than allowed",
+                    "look at the device's cables and encoders, or raise settings: safety: "
+                    "max_speed_m_s"};
+        case kLate:
+            return {"the hands were left without an answer for longer than allowed",
+                    "close other programs, or look for a device that blocks"};
         case kSolverMissed:
             return {"no contact solver reached its tolerance, and the best answer was used",
                     "look at what the objects do in these ticks; report the session's folder as a "

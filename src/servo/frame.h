@@ -25,8 +25,13 @@ enum Status : uint32_t {
     kOverrun = 1u << 7,
     kSolverFallback = 1u << 8,
     kSolverMissed = 1u << 9,
+    kForceOff = 1u << 10,
+    kBadReading = 1u << 11,
+    kNotAnswering = 1u << 12,
+    kTooFast = 1u << 13,
+    kLate = 1u << 14,
 };
-constexpr int kStatusBits = 10;
+constexpr int kStatusBits = 15;
 
 struct StatusText {
     std::string what;

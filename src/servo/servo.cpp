@@ -6,11 +6,30 @@
 namespace dihaptic::servo {
 namespace {
 
+uint32_t fault_status(haptics::FaultKind kind) {
+    switch (kind) {
+        case haptics::FaultKind::none:
+            break;
+        case haptics::FaultKind::bad_reading:
+            return kBadReading;
+        case haptics::FaultKind::not_answering:
+            return kNotAnswering;
+        case haptics::FaultKind::too_fast:
+            return kTooFast;
+        case haptics::FaultKind::late:
+            return kLate;
+        case haptics::FaultKind::not_finite:
+            return kNotFinite;
+    }
+    return 0;
+}
+
 uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
     uint32_t status = 0;
     if (reading.status & devices::kOutsideWorkspace) status |= kOutsideWorkspace;
     if (reading.status & devices::kForceClamped) status |= kForceClamped;
     if (reading.status & devices::kNoMoreData) status |= kNoMoreData;
+    if (reading.status & devices::kNotAnswering) status |= kNotAnswering;
     if (limits & haptics::kForceLimited) status |= kForceLimited;
     if (limits & haptics::kRateLimited) status |= kRateLimited;
     if (limits & haptics::kNotFinite) status |= kNotFinite;
@@ -40,10 +59,12 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
                                   settings.safety.max_force_rate);
         }
         X_DW_.push_back(X_WD_[i].inverse());
+        guards_.emplace_back(settings.safety.max_speed);
     }
     const size_t n = fingers_.size();
     readings_.resize(n);
     handles_.resize(n);
+    device_faults_.resize(n, 0);
     outputs_.resize(n);
     f_D_.resize(n, Vec3::Zero());
 }
@@ -100,10 +121,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
         step = world_.step(h);
         for (haptics::Finger& finger : fingers_) finger.after_step(world_);
     }
-    for (size_t i = 0; i < fingers_.size(); ++i) {
-        outputs_[i] = fingers_[i].force(world_, handles_[i], settings_.tick());
-        f_D_[i] = X_DW_[i].R * outputs_[i].f_H_W;
-    }
+    make_forces(now);
     devices_->write(f_D_);
     make_frame(now, commands_, step);
     stopped_ = commands_.stop || (frame_.status & kNoMoreData) != 0;
@@ -112,10 +130,33 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
 
 void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
+    const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
+    if (elapsed > settings_.safety.max_pause) {
+        faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
+    }
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        handles_[i].p_WH = X_WD_[i] * readings_[i].p_DH;
-        handles_[i].v_WH = X_WD_[i].R * readings_[i].v_DH;
+        const haptics::Handle read{X_WD_[i] * readings_[i].p_DH, X_WD_[i].R * readings_[i].v_DH};
+        haptics::Fault fault;
+        fault.device = static_cast<int>(i);
+        fault.time = now;
+        const bool answers = (readings_[i].status & devices::kNotAnswering) == 0;
+        handles_[i] = guards_[i].accept(read, answers, elapsed, fault);
+        device_faults_[i] = fault_status(fault.kind);
+        faults_.trip(fault);
         if (frame_.sequence < 0) fingers_[i].place(world_, handles_[i]);
+    }
+}
+
+void Servo::make_forces(Time now) noexcept {
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        outputs_[i] = fingers_[i].force(world_, handles_[i], settings_.tick());
+        if (outputs_[i].flags & haptics::kNotFinite)
+            faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
+    }
+    // one finger's fault is every finger's: half a grasp would throw the hand aside
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        if (faults_.tripped()) outputs_[i].f_H_W.setZero();
+        f_D_[i] = X_DW_[i].R * outputs_[i].f_H_W;
     }
 }
 
@@ -128,6 +169,8 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     if (overrun_) frame_.status |= kOverrun;
     if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
     if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
+    if (faults_.tripped()) frame_.status |= kForceOff;
+    if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     frame_.solver = static_cast<int32_t>(world_.solver());
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
@@ -141,7 +184,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.p_DH = readings_[i].p_DH;
         out.v_DH = readings_[i].v_DH;
         out.buttons = readings_[i].buttons;
-        out.status = finger_status(readings_[i], outputs_[i].flags);
+        out.status = finger_status(readings_[i], outputs_[i].flags) | device_faults_[i];
         out.p_WH = handles_[i].p_WH;
         out.v_WH = handles_[i].v_WH;
         out.p_WP = proxy.X_WB.p;

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "haptics/finger.h"
+#include "haptics/safety.h"
 #include "rig/rig.h"
 #include "servo/frame.h"
 #include "servo/settings.h"
@@ -62,6 +63,8 @@ class Servo {
     const Frame& tick(Time now, const Director& director) noexcept;
     /// Whether the last tick's director asked to stop, or a recording ended.
     bool stopped() const { return stopped_; }
+    /// Why force is off, if it is.
+    const haptics::Fault& fault() const { return faults_.fault(); }
     /// For whoever keeps real time: goes into the next Frame.
     void note_timing(double lateness, double last_tick, bool overrun) noexcept;
 
@@ -73,6 +76,7 @@ class Servo {
 
   private:
     void measure(Time now) noexcept;
+    void make_forces(Time now) noexcept;
     void make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept;
     void merge_contacts() noexcept;
     void merge_contacts(std::span<const contact::Contact> contacts) noexcept;
@@ -87,6 +91,9 @@ class Servo {
     std::vector<Pose> X_DW_;
     std::vector<devices::Reading> readings_;
     std::vector<haptics::Handle> handles_;
+    std::vector<haptics::HandleGuard> guards_;
+    std::vector<uint32_t> device_faults_;  // Status bits of this tick's readings
+    haptics::FaultLatch faults_;
     std::vector<haptics::Finger::Output> outputs_;
     std::vector<Vec3> f_D_;
     Frame frame_;

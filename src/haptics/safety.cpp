@@ -1,0 +1,77 @@
+#include "haptics/safety.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dihaptic::haptics {
+
+Handle HandleGuard::accept(const Handle& read, bool answers, double elapsed,
+                           Fault& fault) noexcept {
+    if (trusted_ && !answers) {
+        fault.kind = FaultKind::not_answering;
+    } else if (trusted_ && !(read.p_WH.allFinite() && read.v_WH.allFinite())) {
+        fault.kind = FaultKind::bad_reading;
+    } else if (trusted_) {
+        double speed = read.v_WH.norm();
+        if (seen_ && elapsed > 0)
+            speed = std::max(speed, (read.p_WH - last_.p_WH).norm() / elapsed);
+        // written so that a speed which overflowed to infinity, or to NaN, fails too
+        if (!(speed <= max_speed_)) {
+            fault.kind = FaultKind::too_fast;
+            fault.value = speed;
+            fault.limit = max_speed_;
+        }
+    }
+    if (fault) trusted_ = false;
+    if (!trusted_) {
+        last_.v_WH.setZero();
+        return last_;
+    }
+    last_ = read;
+    seen_ = true;
+    return last_;
+}
+
+std::string describe(const Fault& fault, const std::string& finger, const std::string& model) {
+    const std::string which =
+        fault.device < 0 ? "" : fmt::format("the {}'s device ({}) ", finger, model);
+    std::string what;
+    std::string remedy;
+    switch (fault.kind) {
+        case FaultKind::none:
+            return "";
+        case FaultKind::bad_reading:
+            what = which + "gave a position or a velocity that is not a number";
+            remedy = "Look at its cables and its calibration, then start the session again.";
+            break;
+        case FaultKind::not_answering:
+            what = which + "does not answer";
+            remedy = "Look at its power and its cables, then start the session again.";
+            break;
+        case FaultKind::too_fast:
+            what = which + fmt::format("moved at {:.3g} m/s, and {:g} m/s are allowed", fault.value,
+                                       fault.limit);
+            remedy =
+                "If no hand did that, look at its cables and encoders; otherwise raise settings: "
+                "safety: max_speed_m_s.";
+            break;
+        case FaultKind::late:
+            what = fmt::format("nothing answered the hands for {:.0f} ms, and {:g} ms are allowed",
+                               fault.value * 1e3, fault.limit * 1e3);
+            remedy =
+                "Close other programs, or look for a device that blocks; then start the session "
+                "again.";
+            break;
+        case FaultKind::not_finite:
+            what = (fault.device < 0 ? "" : fmt::format("for the {} ", finger)) +
+                   "a force was computed that is not a number";
+            remedy =
+                "Look for an extreme mass, stiffness or damping, or report the session's folder as "
+                "a bug.";
+            break;
+    }
+    return fmt::format("force is off since {:.3f} s: {}. {}", seconds(fault.time), what, remedy);
+}
+
+}  // namespace dihaptic::haptics

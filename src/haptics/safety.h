@@ -1,0 +1,73 @@
+// What switches force off. A fault ends it on every device at once, exempt from the slew limit, and
+// until the session restarts: a person who was let go must not be seized again unawares.
+//
+// A tick asks its HandleGuards first, before anything is computed from a reading that may be wrong.
+#pragma once
+
+#include <string>
+
+#include "base/clock.h"
+#include "haptics/coupling.h"
+
+namespace dihaptic::haptics {
+
+enum class FaultKind {
+    none,
+    bad_reading,    ///< a position or velocity that is not a number
+    not_answering,  ///< the device says nothing
+    too_fast,       ///< the handle moved faster than `max_speed`, or jumped
+    late,           ///< no force was computed for longer than `max_pause`
+    not_finite,     ///< the force that was computed is not a number
+};
+
+/// The first fault of a session: what, which device, when.
+struct Fault {
+    FaultKind kind = FaultKind::none;
+    int device = -1;   ///< -1: all of them
+    Time time{0};      ///< of the tick, from activation
+    double value = 0;  ///< of a speed [m/s] or a pause [s]
+    double limit = 0;  ///< that it exceeded
+
+    explicit operator bool() const { return kind != FaultKind::none; }
+};
+
+/// One sentence, and what to do. `finger` held the device, a `model`.
+std::string describe(const Fault& fault, const std::string& finger, const std::string& model);
+
+/// Keeps the first fault: those after it are its consequences.
+class FaultLatch {
+  public:
+    void trip(const Fault& fault) noexcept {
+        if (!tripped()) fault_ = fault;
+    }
+    const Fault& fault() const noexcept { return fault_; }
+    bool tripped() const noexcept { return static_cast<bool>(fault_); }
+
+  private:
+    Fault fault_;
+};
+
+/// Decides whether one device's readings can be used, from each and the one before:
+///
+///     |v_WH| <= max_speed   and   |p_WH - p_WH,old| <= max_speed * (t - t_old)
+///
+/// The second finds a position that jumps, whatever velocity comes with it. A device that failed
+/// once is not trusted again: its handle then stays where it last was, at rest, so that neither NaN
+/// nor a blow reaches the world that is being recorded.
+class HandleGuard {
+  public:
+    /// Largest plausible speed of a hand [m/s].
+    explicit HandleGuard(double max_speed) : max_speed_(max_speed) {}
+
+    /// The handle to work with. `read` is as measured, `elapsed` the time since the last call [s];
+    /// when the reading cannot be used, `fault` gets why.
+    Handle accept(const Handle& read, bool answers, double elapsed, Fault& fault) noexcept;
+
+  private:
+    double max_speed_;
+    Handle last_;
+    bool seen_ = false;
+    bool trusted_ = true;
+};
+
+}  // namespace dihaptic::haptics

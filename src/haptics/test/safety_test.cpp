@@ -1,0 +1,107 @@
+#include "haptics/safety.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace dihaptic::haptics {
+namespace {
+
+constexpr double kTick = 1e-3;
+
+/// A handle that moves along x at 1 m/s.
+Handle moving(int tick) {
+    return {{tick * kTick, 0, 0}, {1, 0, 0}};
+}
+
+TEST(HandleGuard, LetsAHandMove) {
+    HandleGuard guard(2);
+    Fault fault;
+    for (int i = 0; i < 100; ++i) {
+        const Handle read = moving(i);
+        const Handle handle = guard.accept(read, true, i == 0 ? 0 : kTick, fault);
+        EXPECT_EQ(handle.p_WH, read.p_WH);
+        EXPECT_EQ(handle.v_WH, read.v_WH);
+    }
+    EXPECT_FALSE(fault);
+}
+
+struct Bad {
+    const char* name;
+    Handle read;
+    bool answers;
+    FaultKind kind;
+};
+void PrintTo(const Bad& bad, std::ostream* out) {
+    *out << bad.name;
+}
+class BadReading : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(BadReading, FaultsAndLeavesTheHandleWhereItWasForGood) {
+    HandleGuard guard(2);
+    Fault fault;
+    for (int i = 0; i < 10; ++i) guard.accept(moving(i), true, i == 0 ? 0 : kTick, fault);
+    ASSERT_FALSE(fault);
+    Handle handle = guard.accept(GetParam().read, GetParam().answers, kTick, fault);
+    EXPECT_EQ(fault.kind, GetParam().kind);
+    EXPECT_EQ(handle.p_WH, moving(9).p_WH);
+    EXPECT_EQ(handle.v_WH, Vec3::Zero());
+    Fault again;
+    handle = guard.accept(moving(11), true, kTick, again);  // good once more, and too late
+    EXPECT_FALSE(again);
+    EXPECT_EQ(handle.p_WH, moving(9).p_WH);
+    EXPECT_EQ(handle.v_WH, Vec3::Zero());
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+INSTANTIATE_TEST_SUITE_P(
+    HandleGuard, BadReading,
+    ::testing::Values(
+        Bad{"position NaN", {{0.01, kNaN, 0}, Vec3::Zero()}, true, FaultKind::bad_reading},
+        Bad{"velocity infinite", {{0.01, 0, 0}, {0, 0, kInfinite}}, true, FaultKind::bad_reading},
+        Bad{"jump of 10 cm", {{0.11, 0, 0}, {1, 0, 0}}, true, FaultKind::too_fast},
+        Bad{"too fast", {{0.01, 0, 0}, {0, 2.1, 0}}, true, FaultKind::too_fast},
+        Bad{"overflows", {{0.01, 0, 0}, {1e300, 0, 0}}, true, FaultKind::too_fast},
+        Bad{"silent", {{0.01, 0, 0}, {1, 0, 0}}, false, FaultKind::not_answering}));
+
+TEST(HandleGuard, AllowsTheDistanceOfTheTimeThatPassed) {
+    // a pause is another rule's business: after 30 ms at 1 m/s the handle is 30 mm further
+    HandleGuard guard(2);
+    Fault fault;
+    guard.accept(moving(0), true, 0, fault);
+    guard.accept(moving(30), true, 30 * kTick, fault);
+    EXPECT_FALSE(fault);
+}
+
+TEST(FaultLatch, KeepsTheFirst) {
+    FaultLatch latch;
+    latch.trip({});
+    EXPECT_FALSE(latch.tripped());
+    latch.trip({FaultKind::too_fast, 1, Time(5), 100, 10});
+    latch.trip({FaultKind::not_finite, 0, Time(6)});
+    EXPECT_EQ(latch.fault().kind, FaultKind::too_fast);
+    EXPECT_EQ(latch.fault().device, 1);
+}
+
+TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
+    const Time when = std::chrono::milliseconds(1234);
+    EXPECT_EQ(describe({FaultKind::too_fast, 1, when, 100, 10}, "index", "Premium 1.0"),
+              "force is off since 1.234 s: the index's device (Premium 1.0) moved at 100 m/s, and "
+              "10 m/s are allowed. If no hand did that, look at its cables and encoders; otherwise "
+              "raise settings: safety: max_speed_m_s.");
+    EXPECT_EQ(describe({FaultKind::late, -1, when, 0.051, 0.04}, "thumb", "Premium 1.0"),
+              "force is off since 1.234 s: nothing answered the hands for 51 ms, and 40 ms are "
+              "allowed. Close other programs, or look for a device that blocks; then start the "
+              "session again.");
+    for (const FaultKind kind :
+         {FaultKind::bad_reading, FaultKind::not_answering, FaultKind::not_finite}) {
+        const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");
+        EXPECT_NE(text.find("thumb"), std::string::npos) << text;
+        EXPECT_NE(text.find("1.234 s"), std::string::npos) << text;
+        EXPECT_EQ(text.find("  "), std::string::npos) << text;
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::haptics
