@@ -46,9 +46,11 @@ DelassusProblem delassus(const ContactProblem& problem) {
     for (Eigen::Index j = 0; j < n; ++j) {
         const ProblemContact& contact = problem.contacts[static_cast<size_t>(j)];
         if (contact.b != kFixed)
-            J.block<3, 6>(3 * j, 6 * contact.b) += contact_row<3>(contact, contact.p_BC_W);
+            J.block<3, 6>(3 * j, Eigen::Index{6} * contact.b) +=
+                contact_row<3>(contact, contact.p_BC_W);
         if (contact.a != kFixed)
-            J.block<3, 6>(3 * j, 6 * contact.a) -= contact_row<3>(contact, contact.p_AC_W);
+            J.block<3, 6>(3 * j, Eigen::Index{6} * contact.a) -=
+                contact_row<3>(contact, contact.p_AC_W);
         out.q.segment<3>(3 * j) = free_velocity<3>(problem, contact);
         out.mu[j] = contact.friction;
     }

@@ -89,6 +89,7 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         write_csv(fault_table(*plan.movement), folder.file("movement-faults.csv"));
     }
     std::vector<recording::InputFile> inputs;
+    inputs.reserve(names.size());
     for (const std::string& name : names) inputs.push_back(folder.input(name));
     return inputs;
 }
