@@ -133,7 +133,7 @@ Vec3 GodObject::way_to(const Vec3& p_WH) noexcept {
     refresh_normals();
     HalfSpaces walls;
     for (const PointContact& c : contacts()) walls.add(c.n_W);
-    const Vec3 way = walls.nearest(p_WH - p_);
+    Vec3 way = walls.nearest(p_WH - p_);
     for (size_t i = 0; i < count_; ++i) contacts_[i].depth = walls.multiplier[i];
     return way;
 }
