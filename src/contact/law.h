@@ -41,13 +41,6 @@ struct Linearised {
     bool open = true;  ///< G is zero
 };
 
-/// The proximal step that an equation is linearised in.
-template <int D>
-struct Proximal {
-    double rho = 0;
-    Eigen::Matrix<double, D, 1> r_k;
-};
-
 namespace law {
 
 /// Sliding or sticking on the disc of radius `radius`; returns |Phi_T|^2 and fills the tangential

@@ -12,8 +12,8 @@ namespace dihaptic::contact {
 class Lemke {
   public:
     /// Memory for problems up to so many variables. It is not touched: the system gives pages when
-    /// problems first need them, and most programs never do. Beside the
-    /// pivots, page faults of the first use are too few to measure.
+    /// problems first need them, and most programs never do. Beside the pivots, page faults of the
+    /// first use are too few to measure.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 

@@ -117,12 +117,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     constexpr size_t kMostWork = 32000;
 
     const size_t n = system.size();
-    const double size = load(system);
     std::minstd_rand random;  // the same numbers in every solve: replay repeats it
-    const auto scattered = [&] {
-        return kScatter * size *
-               (2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1);
-    };
     const auto most_steps = static_cast<int>(kMostWork / std::max<size_t>(n, 1));
     memory.resize(n);
     Outcome out;
@@ -167,12 +162,16 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         if (start.from == NewtonStart::From::zero) {
             for (Vec& impulse : r) impulse.setZero();
         } else if (start.from == NewtonStart::From::scattered) {
+            const double size = kScatter * load(system);
             for (Vec& impulse : r) {
-                for (double& value : impulse) value = scattered();
+                for (double& value : impulse)
+                    value = size * (2.0 * static_cast<double>(random()) / random.max() - 1);
             }
         }
-        system.sweep(law, r, start.sweeps);
-        if (judge()) break;
+        if (start.from != NewtonStart::From::given || start.sweeps > 0) {
+            system.sweep(law, r, start.sweeps);
+            if (judge()) break;
+        }
         double rho = start.rho;
         double first = restart_proximal(rho);
         double error = first;

@@ -6,14 +6,6 @@
 #include "scene/solid.h"
 
 namespace dihaptic::dynamics {
-namespace {
-
-btVector3 factors(scene::Axes axes) {
-    return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
-            contains(axes, 2) ? 1.0 : 0.0};
-}
-
-}  // namespace
 
 void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass,
                       double friction_coefficient, double torsion_radius, const Pose& X_WB,

@@ -62,8 +62,8 @@ struct SafetySettings {
     std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force
     double max_force_rate = 3000;     ///< change of force, magnitude [N/s]
     double max_speed = 10;            ///< of a handle; a hand that throws reaches a few m/s [m/s]
-    double max_pause =
-        0.04;  ///< from one tick to the next; so long a force may be held. Longer than any tick [s]
+    /// From one tick to the next, longer than any tick: so long a force may be held [s].
+    double max_pause = 0.04;
 
     template <class Visitor>
     void visit(Visitor& v) {

@@ -10,6 +10,7 @@
 namespace dihaptic::measure {
 namespace {
 
+using dynamics::factors;
 using dynamics::from_bullet;
 using dynamics::to_bullet;
 
@@ -18,11 +19,6 @@ struct Body {
     std::unique_ptr<btCollisionShape> shape;
     std::unique_ptr<btRigidBody> body;
 };
-
-btVector3 factors(scene::Axes axes) {
-    return {scene::contains(axes, 0) ? 1.0 : 0.0, scene::contains(axes, 1) ? 1.0 : 0.0,
-            scene::contains(axes, 2) ? 1.0 : 0.0};
-}
 
 Body make_body(const scene::Body& body) {
     const bool moves = body.moves_at_all();

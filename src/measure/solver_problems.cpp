@@ -14,7 +14,6 @@ namespace dihaptic::measure {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kStep = 1e-3;  // [s]
 constexpr double kFriction = 0.6;
 constexpr std::array kGrowth{8, 20, 52, 100, 164, 200};  // contacts of walls and piles
 

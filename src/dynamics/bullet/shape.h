@@ -1,4 +1,4 @@
-// Bullet's collision shape for a scene shape.
+// Scene shapes, poses and axes as Bullet has them.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "dynamics/polyhedron.h"
-#include "scene/shape.h"
+#include "scene/scene.h"
 
 namespace dihaptic::dynamics {
 
@@ -22,6 +22,12 @@ inline btTransform to_bullet(const Pose& X) {
 inline Pose from_bullet(const btTransform& X) {
     const btQuaternion q = X.getRotation();
     return {Quat(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin())};
+}
+
+/// 1 for each axis, 0 for those that are not there.
+inline btVector3 factors(scene::Axes axes) {
+    return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
+            contains(axes, 2) ? 1.0 : 0.0};
 }
 
 /// The shape, in the frame that Bullet moves: centre of mass and principal axes of inertia. `X_BM`

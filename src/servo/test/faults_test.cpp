@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "base/random.h"
-#include "hand/script.h"
+#include "lift.h"
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
@@ -56,30 +56,13 @@ class FailingGroup final : public devices::DeviceGroup {
 
 /// Two fingers that have closed on a block after 0.3 s, and lift it.
 struct Grasp {
-    hand::HandSpec hand;
+    hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;
     FailingGroup* devices = nullptr;
     std::unique_ptr<Servo> servo;
 
     explicit Grasp(const FailingGroup::Plan& plan, const Settings& settings = {}) {
-        scene::Scene scene;
-        scene::Body table;
-        table.name = "table";
-        table.shape = scene::Shape::box({1, 1, 0.1});
-        table.position = {0, 0, -0.05};
-        table.fixed = true;
-        scene::Body block;
-        block.name = "block";
-        block.shape = scene::Shape::box({0.04, 0.04, 0.04});
-        block.position = {0, 0, 0.02};
-        block.mass = 0.1;
-        scene.bodies = {table, block};
-        Diagnostics diagnostics;
-        scene::complete(scene, "", diagnostics);
-        hand.centre = {0, 0, 0.02};
-        hand.aperture = 0.06;
-        hand.script = {{"close", 0.3, 0.03, Vec3::Zero(), false},
-                       {"lift", 0.5, {}, {0, 0, 0.05}, false}};
+        const scene::Scene scene = block_on_table();
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
         const rig::Rig rig = rig::simulated_rig(fingers);

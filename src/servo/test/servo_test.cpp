@@ -5,7 +5,7 @@
 #include <optional>
 #include <thread>
 
-#include "hand/script.h"
+#include "lift.h"
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
@@ -14,30 +14,13 @@ namespace {
 
 /// Two fingers that close on a block on a table, and lift it.
 struct Grasp {
-    scene::Scene scene;
-    hand::HandSpec hand;
+    scene::Scene scene = block_on_table();
+    hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;
     std::unique_ptr<Servo> servo;
 
     explicit Grasp(const Settings& settings = {}, const std::string& options = "") {
-        scene::Body table;
-        table.name = "table";
-        table.shape = scene::Shape::box({1, 1, 0.1});
-        table.position = {0, 0, -0.05};
-        table.fixed = true;
-        scene::Body block;
-        block.name = "block";
-        block.shape = scene::Shape::box({0.04, 0.04, 0.04});
-        block.position = {0, 0, 0.02};
-        block.mass = 0.1;
-        scene.bodies = {table, block};
-        Diagnostics diagnostics;
-        scene::complete(scene, "", diagnostics);
-        hand.centre = {0, 0, 0.02};
-        hand.aperture = 0.06;
-        hand.script = {{"close", 0.3, 0.03, Vec3::Zero(), false},
-                       {"lift", 0.5, {}, {0, 0, 0.05}, false},
-                       {"hold", 0.3, {}, Vec3::Zero(), false}};
+        hand.script.push_back({"hold", 0.3, {}, Vec3::Zero(), false});
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
         rig::Rig rig = rig::simulated_rig(fingers);
