@@ -43,10 +43,10 @@ struct FaceQuery {
 
 FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin) {
     FaceQuery best;
-    const Pose X_BA = X_AB.inverse();
+    const Mat3 R_BA = X_AB.R.conjugate().toRotationMatrix();
     for (size_t f = 0; f < a.faces.size(); ++f) {
         // the plane in b's frame, so that b's vertices need no transform
-        const Vec3 n = X_BA.R * a.faces[f].normal;
+        const Vec3 n = R_BA * a.faces[f].normal;
         const double offset = a.faces[f].offset - a.faces[f].normal.dot(X_AB.p);
         double lowest = kInfinity;
         for (const Vec3& v : b.vertices) lowest = std::min(lowest, n.dot(v));
@@ -67,10 +67,10 @@ struct EdgeQuery {
 
 EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin) {
     EdgeQuery best;
-    const Pose X_BA = X_AB.inverse();
+    const Mat3 R_AB = X_AB.R.toRotationMatrix();
     for (size_t i = 0; i < a.directions.size(); ++i) {
         for (size_t j = 0; j < b.directions.size(); ++j) {
-            Vec3 axis = a.directions[i].cross(X_AB.R * b.directions[j]);
+            Vec3 axis = a.directions[i].cross(R_AB * b.directions[j]);
             const double size = axis.norm();
             if (size < 1e-4) continue;  // parallel edges: a face axis does as well
             axis /= size;
@@ -80,7 +80,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
                 a_low = std::min(a_low, d);
                 a_high = std::max(a_high, d);
             }
-            const Vec3 axis_B = X_BA.R * axis;
+            const Vec3 axis_B = R_AB.transpose() * axis;
             const double shift = axis.dot(X_AB.p);
             for (const Vec3& v : b.vertices) {
                 const double d = axis_B.dot(v) + shift;
@@ -176,20 +176,17 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
             incident = f;
         }
     }
-    Polygon polygon;
+    std::array<Polygon, 2> polygons;  // clipped from one to the other: they are too large to copy
+    size_t current = 0;
     for (const int v : other.faces[incident].vertices)
-        polygon.add(X_RO * other.vertices[static_cast<size_t>(v)]);
-    Polygon clipped;
-    const std::vector<int>& loop = reference.vertices;
-    for (size_t i = 0; i < loop.size(); ++i) {
-        const Vec3& p = ref.vertices[static_cast<size_t>(loop[i])];
-        const Vec3& q = ref.vertices[static_cast<size_t>(loop[(i + 1) % loop.size()])];
-        const Vec3 side = (q - p).cross(reference.normal).normalized();
-        clip(polygon, side, side.dot(p), clipped);
-        std::swap(polygon, clipped);
+        polygons[current].add(X_RO * other.vertices[static_cast<size_t>(v)]);
+    for (const Polyhedron::Side& side : reference.sides) {
+        clip(polygons[current], side.normal, side.offset, polygons[1 - current]);
+        current = 1 - current;
     }
+    const Polygon& polygon = polygons[current];
     Polygon near;
-    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps{};
+    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps;
     for (size_t i = 0; i < polygon.count; ++i) {
         const double gap = reference.normal.dot(polygon.points[i]) - reference.offset;
         if (gap > margin) continue;
@@ -246,6 +243,12 @@ Polyhedron Polyhedron::of(const scene::Hull& hull) {
         }
         face.normal = normal.normalized();
         face.offset = face.normal.dot(out.vertices[static_cast<size_t>(loop.front())]);
+        for (size_t i = 0; i < loop.size(); ++i) {
+            const Vec3& p = out.vertices[static_cast<size_t>(loop[i])];
+            const Vec3& q = out.vertices[static_cast<size_t>(loop[(i + 1) % loop.size()])];
+            const Vec3 outward = (q - p).cross(face.normal).normalized();
+            face.sides.push_back({outward, outward.dot(p)});
+        }
         out.faces.push_back(std::move(face));
     }
     for (Edge& edge : out.edges) {
@@ -306,7 +309,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
     // the face that looks down, as a patch; a round hull's face may miss its lowest vertex, a
     // corner's may not
     Polygon near;
-    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps{};
+    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps;
     for (const Vec3& vertex : b.vertices) {
         const Vec3 p = X_WB * vertex;
         const double gap = patch.n_W.dot(p) - offset;

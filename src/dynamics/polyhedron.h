@@ -19,10 +19,16 @@ namespace dihaptic::dynamics {
 
 /// A convex polyhedron, prepared for contact. Built once; frames are the body's.
 struct Polyhedron {
+    /// The plane through an edge of a face, at a right angle to the face.
+    struct Side {
+        Vec3 normal;        ///< unit, leaves the face
+        double offset = 0;  ///< normal . x = offset on the plane [m]
+    };
     struct Face {
         Vec3 normal;                ///< outward
         double offset = 0;          ///< normal . x = offset on the face [m]
         std::vector<int> vertices;  ///< counter-clockwise from outside
+        std::vector<Side> sides;    ///< one an edge
     };
     struct Edge {
         int from = 0;
