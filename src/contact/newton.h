@@ -36,6 +36,18 @@ struct Residual {
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
+/// What residuals are relative to.
+struct Load {
+    double scaled = 0;  ///< |q^|
+    double given = 0;   ///< |q|
+
+    /// From squared norms.
+    Residual residual(double scaled_squared, double given_squared) const noexcept {
+        return {std::sqrt(scaled_squared) / (scaled > 0 ? scaled : 1),
+                std::sqrt(given_squared) / (1 + given)};
+    }
+};
+
 template <class System>
 struct NewtonMemory {
     using Vec = typename System::Vec;
@@ -52,12 +64,14 @@ struct NewtonMemory {
     }
 };
 
-/// |q^| of a scaled system: the size of its problem.
 template <class System>
-double load(const System& system) noexcept {
-    double sum = 0;
-    for (size_t j = 0; j < system.size(); ++j) sum += system.q(j).squaredNorm();
-    return std::sqrt(sum);
+Load load(const System& system) noexcept {
+    Load out;
+    for (size_t j = 0; j < system.size(); ++j) {
+        out.scaled += system.q(j).squaredNorm();
+        out.given += (system.q(j) / system.unit(j)).squaredNorm();
+    }
+    return {std::sqrt(out.scaled), std::sqrt(out.given)};
 }
 
 /// Iterations aim so far below the tolerance that an answer at the edge of it is rare.
@@ -162,7 +176,7 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         if (start.from == NewtonStart::From::zero) {
             for (Vec& impulse : r) impulse.setZero();
         } else if (start.from == NewtonStart::From::scattered) {
-            const double size = kScatter * load(system);
+            const double size = kScatter * load(system).scaled;
             for (Vec& impulse : r) {
                 for (double& value : impulse)
                     value = size * (2.0 * static_cast<double>(random()) / random.max() - 1);
@@ -218,25 +232,26 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
     return out;
 }
 
-/// Residual of Coulomb's law. `size` is load(system).
+/// Residual of Coulomb's law. When it is above `enough` as given, that says all, and the scaled one
+/// is left at zero.
 template <class System>
 Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
-                          std::span<const typename System::Vec> u, double size) noexcept {
+                          std::span<const typename System::Vec> u, const Load& load,
+                          double enough = std::numeric_limits<double>::infinity()) noexcept {
     using Vec = typename System::Vec;
-    double scaled = 0;
     double given = 0;
-    double given_size = 0;
     for (size_t j = 0; j < system.size(); ++j) {
-        const double mu = system.scale(j).mu;
         const double unit = system.unit(j);
-        scaled += natural_map_squared<System::D>(r[j], u[j], mu);
         const Vec r_given = r[j] * unit;
-        const Vec u_given = u[j] / unit;
-        given += natural_map_squared<System::D>(r_given, u_given, mu);
-        given_size += (system.q(j) / unit).squaredNorm();
+        const Vec u_given = u[j] * (1 / unit);
+        given += natural_map_squared<System::D>(r_given, u_given, system.scale(j).mu);
     }
-    return {size > 0 ? std::sqrt(scaled) / size : std::sqrt(scaled),
-            std::sqrt(given) / (1 + std::sqrt(given_size))};
+    const Residual far = load.residual(0, given);
+    if (far.given > enough) return far;
+    double scaled = 0;
+    for (size_t j = 0; j < system.size(); ++j)
+        scaled += natural_map_squared<System::D>(r[j], u[j], system.scale(j).mu);
+    return load.residual(scaled, given);
 }
 
 /// Coulomb's law by proximal_newton.
@@ -244,11 +259,12 @@ template <class System>
 Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
                NewtonMemory<System>& memory) {
     using Vec = typename System::Vec;
-    const double size = load(system);
-    return proximal_newton(system, law::Coulomb{}, r, tolerance, memory,
-                           [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                               return coulomb_residual(system, impulse, u, size).judged();
-                           });
+    const Load size = load(system);
+    return proximal_newton(
+        system, law::Coulomb{}, r, tolerance, memory,
+        [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+            return coulomb_residual(system, impulse, u, size, tolerance).judged();
+        });
 }
 
 }  // namespace dihaptic::contact

@@ -34,7 +34,7 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     using Vec = typename System::Vec;
     const std::span<Vec> r(memory.r);
     NewtonMemory<System>& newton_memory = memory.staggered.newton;
-    const double size = load(system);
+    const Load size = load(system);
     const size_t n = std::max<size_t>(r.size(), 1);
     newton_memory.resize(r.size());
     const auto cone_residual = [&] {

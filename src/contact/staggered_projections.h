@@ -50,7 +50,7 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
     constexpr int kPatience = 15;  // iterations before sweeps move on
     constexpr int kSweeps = 200;
     const size_t n = system.size();
-    const double size = load(system);
+    const Load size = load(system);
     memory.best.resize(n);
     memory.normal.resize(n);
     memory.image.resize(n);
@@ -60,7 +60,7 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
     const auto solve = [&](const auto& law) {
         const double enough = std::isfinite(last) ? kInnerOfLast * last : 0;
         proximal_newton(
-            system, law, r, std::max(kInnerTolerance, enough) * size, memory.newton,
+            system, law, r, std::max(kInnerTolerance, enough) * size.scaled, memory.newton,
             [&](std::span<const Vec> impulse, std::span<const Vec> u) {
                 double error = 0;
                 for (size_t j = 0; j < n; ++j)
@@ -74,9 +74,10 @@ Outcome staggered_projections(System& system, std::span<typename System::Vec> r,
     int plain = kPlainIterations;
     memory.newton.resize(n);
     const auto judge = [&] {
-        const double residual = coulomb_residual(system, std::span<const Vec>(r),
-                                                 std::span<const Vec>(memory.newton.u), size)
-                                    .judged();
+        const double residual =
+            coulomb_residual(system, std::span<const Vec>(r), std::span<const Vec>(memory.newton.u),
+                             size, tolerance)
+                .judged();
         if (residual < out.residual) {
             out.residual = residual;
             std::copy(r.begin(), r.end(), memory.best.begin());

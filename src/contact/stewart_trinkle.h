@@ -82,10 +82,7 @@ class StewartTrinkle {
         m_.polygons.resize(n);
         m_.best.resize(n);
         m_.newton.resize(n);
-        size_ = load(system);
-        given_size_ = 0;
-        for (size_t j = 0; j < n; ++j) given_size_ += (system.q(j) / system.unit(j)).squaredNorm();
-        given_size_ = std::sqrt(given_size_);
+        load_ = load(system);
     }
 
     /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u.
@@ -155,8 +152,7 @@ class StewartTrinkle {
             scaled += missing * missing;
             given += missing * missing * unit * unit;
         }
-        return {size_ > 0 ? std::sqrt(scaled) / size_ : std::sqrt(scaled),
-                std::sqrt(given) / (1 + given_size_)};
+        return load_.residual(scaled, given);
     }
 
   private:
@@ -325,8 +321,7 @@ class StewartTrinkle {
     PolygonSettings settings_;
     double tolerance_;
     StewartTrinkleMemory<System>& m_;
-    double size_ = 0;
-    double given_size_ = 0;
+    Load load_;
 };
 
 }  // namespace dihaptic::contact
