@@ -257,14 +257,15 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
 /// Coulomb's law by proximal_newton.
 template <class System>
 Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
-               NewtonMemory<System>& memory) {
+               NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts) {
     using Vec = typename System::Vec;
     const Load size = load(system);
     return proximal_newton(
         system, law::Coulomb{}, r, tolerance, memory,
         [&](std::span<const Vec> impulse, std::span<const Vec> u) {
             return coulomb_residual(system, impulse, u, size, tolerance).judged();
-        });
+        },
+        starts);
 }
 
 }  // namespace dihaptic::contact

@@ -69,6 +69,19 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     };
     if (solver != Solver::newton)
         hand_over([&] { return newton(system, r, kTolerance, newton_memory); });
+    if (solver != Solver::stewart_trinkle && System::D == 3) {
+        // where no start leads to an answer on the cone, an answer on a coarse polygon, turned with
+        // sliding, is found, and is near one
+        hand_over([&] {
+            constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
+            StewartTrinkle<System> method(system, kCoarse, kTolerance, memory.stewart_trinkle);
+            const int steps = method.solve_by_newton(r).iterations;
+            Outcome near =
+                newton(system, r, kTolerance, newton_memory, std::span(kNewtonStarts).first(1));
+            near.iterations += steps;
+            return near;
+        });
+    }
     if (solver != Solver::staggered_projections) {
         hand_over([&] {
             const auto pairs = static_cast<int>(kMostStaggeredWork / (n * n));

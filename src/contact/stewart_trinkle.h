@@ -97,19 +97,18 @@ class StewartTrinkle {
         out.iterations += cone.iterations;
         aim(r);
         if (accept(r, StewartTrinkleRoute::cone, out)) return out;
-        if constexpr (D == 3) {
-            const law::Polygonal law{m_.polygons};
-            const Outcome polygon =
-                proximal_newton(system_, law, r, tolerance_, m_.newton,
-                                [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                                    return residual(impulse, u).judged();
-                                });
-            out.iterations += polygon.iterations;
-            accept(r, StewartTrinkleRoute::polygon_newton, out);
-        }
+        polygon_newton(r, out);
         if (!out.converged) lemke(r, out);
         std::copy(m_.best.begin(), m_.best.end(), r.begin());
         system_.velocity(r, m_.newton.u);
+        return out;
+    }
+
+    /// Only Newton's method on the polygon, from r.
+    StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
+        StewartTrinkleOutcome out;
+        aim(r);
+        polygon_newton(r, out);
         return out;
     }
 
@@ -232,6 +231,20 @@ class StewartTrinkle {
         }
         out.converged = out.residual <= tolerance_;
         return out.residual <= kTarget * tolerance_;
+    }
+
+    /// Not with torsion.
+    void polygon_newton(std::span<Vec> r, StewartTrinkleOutcome& out) {
+        if constexpr (D == 3) {
+            const law::Polygonal law{m_.polygons};
+            const Outcome polygon =
+                proximal_newton(system_, law, r, tolerance_, m_.newton,
+                                [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+                                    return residual(impulse, u).judged();
+                                });
+            out.iterations += polygon.iterations;
+            accept(r, StewartTrinkleRoute::polygon_newton, out);
+        }
     }
 
     void fill(double rho, std::span<const double> last) {
