@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <optional>
 #include <thread>
 
@@ -74,13 +75,12 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
         timing.refusals = real_time.refusals();
         Pace pace{servo.period(), first};
         double last_tick = kUnmeasured;
-        const auto start = Steady::now() + pace.period - first;  // when time was, or would be, zero
+        auto start = Steady::now();  // when time was, or would be, zero
         // a tick more than the servo allows itself: whenever this stops the devices, a tick after
         // it is late by the servo's own clock, which is recorded
         const Time limit = from_seconds(servo.settings().safety.max_pause) + servo.period();
         std::optional<Timing::Stall> stall;  // of the watchdog's thread until that has ended
-        std::optional<Watchdog> watchdog;
-        watchdog.emplace(
+        auto watchdog = std::make_unique<Watchdog>(
             limit,
             [&] {
                 const bool stopped = servo.stop_devices();
@@ -89,6 +89,9 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             [&] {
                 if (stuck) stuck(*stall);
             });
+        // only now: to start a thread may take longer than a tick
+        start = Steady::now() + pace.period - first;
+        watchdog->end_tick(Steady::now());
         while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
             sleep_until(start + pace.due);
             const auto begin = Steady::now();

@@ -33,13 +33,13 @@ class Watchdog {
 
     /// From the servo's thread, at the end of each tick. Neither waits nor allocates.
     void end_tick(Clock::time_point now) noexcept {
-        last_end_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
+        last_end_.store(now.time_since_epoch().count(), std::memory_order_release);
     }
 
   private:
     void run();
     Clock::time_point last_end() const noexcept {
-        return Clock::time_point(Clock::duration(last_end_.load(std::memory_order_relaxed)));
+        return Clock::time_point(Clock::duration(last_end_.load(std::memory_order_acquire)));
     }
 
     Time limit_;
