@@ -87,6 +87,16 @@ class Commands(unittest.TestCase):
             folder = session_of(out)
             self.assertIn("force is off since", pathlib.Path(folder + "session.yaml").read_text())
             self.assertIn("force off", pathlib.Path(folder + "trials.csv").read_text())
+            self.assertIn("The second before it is in fault.csv.", result.stdout)
+            with open(folder + "fault.csv") as file:
+                rows = list(csv.DictReader(file))
+            self.assertIn("moved faster than allowed", rows[-1]["status"])
+            self.assertIn(f"force is off since {float(rows[-1]['time_s']):.3f} s", result.stdout)
+            self.assertLessEqual(float(rows[-1]["time_s"]) - float(rows[0]["time_s"]), 1)
+            fault = pathlib.Path(folder + "fault.csv").read_text()
+            os.remove(folder + "fault.csv")
+            self.assertEqual(dihaptic("recover", folder).returncode, 0)
+            self.assertEqual(pathlib.Path(folder + "fault.csv").read_text(), fault)
             replay = dihaptic("replay", folder)
             self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
@@ -434,6 +444,30 @@ class Interruptions(unittest.TestCase):
             folder = session_of(out)
             self.assertTrue(os.path.exists(folder + "session.nwb"))
             self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
+
+    def test_escape_on_a_terminal_switches_force_off(self):
+        with tempfile.TemporaryDirectory() as out:
+            master, slave = pty.openpty()
+            before = termios.tcgetattr(slave)
+            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, "--clock", "real"],
+                                       stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                       start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+            self.wait_for_log(out, 300000)
+            os.write(master, b"q")  # no other key does
+            time.sleep(0.2)
+            self.assertIsNone(process.poll())
+            os.write(master, b"\x1b")
+            stdout, _ = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1)
+            self.assertIn("Escape or Ctrl-C switches force off", stdout)
+            self.assertRegex(stdout, r"force is off since [0-9.]+ s: ")
+            folder = session_of(out)
+            self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
+            self.assertEqual(termios.tcgetattr(slave), before)
+            os.close(slave)
+            os.close(master)
+            replay = dihaptic("replay", folder)
+            self.assertEqual(replay.returncode, 0, replay.stdout)
 
     def test_a_running_session_is_not_recovered(self):
         with tempfile.TemporaryDirectory() as out:

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "base/plural.h"
 #include "base/table.h"
 #include "command.h"
+#include "escape_key.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -34,6 +37,7 @@ void run_one(const Options& options) {
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
         if (refusals.any()) fmt::print("note: {}\n", servo::describe(refusals, priority));
+        fmt::print("Escape or Ctrl-C switches force off at once, and ends the session.\n");
     }
     std::fflush(stdout);
     experiment::RunResult result;
@@ -162,6 +166,15 @@ void run(Options& options) {
     options.run.clock =
         options.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
     options.run.command = command_line();
+    std::optional<EscapeKey> escape;
+    if (options.run.clock == experiment::Clock::real) {
+        escape.emplace(stop_requested);
+        options.run.stuck = [&](const std::string& message) {
+            escape->restore();
+            fmt::print(stderr, "\nerror: {}\n", message);
+            std::_Exit(kFailed);  // the thread that is stuck would keep an orderly end waiting
+        };
+    }
     if (fs::is_directory(options.request.movement)) {
         run_batch(options);
     } else {

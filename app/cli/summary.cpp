@@ -64,6 +64,7 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
                    text.remedy.empty() ? "" : ": " + text.remedy);
     }
     if (!result.fault.empty()) fmt::print("WARNING: {}\n", result.fault);
+    if (!result.stall.empty()) fmt::print("WARNING: {}\n", result.stall);
     const servo::Timing& timing = result.timing;
     fmt::print(
         "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "

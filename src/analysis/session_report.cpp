@@ -10,6 +10,7 @@
 #include <map>
 
 #include "analysis/events.h"
+#include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
 #include "base/plural.h"
 #include "recording/nwb.h"
@@ -27,6 +28,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Reading {
     SessionFigures figures;
     std::vector<Event> events;
+    Table fault;
 };
 
 PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -76,6 +78,7 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
     EventFinder events(log.head(), object, names);
     GraspTrace trace(object, log.head().tick);
+    FaultRecord fault(log.head().fingers);
     Reading out;
     SessionFigures& figures = out.figures;
     figures.status_ticks.assign(servo::kStatusBits, 0);
@@ -101,6 +104,7 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         }
         trace.add(*frame);
         events.add(*frame);
+        fault.add(*frame);
         ++figures.frames;
         figures.duration = seconds(frame->time);
         figures.status |= frame->status;
@@ -113,6 +117,7 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     figures.log = log.health();
     figures.tick = log.head().tick;
     out.events = events.events();
+    out.fault = fault.table();
     return out;
 }
 
@@ -284,6 +289,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     write_csv(content.trials, folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
     write_csv(event_table(reading.events), folder.file("events.csv"));
+    if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.write_info(info);
     return figures;
 }

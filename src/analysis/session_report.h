@@ -37,8 +37,11 @@ struct SessionFigures {
 
     /// Something was not a number: no figure can be trusted.
     bool diverged() const { return (status & servo::kNotFinite) != 0; }
-    /// Diverged, or force was off after another fault: what was felt is not what was planned.
-    bool failed() const { return diverged() || (status & servo::kForceOff) != 0; }
+    /// Diverged, or force was off after another fault: what was felt is not what was planned. That
+    /// an operator stopped it is no failure, but an interruption.
+    bool failed() const {
+        return diverged() || ((status & servo::kForceOff) != 0 && (status & servo::kStopped) == 0);
+    }
     int64_t ticks_with(servo::Status bit) const {
         return status_ticks[static_cast<size_t>(std::countr_zero(static_cast<uint32_t>(bit)))];
     }
@@ -46,9 +49,9 @@ struct SessionFigures {
     const PhaseFigures* phase(const std::string& name) const;
 };
 
-/// Writes session.nwb, trials.csv, phases.csv and events.csv, and at last session.yaml with `info`,
-/// whose state they have then; it is `recovered` when the log is damaged. Throws Error when it
-/// cannot, or when those that are there tell of more than the log does now.
+/// Writes session.nwb, trials.csv, phases.csv, events.csv and, after a fault, fault.csv; at last
+/// session.yaml with `info`, whose state they have then; it is `recovered` when the log is damaged.
+/// Throws Error when it cannot, or when those that are there tell of more than the log does now.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
 

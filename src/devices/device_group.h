@@ -96,6 +96,13 @@ class DeviceGroup {
         assert(active_ && f_D.size() == infos_.size());
         do_write(f_D);
     }
+    /// Whether stop() may be called: from any thread, while another is in read() or write().
+    virtual bool can_stop() const { return false; }
+    /// Force off at once on all devices, whatever is written, until they are activated again.
+    void stop() noexcept {
+        assert(can_stop());
+        do_stop();
+    }
 
   protected:
     explicit DeviceGroup(std::vector<DeviceInfo> infos) : infos_(std::move(infos)) {}
@@ -105,6 +112,7 @@ class DeviceGroup {
     virtual void do_deactivate() = 0;
     virtual void do_read(Time now, std::span<Reading> readings) noexcept = 0;
     virtual void do_write(std::span<const Vec3> f_D) noexcept = 0;
+    virtual void do_stop() noexcept {}
 
     std::vector<DeviceInfo> infos_;
     bool active_ = false;

@@ -1,6 +1,7 @@
 #include "experiment/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,6 +124,18 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
                             "a point carries no moment about a contact's normal",
                             "Leave it out, or use proxy: kind: rigid.");
     }
+}
+
+/// A switch that nobody could hold.
+void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
+    const std::string& finger = plan.settings.safety.dead_man_finger;
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (finger.empty() || std::find(fingers.begin(), fingers.end(), finger) != fingers.end())
+        return;
+    diagnostics.error(place_of(plan, "safety.dead_man_finger"), "safety.dead_man_finger",
+                      fmt::format("the scene has no finger '{}'", finger),
+                      fmt::format("Name one of {}, whose device has the switch, or leave it out.",
+                                  fmt::join(fingers, ", ")));
 }
 
 /// A force limit that no device reaches is none: the devices' own is what holds.
@@ -266,6 +279,8 @@ Plan make_plan(const Request& request) {
             std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
     }
 
+    check_dead_man(plan, diagnostics);
+    diagnostics.throw_if_errors();
     // made once to see what the devices can do; the session makes its own
     const auto devices = make_servo(plan);
     check_stiffness(plan, devices->devices(), diagnostics);

@@ -1,10 +1,9 @@
 #include "experiment/replay.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <chrono>
 
+#include "base/field_writer.h"
 #include "experiment/phase_director.h"
 #include "recording/raw_log.h"
 
@@ -42,9 +41,12 @@ std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& 
                                                         const devices::Context& context) {
     std::vector<devices::DeviceConfig> configs;
     for (const recording::DeviceRecord& device : setup.devices) {
-        Node options = Node::mapping();
-        options.set("peak_force_N", Node::of(fmt::format("{}", device.peak_force)));
-        configs.push_back({device.finger, {}, options});
+        // what limited the forces, by the same names
+        FieldWriter options;
+        options("peak_force", device.peak_force, Field::of(Quantity::force));
+        options("continuous_force", device.continuous_force, Field::of(Quantity::force));
+        options("workspace", device.workspace, Field::length());
+        configs.push_back({device.finger, {}, options.take()});
     }
     return devices::find_backend("replay")->make(configs, context);
 }
@@ -90,6 +92,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
         phases(last, handles, commands);
+        commands.force_off = (recorded->status & servo::kStopped) != 0;
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);
     };
     const auto begin = Wall::now();

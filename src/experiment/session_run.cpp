@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <filesystem>
 #include <thread>
@@ -161,8 +162,14 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const auto servo = make_servo(plan);
     for (int i = 0; i < servo->devices().size(); ++i) {
         const devices::DeviceInfo& device = servo->devices().info(i);
-        info.devices.push_back(
-            {plan.scene.fingers[static_cast<size_t>(i)].name, device.model, device.peak_force});
+        recording::DeviceRecord record{plan.scene.fingers[static_cast<size_t>(i)].name,
+                                       device.model,
+                                       device.peak_force,
+                                       {},
+                                       device.workspace};
+        if (std::isfinite(device.continuous_force))
+            record.continuous_force = device.continuous_force;
+        info.devices.push_back(record);
     }
     info.phases = phases_of(*plan.driver);
     for (const Problem& warning : plan.warnings) info.notes.push_back(warning.text());
@@ -191,12 +198,21 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                                          servo::Commands& commands) {
         phases(last, handles, commands);
         commands.stop = recorder.failed();
+        commands.force_off = real && stop.load(std::memory_order_relaxed);
+    };
+    const auto stuck = [&](const servo::Timing::Stall& stall) {
+        if (!options.stuck) return;
+        options.stuck(
+            fmt::format("{}. The call has not returned since, so the session ends here. Switch the "
+                        "devices off and on; dihaptic recover {} makes the session's files.",
+                        servo::describe(stall), folder.path()));
     };
     const auto begin = Wall::now();
     {
         const Watcher watcher(reached, whole, progress);
         if (real) {
-            servo::run_real(*servo, director, sink, Time(0), whole, stop, result.timing);
+            const std::atomic<bool> never{false};  // the director stops it, by a fault
+            servo::run_real(*servo, director, sink, Time(0), whole, never, result.timing, stuck);
         } else {
             servo::run_virtual(*servo, director, sink, whole, stop, &result.timing.ticks);
         }
@@ -212,7 +228,13 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
         result.fault =
             haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
+        if (fault.kind != haptics::FaultKind::stopped)
+            result.fault += " The second before it is in fault.csv.";
         info.notes.push_back(result.fault);
+    }
+    if (result.timing.stall) {
+        result.stall = servo::describe(*result.timing.stall);
+        info.notes.push_back(result.stall);
     }
 
     if (progress && !result.interrupted) progress(1);

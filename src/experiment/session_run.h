@@ -18,6 +18,9 @@ struct RunOptions {
     std::string out = "sessions";  ///< folder that session folders are made in
     std::string command;           ///< as typed, for the record
     recording::Participant participant;
+    /// Called from another thread when a call to the devices never returns, and run_session() thus
+    /// cannot either: it has to end the program. Gets what to tell.
+    std::function<void(const std::string& message)> stuck;
 };
 
 struct RunResult {
@@ -31,14 +34,16 @@ struct RunResult {
     int64_t dropped = 0;  ///< frames that the recorder could not take
     servo::Timing timing;
     std::string fault;  ///< why force was switched off, and what to do; empty: it was not
+    std::string stall;  ///< what the watchdog did; empty: nothing
 };
 
 /// Share of the session done, from 0 to 1; called about ten times a second of wall time.
 using Progress = std::function<void(double share)>;
 
-/// Runs to the end of the driver's movement, or until `stop`. Throws Error when the disk gives up;
-/// what was written stays and can be recovered. The session's state stays `running`:
-/// analysis::finish_session() makes its other files, and it what it is to be.
+/// Runs to the end of the driver's movement, until `stop`, or until a second after a fault; on the
+/// real clock `stop` is the operator's wish, which switches force off at once. Throws Error when
+/// the disk gives up; what was written stays and can be recovered. The session's state stays
+/// `running`: analysis::finish_session() makes its other files, and it what it is to be.
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress);
 

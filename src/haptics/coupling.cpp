@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace dihaptic::haptics {
+namespace {
+
+/// What the step's contact can bear of it.
+Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) {
+    const double normal = std::max(0.0, spring.dot(touch.n_W));
+    Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
+    const double limit = touch.friction * normal;
+    if (tangential.norm() > limit) tangential *= limit / tangential.norm();
+    return normal * touch.n_W + tangential;
+}
+
+}  // namespace
 
 double damping(const CouplingSettings& settings, double h) {
     return settings.damping.value_or(settings.stiffness * h / 2);
@@ -29,13 +41,15 @@ Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTou
     const dynamics::BodyState& state = world.state(proxy);
     Vec3 spring =
         settings_.stiffness * (state.X_WB.p - handle.p_WH) + damping_ * (state.v_WB - handle.v_WH);
-    const bool of_this_step = handle.p_WH == handle_.p_WH && handle.v_WH == handle_.v_WH;
-    if (of_this_step) return spring;
-    const double normal = std::max(0.0, spring.dot(touch.n_W));
-    Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
-    const double limit = touch.friction * normal;
-    if (tangential.norm() > limit) tangential *= limit / tangential.norm();
-    return normal * touch.n_W + tangential;
+    return of_this_step(handle) ? spring : in_cone(spring, touch);
+}
+
+double ImplicitCoupling::stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                                const Handle& handle) const noexcept {
+    if (!touch.touching) return 0;
+    Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
+    if (!of_this_step(handle)) stretch = in_cone(stretch, touch);
+    return settings_.stiffness / 2 * stretch.squaredNorm();
 }
 
 void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,

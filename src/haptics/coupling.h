@@ -39,8 +39,16 @@ class ImplicitCoupling {
     /// spring then stays within the friction cone of the step's contact.
     Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                const Handle& handle) const noexcept;
+    /// Energy of the spring as far as it acts: in free space, and beyond the cone between steps, it
+    /// does not [J].
+    double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                  const Handle& handle) const noexcept;
 
   private:
+    bool of_this_step(const Handle& handle) const noexcept {
+        return handle.p_WH == handle_.p_WH && handle.v_WH == handle_.v_WH;
+    }
+
     CouplingSettings settings_;
     double mass_;
     double damping_ = 0;  // c [N*s/m]
@@ -58,6 +66,10 @@ class DualSpring {
     /// Every tick, before the world steps if it does: takes up the tick's force.
     void sample(const World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
     Vec3 force() const noexcept { return f_H_W_; }
+    double stored(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
+        const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
+        return settings_.stiffness / 2 * stretch.squaredNorm();
+    }
 
   private:
     CouplingSettings settings_;

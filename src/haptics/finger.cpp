@@ -2,16 +2,12 @@
 
 namespace dihaptic::haptics {
 
-Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
-               double max_force, double max_force_rate)
-    : proxy_(proxy),
-      coupling_(ImplicitCoupling(coupling, finger.mass)),
-      limiter_(max_force, max_force_rate) {
+Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling)
+    : proxy_(proxy), coupling_(ImplicitCoupling(coupling, finger.mass)) {
     if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
 }
 
-Finger::Finger(PointProxy point, BodyIndex proxy, double max_force, double max_force_rate)
-    : proxy_(proxy), coupling_(std::move(point)), limiter_(max_force, max_force_rate) {}
+Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
 
 std::span<const contact::Contact> Finger::contacts() const noexcept {
     const auto* point = std::get_if<PointProxy>(&coupling_);
@@ -66,19 +62,22 @@ void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
     touch_.friction = weighted_friction / pressed;
 }
 
-Finger::Output Finger::force(World& world, const Handle& handle, double tick) noexcept {
-    Output out;
-    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
-        out.f_asked_W = implicit->force(world, proxy_, touch_, handle);
-    } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
-        out.f_asked_W = dual->force();
-    } else {
-        auto& point = std::get<PointProxy>(coupling_);
-        out.f_asked_W = point.render(world, handle, tick, step_);
-        feel(point.contacts());
-    }
-    out.f_H_W = limiter_.limit(out.f_asked_W, tick, out.flags);
-    return out;
+Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
+    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
+        return implicit->force(world, proxy_, touch_, handle);
+    if (auto* dual = std::get_if<DualSpring>(&coupling_)) return dual->force();
+    auto& point = std::get<PointProxy>(coupling_);
+    const Vec3 f_H_W = point.render(world, handle, tick, step_);
+    feel(point.contacts());
+    return f_H_W;
+}
+
+double Finger::stored(const World& world, const Handle& handle) const noexcept {
+    if (const auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
+        return implicit->stored(world, proxy_, touch_, handle);
+    if (const auto* dual = std::get_if<DualSpring>(&coupling_))
+        return dual->stored(world, proxy_, handle);
+    return std::get<PointProxy>(coupling_).stored(handle);
 }
 
 }  // namespace dihaptic::haptics

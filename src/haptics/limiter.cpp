@@ -15,12 +15,17 @@ Vec3 Limiter::limit(const Vec3& asked, double h, unsigned& flags) noexcept {
         force *= max_force_ / size;
         flags |= kForceLimited;
     }
+    if (const double size = force.norm(), most = heating_.most_force(); size > most) {
+        force *= most / size;
+        flags |= kHeatLimited;
+    }
     const Vec3 change = force - last_;
     if (const double size = change.norm(); size > max_rate_ * h) {
         force = last_ + change * (max_rate_ * h / size);
         flags |= kRateLimited;
     }
     last_ = force;
+    heating_.add(force, h);
     return force;
 }
 

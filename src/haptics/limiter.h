@@ -1,8 +1,8 @@
 // The last thing that happens to a force before a device gets it: finite, no larger and changing no
-// faster than allowed.
+// faster than allowed, by the device's motors too.
 #pragma once
 
-#include "base/geometry.h"
+#include "haptics/heating.h"
 
 namespace dihaptic::haptics {
 
@@ -13,20 +13,25 @@ enum LimitFlags : unsigned {
     kRateLimited = 1u << 1,  ///< the change was cut: contact was fast or the coupling is stiff
     kNotFinite =
         1u << 2,  ///< NaN or infinity was asked for: no more force until the session restarts
+    kHeatLimited = 1u << 3,  ///< the magnitude was cut to what the motors can bear by now
 };
 
 class Limiter {
   public:
     /// Largest magnitude [N] and largest change in magnitude [N/s].
-    Limiter(double max_force, double max_rate) : max_force_(max_force), max_rate_(max_rate) {}
+    Limiter(double max_force, double max_rate, const Heating& heating = {})
+        : max_force_(max_force), max_rate_(max_rate), heating_(heating) {}
 
     /// The force that may be sent after one tick of h [s]. `flags` gets what had to be done.
     Vec3 limit(const Vec3& asked, double h, unsigned& flags) noexcept;
+    /// Zero was sent in place of the last force: it rises again from there.
+    void drop() noexcept { last_.setZero(); }
     bool faulted() const noexcept { return faulted_; }
 
   private:
     double max_force_;
     double max_rate_;
+    Heating heating_;
     Vec3 last_ = Vec3::Zero();
     bool faulted_ = false;
 };

@@ -28,6 +28,10 @@ class PointProxy {
     Vec3 render(World& world, const Handle& handle, double h, double step) noexcept;
 
     /// Of the last tick, from body to point.
+    /// Energy of the spring to it [J].
+    double stored(const Handle& handle) const noexcept {
+        return coupling_.stiffness / 2 * (point_.position() - handle.p_WH).squaredNorm();
+    }
     std::span<const contact::Contact> contacts() const noexcept {
         return {contacts_.data(), count_};
     }

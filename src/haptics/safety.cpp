@@ -70,6 +70,10 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
                 "Look for an extreme mass, stiffness or damping, or report the session's folder as "
                 "a bug.";
             break;
+        case FaultKind::stopped:
+            what = "it was stopped by the operator";
+            remedy = "What was done until then is recorded; start the session again to go on.";
+            break;
     }
     return fmt::format("force is off since {:.3f} s: {}. {}", seconds(fault.time), what, remedy);
 }

@@ -18,6 +18,7 @@ enum class FaultKind {
     too_fast,       ///< the handle moved faster than `max_speed`, or jumped
     late,           ///< no force was computed for longer than `max_pause`
     not_finite,     ///< the force that was computed is not a number
+    stopped,        ///< the operator switched force off
 };
 
 /// The first fault of a session: what, which device, when.

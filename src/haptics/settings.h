@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "base/field.h"
 
@@ -57,6 +58,11 @@ struct ProxySettings {
     }
 };
 
+enum class EnergyGuardMode { off, warn, act };
+constexpr auto enum_names(EnergyGuardMode) {
+    return std::array{"off", "warn", "act"};
+}
+
 /// What no force may exceed, whatever computed it, and what switches force off.
 struct SafetySettings {
     std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force
@@ -64,6 +70,13 @@ struct SafetySettings {
     double max_speed = 10;            ///< of a handle; a hand that throws reaches a few m/s [m/s]
     /// From one tick to the next, longer than any tick: so long a force may be held [s].
     double max_pause = 0.04;
+    /// In which the device's motors warm, and cool: of the order of a small motor's winding [s].
+    double heating_time = 10;
+    double workspace_stiffness = 500;  ///< of the wall where a device's reach ends; 0: none [N/m]
+    double soft_start = 0.5;           ///< in which force comes on, where there is one [s]
+    std::string dead_man_finger;       ///< whose device has the dead-man switch; empty: none
+    int dead_man_button = 0;           ///< which of its buttons
+    EnergyGuardMode energy_guard = EnergyGuardMode::warn;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -71,6 +84,13 @@ struct SafetySettings {
         v("max_force_rate", max_force_rate, Field::of(Quantity::force_rate).positive());
         v("max_speed", max_speed, Field::of(Quantity::speed).positive());
         v("max_pause", max_pause, Field::of(Quantity::time).within(0.02, 1));
+        v("heating_time", heating_time, Field::of(Quantity::time).within(1, 1000));
+        v("workspace_stiffness", workspace_stiffness,
+          Field::of(Quantity::stiffness).within(0, 2000));
+        v("soft_start", soft_start, Field::of(Quantity::time).within(0, 10));
+        v("dead_man_finger", dead_man_finger);
+        v("dead_man_button", dead_man_button, Field::number().within(0, 31));
+        v("energy_guard", energy_guard);
     }
 };
 

@@ -2,6 +2,7 @@
 // of raw.log, so that the log alone can be replayed and recovered.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,17 @@ struct PhaseInfo {
 struct DeviceRecord {
     std::string finger;
     std::string model;
-    double peak_force = 0;  ///< [N]
+    double peak_force = 0;                   ///< [N]
+    std::optional<double> continuous_force;  ///< unset: as long as the peak [N]
+    std::optional<Vec3> workspace;           ///< edges of the box around D's origin [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
         v("model", model);
         v("peak_force", peak_force, Field::of(Quantity::force));
+        v("continuous_force", continuous_force, Field::of(Quantity::force));
+        v("workspace", workspace, Field::length());
     }
 };
 

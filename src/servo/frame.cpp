@@ -48,6 +48,25 @@ StatusText describe(Status bit) {
         case kLate:
             return {"the hands were left without an answer for longer than allowed",
                     "close other programs, or look for a device that blocks"};
+        case kHeatLimited:
+            return {"a force was cut to what the device's motors can bear for long",
+                    "press less, or for shorter; the force comes back as they cool"};
+        case kPushedInward:
+            return {"a handle was pushed back into its device's workspace",
+                    "move the device in the rig file, or the hand"};
+        case kSoftStarted:
+            return {"a force was still rising, as it does when it comes on",
+                    "nothing; let the handles touch nothing when a session starts"};
+        case kSwitchedOff:
+            return {"force was off: nobody held the dead-man switch",
+                    "hold it, or look at settings: safety: dead_man_finger and dead_man_button"};
+        case kEnergyGenerated:
+            return {"a coupling gave a hand energy that nobody had put in",
+                    "soften it, raise its damping, or set settings: safety: energy_guard: act"};
+        case kEnergyDamped:
+            return {"a damper took of that energy", "soften the coupling, or raise its damping"};
+        case kStopped:
+            return {"the operator switched force off", "start the session again to go on"};
         case kSolverMissed:
             return {"no contact solver reached its tolerance, and the best answer was used",
                     "look at what the objects do in these ticks; report the session's folder as a "

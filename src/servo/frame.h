@@ -30,8 +30,15 @@ enum Status : uint32_t {
     kNotAnswering = 1u << 12,
     kTooFast = 1u << 13,
     kLate = 1u << 14,
+    kHeatLimited = 1u << 15,
+    kPushedInward = 1u << 16,
+    kSoftStarted = 1u << 17,
+    kSwitchedOff = 1u << 18,
+    kEnergyGenerated = 1u << 19,
+    kEnergyDamped = 1u << 20,
+    kStopped = 1u << 21,
 };
-constexpr int kStatusBits = 15;
+constexpr int kStatusBits = 22;
 
 struct StatusText {
     std::string what;

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <memory>
+#include <optional>
 #include <thread>
+
+#include "servo/watchdog.h"
 
 namespace dihaptic::servo {
 namespace {
@@ -43,6 +47,13 @@ std::string describe(const Timing& timing) {
                        timing.lateness.quantile(1));
 }
 
+std::string describe(const Timing::Stall& stall) {
+    return fmt::format("no tick had ended for {:.0f} ms at {:.3f} s, and {}",
+                       seconds(stall.pause) * 1e3, seconds(stall.at),
+                       stall.stopped ? "the watchdog switched the devices' force off"
+                                     : "these devices have no stop that the watchdog may call");
+}
+
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times) {
     Time now{0};
@@ -57,13 +68,30 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
 }
 
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
-              const std::atomic<bool>& stop, Timing& timing) {
+              const std::atomic<bool>& stop, Timing& timing,
+              const std::function<void(const Timing::Stall&)>& stuck) {
     std::thread thread([&] {
         const RealTime real_time(servo.settings().real_time_priority);
         timing.refusals = real_time.refusals();
         Pace pace{servo.period(), first};
         double last_tick = kUnmeasured;
-        const auto start = Steady::now() + pace.period - first;  // when time was, or would be, zero
+        auto start = Steady::now();  // when time was, or would be, zero
+        // a tick more than the servo allows itself: whenever this stops the devices, a tick after
+        // it is late by the servo's own clock, which is recorded
+        const Time limit = from_seconds(servo.settings().safety.max_pause) + servo.period();
+        std::optional<Timing::Stall> stall;  // of the watchdog's thread until that has ended
+        auto watchdog = std::make_unique<Watchdog>(
+            limit,
+            [&] {
+                const bool stopped = servo.stop_devices();
+                stall = {Steady::now() - start, limit, stopped};
+            },
+            [&] {
+                if (stuck) stuck(*stall);
+            });
+        // only now: to start a thread may take longer than a tick
+        start = Steady::now() + pace.period - first;
+        watchdog->end_tick(Steady::now());
         while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
             sleep_until(start + pace.due);
             const auto begin = Steady::now();
@@ -72,6 +100,7 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             const Frame& frame = servo.tick(pace.due, director);
             if (sink) sink(frame);
             const auto end = Steady::now();
+            watchdog->end_tick(end);
             last_tick = seconds(end - begin);
             timing.ticks.add(last_tick);
             timing.lateness.add(lateness);
@@ -79,6 +108,8 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             if (servo.stopped()) break;
             pace.end_tick(end - start);
         }
+        watchdog.reset();
+        if (stall) timing.stall = stall;
         timing.overruns += pace.overruns;
     });
     thread.join();

@@ -37,6 +37,13 @@ struct Timing {
     TickTimes lateness;  ///< of each tick's wake-up
     Time reached{0};     ///< the last tick's
     int64_t overruns = 0;
+    /// When the watchdog found that ticks did not end any more.
+    struct Stall {
+        Time at{0};            ///< from activation
+        Time pause{0};         ///< since the last tick had ended
+        bool stopped = false;  ///< the devices, which not all can be
+    };
+    std::optional<Stall> stall;
     RealTime::Refusals refusals;
 
     void reserve(size_t count) {
@@ -48,14 +55,21 @@ struct Timing {
 /// The wake-ups of a run in real time, in words; "" without any.
 std::string describe(const Timing& timing);
 
+/// What the watchdog did, in a sentence.
+std::string describe(const Timing::Stall& stall);
+
 /// Ticks until the director stops, `stop` becomes true, or `most` time has passed. Returns the time
 /// reached.
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
 /// The same in real time, from `first` to `last`, in a thread of its own with what RealTime gets
-/// it: a tick at each deadline of Pace, on the monotonic clock.
+/// it: a tick at each deadline of Pace, on the monotonic clock. A Watchdog stops the devices when
+/// no tick has ended for longer than `max_pause`; when the loop goes on, the next tick finds that
+/// it is late. When it never does, `stuck` is called from the watchdog's thread: this function
+/// cannot return any more, and the program had better end.
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
-              const std::atomic<bool>& stop, Timing& timing);
+              const std::atomic<bool>& stop, Timing& timing,
+              const std::function<void(const Timing::Stall&)>& stuck = {});
 
 }  // namespace dihaptic::servo

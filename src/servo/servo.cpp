@@ -20,6 +20,8 @@ uint32_t fault_status(haptics::FaultKind kind) {
             return kLate;
         case haptics::FaultKind::not_finite:
             return kNotFinite;
+        case haptics::FaultKind::stopped:
+            return kStopped;
     }
     return 0;
 }
@@ -33,6 +35,12 @@ uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
     if (limits & haptics::kForceLimited) status |= kForceLimited;
     if (limits & haptics::kRateLimited) status |= kRateLimited;
     if (limits & haptics::kNotFinite) status |= kNotFinite;
+    if (limits & haptics::kHeatLimited) status |= kHeatLimited;
+    if (limits & haptics::kPushedInward) status |= kPushedInward;
+    if (limits & haptics::kSoftStarted) status |= kSoftStarted;
+    if (limits & haptics::kSwitchedOff) status |= kSwitchedOff;
+    if (limits & haptics::kEnergyGenerated) status |= kEnergyGenerated;
+    if (limits & haptics::kEnergyDamped) status |= kEnergyDamped;
     return status;
 }
 
@@ -44,19 +52,23 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
       devices_(std::move(devices)),
-      X_WD_(std::move(X_WD)) {
+      X_WD_(std::move(X_WD)),
+      soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
-        const double peak = devices_->info(static_cast<int>(i)).peak_force;
-        const double max_force = std::min(settings.safety.max_force.value_or(peak), peak);
+        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        force_guards_.emplace_back(
+            settings.safety,
+            haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace},
+            settings.tick(), X_WD_[i]);
+        if (scene.fingers[i].name == settings.safety.dead_man_finger)
+            dead_man_ = static_cast<int>(i);
         if (settings.proxy.kind == haptics::ProxyKind::point) {
             const dynamics::BodyIndex proxy = world_.add_point(scene.fingers[i], Vec3::Zero());
             fingers_.emplace_back(
-                haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy,
-                max_force, settings.safety.max_force_rate);
+                haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
         } else {
             const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
-            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling, max_force,
-                                  settings.safety.max_force_rate);
+            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling);
         }
         X_DW_.push_back(X_WD_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed);
@@ -65,7 +77,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
     readings_.resize(n);
     handles_.resize(n);
     device_faults_.resize(n, 0);
-    outputs_.resize(n);
+    forces_.resize(n);
     f_D_.resize(n, Vec3::Zero());
 }
 
@@ -94,6 +106,12 @@ void Servo::deactivate() {
     active_ = false;
 }
 
+bool Servo::stop_devices() noexcept {
+    if (!devices_->can_stop()) return false;
+    devices_->stop();
+    return true;
+}
+
 void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcept {
     lateness_ = lateness;
     last_tick_ = last_tick;
@@ -104,12 +122,14 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     measure(now);
     commands_.load_count = 0;
     commands_.stop = false;
+    commands_.force_off = false;
     if (director) director(frame_, handles_, commands_);
+    if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
 
     for (size_t i = 0; i < fingers_.size(); ++i)
         fingers_[i].begin_tick(world_, handles_[i], settings_.step());
     dynamics::StepStatus step = dynamics::StepStatus::ok;
-    if ((frame_.sequence + 1) % settings_.dynamics.every == 0) {
+    if (steps_now()) {
         const double h = settings_.step();
         if (commands_.solver) world_.set_solver(*commands_.solver);
         for (int i = 0; i < commands_.load_count; ++i) {
@@ -124,7 +144,9 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     make_forces(now);
     devices_->write(f_D_);
     make_frame(now, commands_, step);
-    stopped_ = commands_.stop || (frame_.status & kNoMoreData) != 0;
+    const bool grace_over = faults_.tripped() && now - faults_.fault().time >= kGrace;
+    stopped_ =
+        commands_.stop || commands_.force_off || grace_over || (frame_.status & kNoMoreData) != 0;
     return frame_;
 }
 
@@ -148,16 +170,38 @@ void Servo::measure(Time now) noexcept {
 }
 
 void Servo::make_forces(Time now) noexcept {
+    bool asked = false;
+    const bool stepped = steps_now();
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        outputs_[i] = fingers_[i].force(world_, handles_[i], settings_.tick());
-        if (outputs_[i].flags & haptics::kNotFinite)
+        Force& force = forces_[i];
+        force.flags = 0;
+        force.asked_W = fingers_[i].force(world_, handles_[i], settings_.tick());
+        const Vec3& p_WP = world_.state(fingers_[i].proxy()).X_WB.p;
+        const double stored = fingers_[i].stored(world_, handles_[i]);
+        force.felt_W =
+            force_guards_[i].shape(force.asked_W, handles_[i], p_WP, stored, stepped, force.flags);
+        asked = asked || force.felt_W != Vec3::Zero();
+    }
+    const bool allowed = switch_held();
+    const double share = soft_start_.share(allowed, asked, settings_.tick());
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        Force& force = forces_[i];
+        force.sent_W = force_guards_[i].limit(force.felt_W, allowed, share, force.flags);
+        if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
     // one finger's fault is every finger's: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        if (faults_.tripped()) outputs_[i].f_H_W.setZero();
-        f_D_[i] = X_DW_[i].R * outputs_[i].f_H_W;
+        if (faults_.tripped()) forces_[i].sent_W.setZero();
+        f_D_[i] = X_DW_[i].R * forces_[i].sent_W;
     }
+}
+
+bool Servo::switch_held() const noexcept {
+    if (settings_.safety.dead_man_finger.empty()) return true;
+    if (dead_man_ < 0) return false;  // nobody holds a switch that is not there
+    const devices::Reading& reading = readings_[static_cast<size_t>(dead_man_)];
+    return (reading.buttons >> settings_.safety.dead_man_button & 1u) != 0;
 }
 
 void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept {
@@ -184,14 +228,14 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.p_DH = readings_[i].p_DH;
         out.v_DH = readings_[i].v_DH;
         out.buttons = readings_[i].buttons;
-        out.status = finger_status(readings_[i], outputs_[i].flags) | device_faults_[i];
+        out.status = finger_status(readings_[i], forces_[i].flags) | device_faults_[i];
         out.p_WH = handles_[i].p_WH;
         out.v_WH = handles_[i].v_WH;
         out.p_WP = proxy.X_WB.p;
         out.v_WP = proxy.v_WB;
         out.R_WP = proxy.X_WB.R;
-        out.f_asked_W = outputs_[i].f_asked_W;
-        out.f_sent_W = outputs_[i].f_H_W;
+        out.f_asked_W = forces_[i].asked_W;
+        out.f_sent_W = forces_[i].sent_W;
         out.f_contact_W = touch.f_P_W;
         out.normal_force = touch.normal_force;
         const bool finite = out.p_WH.allFinite() && out.v_WH.allFinite() && out.p_WP.allFinite() &&

@@ -14,7 +14,9 @@
 #include <span>
 
 #include "haptics/finger.h"
+#include "haptics/force_guard.h"
 #include "haptics/safety.h"
+#include "haptics/soft_start.h"
 #include "rig/rig.h"
 #include "servo/frame.h"
 #include "servo/settings.h"
@@ -26,6 +28,7 @@ struct Commands {
     int32_t trial = 0;
     int32_t phase = 0;
     bool stop = false;                       ///< this tick is the last
+    bool force_off = false;                  ///< from this tick on, for good: the operator's wish
     std::optional<dynamics::Solver> solver;  ///< from this step on
 
     struct Load {
@@ -47,6 +50,9 @@ struct Commands {
 using Director = std::function<void(const Frame& last, std::span<const haptics::Handle> handles,
                                     Commands& commands)>;
 
+/// A run goes on for so long after a fault, without force: what becomes of the objects is recorded.
+constexpr Time kGrace = std::chrono::seconds(1);
+
 class Servo {
   public:
     /// `X_WD` by device; devices, in the order of the scene's fingers.
@@ -61,10 +67,17 @@ class Servo {
 
     /// One tick at `now`; returns its Frame, valid until the next tick.
     const Frame& tick(Time now, const Director& director) noexcept;
-    /// Whether the last tick's director asked to stop, or a recording ended.
+    /// Whether the last tick's director asked to stop, a recording ended, or a fault's grace is
+    /// over; the operator's wish needs none.
     bool stopped() const { return stopped_; }
     /// Why force is off, if it is.
     const haptics::Fault& fault() const { return faults_.fault(); }
+    /// Force off on all devices at once, from any thread; false when they cannot.
+    bool stop_devices() noexcept;
+    /// Energy that a finger's coupling generated, as haptics::EnergyGuard counts it [J].
+    double generated(int finger) const {
+        return force_guards_[static_cast<size_t>(finger)].generated();
+    }
     /// For whoever keeps real time: goes into the next Frame.
     void note_timing(double lateness, double last_tick, bool overrun) noexcept;
 
@@ -77,6 +90,11 @@ class Servo {
   private:
     void measure(Time now) noexcept;
     void make_forces(Time now) noexcept;
+    bool switch_held() const noexcept;
+    /// Whether the world steps in this tick, whose Frame is not made yet.
+    bool steps_now() const noexcept {
+        return (frame_.sequence + 1) % settings_.dynamics.every == 0;
+    }
     void make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept;
     void merge_contacts() noexcept;
     void merge_contacts(std::span<const contact::Contact> contacts) noexcept;
@@ -94,7 +112,16 @@ class Servo {
     std::vector<haptics::HandleGuard> guards_;
     std::vector<uint32_t> device_faults_;  // Status bits of this tick's readings
     haptics::FaultLatch faults_;
-    std::vector<haptics::Finger::Output> outputs_;
+    std::vector<haptics::ForceGuard> force_guards_;
+    haptics::SoftStart soft_start_;
+    int dead_man_ = -1;  // device with the switch; -1: none
+    struct Force {
+        Vec3 asked_W = Vec3::Zero();  // by the coupling
+        Vec3 felt_W = Vec3::Zero();   // with what the guard adds
+        Vec3 sent_W = Vec3::Zero();
+        unsigned flags = 0;  // haptics::LimitFlags, EnergyFlags and GuardFlags
+    };
+    std::vector<Force> forces_;
     std::vector<Vec3> f_D_;
     Frame frame_;
     Commands commands_;

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "analysis/events.h"
+#include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
 
 namespace dihaptic::analysis {
@@ -32,6 +33,41 @@ GraspTrace trace_of(const std::function<servo::Frame(int)>& make, int count = 10
     GraspTrace trace(1, 1e-3);
     for (int i = 0; i < count; ++i) trace.add(make(i));
     return trace;
+}
+
+TEST(FaultRecord, KeepsTheSecondBeforeTheFaultAndItsTick) {
+    FaultRecord record({"thumb", "index"});
+    for (int i = 0; i < 3000; ++i) {
+        servo::Frame frame = held(i);
+        frame.fingers[1].f_sent_W = {0, 0, i < 2000 ? 1.5 : 0};
+        if (i >= 2000) frame.status = servo::kForceOff;
+        if (i == 2000) frame.status |= servo::kTooFast;
+        record.add(frame);
+    }
+    const Table table = record.table();
+    ASSERT_EQ(table.rows.size(), 1001u);
+    const auto& last = table.rows.back();
+    ASSERT_EQ(last.size(), table.columns.size());
+    EXPECT_EQ(std::get<double>(table.rows.front()[0]), 1);
+    EXPECT_EQ(std::get<double>(last[0]), 2);
+    EXPECT_EQ(std::get<std::string>(last[1]),
+              "force was off, after a fault; a handle jumped, or moved faster than allowed");
+    EXPECT_EQ(table.columns.back().name, "index_force_sent_z_N");
+    EXPECT_EQ(std::get<double>(last.back()), 0);
+    EXPECT_EQ(std::get<double>(table.rows[999].back()), 1.5);
+}
+
+TEST(FaultRecord, HasNothingWithoutAFault) {
+    FaultRecord calm({"thumb", "index"});
+    FaultRecord stopped({"thumb", "index"});
+    for (int i = 0; i < 2000; ++i) {
+        servo::Frame frame = held(i);
+        calm.add(frame);
+        if (i == 1999) frame.status = servo::kForceOff | servo::kStopped;
+        stopped.add(frame);
+    }
+    EXPECT_TRUE(calm.table().rows.empty());
+    EXPECT_TRUE(stopped.table().rows.empty());
 }
 
 TEST(GraspTrace, AStillHoldHasNoFigureButItsForces) {

@@ -6,10 +6,14 @@ namespace {
 /// What forces were limited by when the recording was made.
 struct Options {
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
+    std::optional<double> continuous_force;                       ///< [N]
+    std::optional<Vec3> workspace;                                ///< edges of the box [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("peak_force", peak_force, Field::of(Quantity::force).positive());
+        v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
+        v("workspace", workspace, Field::length().positive());
     }
 };
 
@@ -23,6 +27,8 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
         DeviceInfo info;
         info.model = "recording";
         info.peak_force = options.peak_force;
+        if (options.continuous_force) info.continuous_force = *options.continuous_force;
+        info.workspace = options.workspace;
         out.push_back(info);
     }
     diagnostics.throw_if_errors();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+
 #include "devices/simulated/plant.h"
 
 namespace dihaptic::devices::simulated {
@@ -50,19 +52,24 @@ class SimulatedGroup final : public DeviceGroup {
         }
     }
 
+    bool can_stop() const override { return true; }
+
   private:
     void do_activate() override {
         for (Device& device : devices_) device.plant.reset();
+        stopped_.store(false);
     }
     void do_deactivate() override {}
     void do_read(Time now, std::span<Reading> readings) noexcept override {
         for (size_t i = 0; i < devices_.size(); ++i) {
             Device& device = devices_[i];
+            if (stopped_.load(std::memory_order_relaxed)) device.plant.release();
             device.plant.advance(now);
             const Pose X_DW = device.X_WD.inverse();
             const Encoder::Measured measured = device.encoder.measure(
                 now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
-            readings[i] = {measured.p, measured.v, 0, device.clamped};
+            readings[i] = {measured.p, measured.v, static_cast<uint32_t>(device.options.buttons),
+                           device.clamped};
             if (const auto& box = device.options.workspace;
                 box && (measured.p.array().abs() > box->array() / 2).any()) {
                 readings[i].status |= kOutsideWorkspace;
@@ -77,7 +84,10 @@ class SimulatedGroup final : public DeviceGroup {
         }
     }
 
+    void do_stop() noexcept override { stopped_.store(true); }
+
     std::vector<Device> devices_;
+    std::atomic<bool> stopped_{false};
 };
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {

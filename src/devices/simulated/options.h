@@ -26,6 +26,7 @@ struct Options {
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]
     int delay_ticks = 0;                     ///< a force acts so many ticks after it was written
     int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
+    int buttons = 0;          ///< that the simulated hand holds down, a bit each
     std::optional<Vec3> workspace;  ///< edges of the reachable box around D's origin [m]
 
     template <class Visitor>
@@ -39,6 +40,7 @@ struct Options {
         v("friction", friction, Field::of(Quantity::force).at_least(0));
         v("delay_ticks", delay_ticks, Field::number().at_least(0).at_most(100));
         v("velocity_window", velocity_window, Field::number().at_least(1).at_most(kMostWindow));
+        v("buttons", buttons, Field::number().within(0, 0x7fffffff));
         v("workspace", workspace, Field::length().positive());
     }
 

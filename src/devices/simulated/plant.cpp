@@ -41,6 +41,10 @@ void Plant::reset() {
     tremor_.add(target, 0);
     p_ = target.p_WT;
     v_.setZero();
+    release();
+}
+
+void Plant::release() noexcept {
     std::fill(pending_.begin(), pending_.end(), Vec3::Zero());
 }
 

@@ -31,6 +31,8 @@ class Plant {
     void advance(Time now) noexcept;
     /// The force to hold from now on, in world axes [N]; true when it had to be clamped.
     bool hold(const Vec3& f_W) noexcept;
+    /// No force from now on, whatever is on its way.
+    void release() noexcept;
 
     const Vec3& p_WH() const { return p_; }
     const Vec3& v_WH() const { return v_; }

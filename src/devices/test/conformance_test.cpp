@@ -1,6 +1,8 @@
 // Every backend of the table keeps the contract of device_group.h.
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "devices/device_group.h"
 #include "testing/allocation_guard.h"
 
@@ -68,6 +70,39 @@ TEST_P(Conformance, AllocatesNothingInTheCycle) {
         group->write(forces);
     }
     EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) {
+    const auto group = make();
+    if (!group->can_stop()) return;
+    std::vector<Reading> readings(2);
+    const std::vector<Vec3> forces(2, Vec3(2, 0, 0));
+    // how far two newtons push the still hand in 50 ms [m]
+    const auto pushed = [&] {
+        group->read(Time(0), readings);
+        const Vec3 begin = readings[0].p_DH;
+        for (int i = 1; i <= 50; ++i) {
+            group->write(forces);
+            group->read(i * std::chrono::milliseconds(1), readings);
+        }
+        return (readings[0].p_DH - begin).norm();
+    };
+    group->activate();
+    EXPECT_GT(pushed(), 1e-3);
+    group->deactivate();
+    group->activate();
+    std::thread([&] { group->stop(); }).join();
+    EXPECT_LT(pushed(), 1e-9);
+    group->deactivate();
+    group->activate();
+    EXPECT_GT(pushed(), 1e-3);
+    // while another thread is in the cycle (the thread sanitizer looks at this one)
+    std::thread stopper([&] { group->stop(); });
+    for (int i = 51; i < 80; ++i) {
+        group->read(i * std::chrono::milliseconds(1), readings);
+        group->write(forces);
+    }
+    stopper.join();
 }
 
 TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {

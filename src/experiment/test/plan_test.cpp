@@ -264,6 +264,18 @@ INSTANTIATE_TEST_SUITE_P(
             [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
             "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated plant can "
             "give: 8.5 N"},
+        Bad{"a dead-man switch that no finger has",
+            [](Files& f) { f.experiment += "settings: {safety: {dead_man_finger: toe}}\n"; },
+            "experiment.yaml:3: error: safety.dead_man_finger: the scene has no finger 'toe'"},
+        Bad{"a dead-man button that no device has",
+            [](Files& f) { f.experiment += "settings: {safety: {dead_man_button: 32}}\n"; },
+            "experiment.yaml:3: error: dead_man_button:"},
+        Bad{"an energy guard of a mode that is not known",
+            [](Files& f) { f.experiment += "settings: {safety: {energy_guard: maybe}}\n"; },
+            "experiment.yaml:3: error: energy_guard:"},
+        Bad{"a heating time of no motor",
+            [](Files& f) { f.experiment += "settings: {safety: {heating_time_ms: 10}}\n"; },
+            "experiment.yaml:3: error: heating_time_ms:"},
         Bad{"a movement without the scene's index",
             [](Files& f) {
                 std::istringstream in(testing::read_file("movements/reach-to-grasp.csv"));

@@ -1,5 +1,6 @@
 #include "experiment/session_run.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "experiment/replay.h"
@@ -200,6 +201,87 @@ TEST(Session, StopsInOrderWhenAsked) {
     EXPECT_EQ(info.state, recording::SessionState::running);
     EXPECT_TRUE(info.interrupted);
     EXPECT_EQ(result.info.state, recording::SessionState::interrupted);
+}
+
+TEST(Session, TheOperatorsStopOnTheRealClockIsRecordedAndReplayed) {
+    const testing::TemporaryFolder folder;
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    RunOptions options;
+    options.out = folder.path();
+    options.clock = Clock::real;
+    std::atomic<bool> stop{false};
+    const RunResult result = run_session(make_plan(request), options, stop,
+                                         [&](double share) { stop.store(share > 0.2); });
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_NE(result.fault.find("stopped by the operator"), std::string::npos) << result.fault;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    servo::Frame last;
+    while (const servo::Frame* frame = log.next()) last = *frame;
+    EXPECT_NE(last.status & servo::kStopped, 0u);
+    EXPECT_EQ(last.fingers[0].f_sent_W, Vec3::Zero());
+    EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
+}
+
+/// Runs a scene on devices with these options, and replays it.
+std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector<std::string> set) {
+    const testing::TemporaryFolder folder;
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    request.rig = folder.write(
+        "rig.yaml",
+        fmt::format("devices:\n  - {{finger: thumb, backend: simulated, options: {0}}}\n"
+                    "  - {{finger: index, backend: simulated, options: {0}}}\n",
+                    options));
+    request.set = std::move(set);
+    RunOptions run;
+    run.out = folder.file("out");
+    const RunResult result = run_session(make_plan(request), run, kGoOn, {});
+    const ReplayResult replay = replay_session(result.folder, kGoOn, {});
+    EXPECT_TRUE(replay.good()) << "first at " << replay.first_difference << " s";
+    std::vector<servo::Frame> frames;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+    return frames;
+}
+
+uint32_t status_of(const std::vector<servo::Frame>& frames) {
+    uint32_t status = 0;
+    for (const servo::Frame& frame : frames) status |= frame.status;
+    return status;
+}
+
+TEST(Session, ReplaysWhatTheDevicesLimitsAndTheSwitchDid) {
+    EXPECT_NE(status_of(run_and_replay("{continuous_force_N: 0.5}", {})) & servo::kHeatLimited, 0u);
+    EXPECT_NE(status_of(run_and_replay("{workspace_mm: [80, 80, 80]}", {})) & servo::kPushedInward,
+              0u);
+    const auto held = run_and_replay("{buttons: 2}",
+                                     {"safety.dead_man_finger=index", "safety.dead_man_button=1"});
+    EXPECT_EQ(status_of(held) & servo::kSwitchedOff, 0u);
+    const auto loose = run_and_replay("{buttons: 2}", {"safety.dead_man_finger=index"});
+    double force = 0;
+    for (const servo::Frame& frame : loose) {
+        EXPECT_NE(frame.status & servo::kSwitchedOff, 0u);
+        force = std::max(force, frame.fingers[0].f_sent_W.norm());
+    }
+    EXPECT_EQ(force, 0);
+}
+
+TEST(Session, ReplaysWhatTheEnergyGuardDid) {
+    // a dual spring that is far too stiff shakes: the guard has something to do
+    const auto frames =
+        run_and_replay("{}", {"coupling.kind=dual_spring", "coupling.stiffness_N_m=4000",
+                              "safety.energy_guard=act", "safety.soft_start_s=0"});
+    EXPECT_NE(status_of(frames) & servo::kEnergyDamped, 0u);
+}
+
+TEST(Session, AFaultEndsItAfterASecond) {
+    const auto frames = run_and_replay("{}", {"safety.max_speed_m_s=0.01"});
+    const auto first = std::find_if(frames.begin(), frames.end(), [](const servo::Frame& frame) {
+        return (frame.status & servo::kForceOff) != 0;
+    });
+    ASSERT_NE(first, frames.end());
+    EXPECT_EQ(frames.back().time - first->time, servo::kGrace);
 }
 
 /// Largest change of any sent force from tick to tick, over the largest allowed.

@@ -1,0 +1,54 @@
+#include "escape_key.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dihaptic::cli {
+namespace {
+
+constexpr char kEscape = 27;
+constexpr int kWait = 20;  // between two looks at whether the session is over [ms]
+
+}  // namespace
+
+EscapeKey::EscapeKey(std::atomic<bool>& pressed) {
+    const bool ours = isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp();
+    if (!ours || tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios keys = before_;
+    keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    keys.c_cc[VMIN] = 1;
+    keys.c_cc[VTIME] = 0;
+    // a suspended program would leave its devices with their last force
+    keys.c_cc[VSUSP] = _POSIX_VDISABLE;
+    if (tcsetattr(STDIN_FILENO, TCSANOW, &keys) != 0) return;
+    listens_ = true;
+    thread_ = std::thread([this, &pressed] { listen(pressed); });
+}
+
+EscapeKey::~EscapeKey() {
+    done_.store(true);
+    if (thread_.joinable()) thread_.join();
+    restore();
+}
+
+void EscapeKey::restore() noexcept {
+    if (listens_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+}
+
+void EscapeKey::listen(std::atomic<bool>& pressed) {
+    while (!done_.load()) {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        if (poll(&input, 1, kWait) <= 0) continue;
+        std::array<char, 64> keys;
+        const ssize_t count = read(STDIN_FILENO, keys.data(), keys.size());
+        if (count <= 0) return;  // the terminal is gone: that ends the session too
+        // arrows and function keys begin with it: they stop as well, which harms nobody
+        if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
+            pressed.store(true);
+    }
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,33 @@
+// Escape on the terminal, while a session runs on the real clock: it asks the session to stop, as
+// Ctrl-C does. Keys are read as they are pressed, without echo, until the object is gone.
+#pragma once
+
+#include <termios.h>
+
+#include <atomic>
+#include <thread>
+
+namespace dihaptic::cli {
+
+class EscapeKey {
+  public:
+    /// Sets `pressed` when Escape is. Does nothing when standard input is no terminal, or another
+    /// program's at the moment.
+    explicit EscapeKey(std::atomic<bool>& pressed);
+    ~EscapeKey();
+    EscapeKey(const EscapeKey&) = delete;
+    EscapeKey& operator=(const EscapeKey&) = delete;
+
+    /// Gives the terminal back as it was, from any thread: for a program that must end at once.
+    void restore() noexcept;
+
+  private:
+    void listen(std::atomic<bool>& pressed);
+
+    bool listens_ = false;
+    termios before_{};
+    std::atomic<bool> done_{false};
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::cli

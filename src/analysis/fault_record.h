@@ -1,0 +1,33 @@
+// What led to a fault: the second before force went off, tick by tick, as a table that a person can
+// read. All of it is in raw.log too.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "base/table.h"
+#include "servo/frame.h"
+
+namespace dihaptic::analysis {
+
+class FaultRecord {
+  public:
+    explicit FaultRecord(std::vector<std::string> fingers) : fingers_(std::move(fingers)) {}
+
+    /// Frames in their order.
+    void add(const servo::Frame& frame);
+    /// Rows from kBefore before the first fault to its tick; none without a fault. An operator who
+    /// stops a session is none.
+    Table table() const;
+
+    static constexpr Time kBefore = std::chrono::seconds(1);
+
+  private:
+    std::vector<std::string> fingers_;
+    std::deque<servo::Frame> last_;  // without bodies and contacts
+    bool ended_ = false;
+    bool faulted_ = false;
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,37 @@
+// How force comes on: after activation, and when a dead-man switch is pressed again.
+//
+// What a hand is in at that moment (an object, a wall, a field) would strike it. So the share of
+// the force that is sent rises from 0 to 1 in the time T, on all devices alike. When nothing is
+// asked of any device there is nothing to strike with, and the rise is over at once: what is
+// touched later is felt as it is. Ramping that too would let a hand sink into a wall that then
+// throws it out.
+#pragma once
+
+#include <algorithm>
+
+namespace dihaptic::haptics {
+
+class SoftStart {
+  public:
+    /// T [s].
+    explicit SoftStart(double duration) : duration_(duration) {}
+
+    /// The share of this tick's force that may be sent. `allowed`: by the dead-man switch; `asked`:
+    /// some device is to give some force; h: the tick [s].
+    double share(bool allowed, bool asked, double h) noexcept {
+        if (!allowed) {
+            elapsed_ = 0;
+            return 0;
+        }
+        if (!asked) elapsed_ = duration_;
+        const double share = elapsed_ < duration_ ? elapsed_ / duration_ : 1;
+        elapsed_ = std::min(duration_, elapsed_ + h);
+        return share;
+    }
+
+  private:
+    double duration_;
+    double elapsed_ = 0;
+};
+
+}  // namespace dihaptic::haptics

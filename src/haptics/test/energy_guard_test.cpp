@@ -1,0 +1,155 @@
+#include "haptics/energy_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace dihaptic::haptics {
+namespace {
+
+constexpr double kTick = 1e-3;
+constexpr double k = 1000;  // [N/m]
+
+/// One tick along x. Returns what the guard adds [N].
+double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double force,
+             unsigned& flags) {
+    const double stored = k / 2 * (p_P - p_H) * (p_P - p_H);
+    return guard
+        .watch({{p_H, 0, 0}, {v_H, 0, 0}}, {p_P, 0, 0}, {force, 0, 0}, stored, true, kTick, flags)
+        .x();
+}
+
+/// A handle and a proxy along x, and the coupling's force on the handle.
+struct Motion {
+    EnergyGuard guard{EnergyGuardMode::warn};
+    unsigned flags = 0;
+
+    void tick(double p_H, double v_H, double p_P, double force) {
+        watch(guard, p_H, v_H, p_P, force, flags);
+    }
+    /// The handle goes `depth` into a wall at x = 0, and out again, by a sine of 20 Hz, for
+    /// `cycles`; its damping is c. Returns the sum of the squares of its steps inside.
+    double press(double c, double depth, int cycles) {
+        const double w = 2 * std::numbers::pi * 20;
+        double squares = 0;
+        double last = 0;
+        for (int i = 0; i <= 50 * cycles; ++i) {
+            const double x = depth * std::sin(w * i * kTick);
+            const double v = depth * w * std::cos(w * i * kTick);
+            tick(x, v, std::min(x, 0.0), x > 0 ? -k * x - c * v : 0);
+            if (x > 0) squares += (x - last) * (x - last);
+            last = x;
+        }
+        return squares;
+    }
+};
+
+TEST(EnergyGuard, SeesWhatTheHoldOfASampleGenerates) {
+    // k / 2 times the square of each step (README.md): no damper takes it
+    Motion run;
+    const double squares = run.press(0, 0.004, 1);
+    EXPECT_NEAR(run.guard.generated(), k / 2 * squares, 0.06 * k / 2 * squares);
+}
+
+TEST(EnergyGuard, SeesThatTheDefaultDampingTakesIt) {
+    Motion undamped, damped;
+    undamped.press(0, 0.004, 20);
+    damped.press(k * kTick / 2, 0.004, 20);
+    EXPECT_GT(undamped.guard.generated(), kEnergyBudget);
+    EXPECT_LT(damped.guard.generated(), 0.1 * undamped.guard.generated());
+    EXPECT_EQ(damped.flags, 0u);
+}
+
+TEST(EnergyGuard, LetsAHandRestHoldAndCarry) {
+    Motion run;
+    for (int i = 0; i < 1000; ++i) run.tick(0.002, 0, 0, -2);  // at rest
+    for (int i = 0; i < 1000; ++i) {                           // 10 cm up and down, under 2 N
+        const double x = 0.1 * std::sin(2 * std::numbers::pi * i * kTick);
+        run.tick(x + 0.002, 0, x, -2);
+    }
+    EXPECT_LT(run.guard.generated(), 1e-12);
+}
+
+TEST(EnergyGuard, LetsBodiesGiveWhatTheyHave) {
+    // a heavy body carries the hand along at 1 m/s against 4 N of its own: 4 J, all its own
+    Motion run;
+    for (int i = 0; i < 1000; ++i) run.tick(i * kTick, 1, i * kTick + 0.004, 4);
+    EXPECT_LT(run.guard.generated(), 1e-12);
+}
+
+TEST(EnergyGuard, LetsABodyBounceOffAHandAtRest) {
+    Motion run;
+    for (int i = 0; i <= 50; ++i) {
+        const double x = -0.004 * std::sin(std::numbers::pi * i / 50);
+        run.tick(0, 0, x, k * x);
+    }
+    EXPECT_LT(run.guard.generated(), 1e-9);
+}
+
+TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
+    // the proxy sticks while the handle strains by 2 mm, then slides along behind it, and back
+    Motion run;
+    double p_P = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double x = 0.02 * std::sin(2 * std::numbers::pi * i * kTick / 2);
+        const double v = 0.02 * std::numbers::pi * std::cos(2 * std::numbers::pi * i * kTick / 2);
+        p_P = std::clamp(p_P, x - 0.002, x + 0.002);
+        run.tick(x, v, p_P, k * (p_P - x) - k * kTick / 2 * v);
+    }
+    EXPECT_LT(run.guard.generated(), kEnergyBudget / 10);
+    EXPECT_EQ(run.flags, 0u);
+}
+
+TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
+    // 5 N*s/m take energy for a second; then as much negative damping gives it. With v the mean
+    // square of the speed while in touch, half of the time, it gives c v / 2 a second.
+    Motion run;
+    const double depth = 0.002;
+    run.press(5, depth, 20);
+    ASSERT_LT(run.guard.generated(), 1e-3);
+    const double speed = depth * 2 * std::numbers::pi * 20;
+    const double power = 5 * speed * speed / 2 / 2;
+    const int cycles = static_cast<int>(2 * kEnergyBudget / power / 0.05) + 1;
+    run.press(-5, depth, cycles);
+    EXPECT_NE(run.flags & kEnergyGenerated, 0u) << cycles;
+    EXPECT_LT(cycles, 10);
+    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // it only warns
+}
+
+TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
+    EnergyGuard guard(EnergyGuardMode::act);
+    unsigned flags = 0;
+    // a push of 5 N out of nowhere, in which proxy and wall stand still
+    watch(guard, 0, 0.5, 0.005, 5, flags);
+    double damper = 0;
+    double x = 0;
+    for (int i = 0; i < 40 && flags == 0; ++i) {
+        x += 0.5 * kTick;
+        damper = watch(guard, x, 0.5, x + 0.005, 5, flags);
+    }
+    EXPECT_EQ(flags, 0u) << "a body pushed";
+    for (int i = 0; i < 40 && flags == 0; ++i) {
+        x += 0.5 * kTick;
+        // the force stays though the spring relaxes
+        damper = watch(guard, x, 0.5, 0.025, 5, flags);
+    }
+    EXPECT_EQ(flags, unsigned{kEnergyGenerated} | kEnergyDamped);
+    EXPECT_LT(damper, 0);
+    EXPECT_GE(damper, -kMostEnergyDamping * 0.5);
+    const double excess = guard.generated() - kEnergyBudget;
+    EXPECT_LE(-damper * 0.5 * kTick, excess * (1 + 1e-9));
+}
+
+TEST(EnergyGuard, CanBeOff) {
+    Motion run;
+    run.guard = EnergyGuard(EnergyGuardMode::off);
+    run.press(-5, 0.004, 20);
+    EXPECT_EQ(run.flags, 0u);
+    EXPECT_EQ(run.guard.generated(), 0);
+}
+
+}  // namespace
+}  // namespace dihaptic::haptics

@@ -1,0 +1,121 @@
+#include "servo/watchdog.h"
+
+#include <gtest/gtest.h>
+
+#include <future>
+
+#include "lift.h"
+#include "servo/run.h"
+
+namespace dihaptic::servo {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(Watchdog, LeavesTicksThatEndAlone) {
+    std::atomic<int> stops{0};
+    {
+        Watchdog watchdog(
+            std::chrono::seconds(5), [&] { ++stops; }, [] {});
+        for (int i = 0; i < 20; ++i) {
+            std::this_thread::sleep_for(milliseconds(1));
+            watchdog.end_tick(Watchdog::Clock::now());
+        }
+    }
+    EXPECT_EQ(stops, 0);
+}
+
+TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
+    std::promise<std::thread::id> stopper;
+    const auto begin = Watchdog::Clock::now();
+    Watchdog watchdog(
+        milliseconds(30), [&] { stopper.set_value(std::this_thread::get_id()); }, [] {});
+    EXPECT_NE(stopper.get_future().get(), std::this_thread::get_id());
+    EXPECT_GE(Watchdog::Clock::now() - begin, milliseconds(30));
+    std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
+}
+
+/// A device whose write blocks at the n-th tick, until somebody stops it or lets it go.
+class BlockingGroup final : public devices::DeviceGroup {
+  public:
+    BlockingGroup(int tick, bool can_stop) : DeviceGroup({{}}), tick_(tick), can_stop_(can_stop) {}
+    bool can_stop() const override { return can_stop_; }
+    void let_go() {
+        const std::lock_guard lock(mutex_);
+        free_ = true;
+        wake_.notify_all();
+    }
+    std::atomic<int> stops{0};
+
+  private:
+    void do_activate() override {}
+    void do_deactivate() override {}
+    void do_read(Time, std::span<devices::Reading> readings) noexcept override { readings[0] = {}; }
+    void do_write(std::span<const Vec3>) noexcept override {
+        if (tick_-- != 0) return;
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [&] { return free_; });
+    }
+    void do_stop() noexcept override {
+        ++stops;
+        let_go();
+    }
+
+    int tick_;
+    bool can_stop_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool free_ = false;
+};
+
+struct Blocked {
+    BlockingGroup* devices = nullptr;
+    std::unique_ptr<Servo> servo;
+    Timing timing;
+
+    explicit Blocked(bool can_stop) {
+        scene::Scene scene = block_on_table();
+        scene.fingers.resize(1);
+        auto group = std::make_unique<BlockingGroup>(50, can_stop);
+        devices = group.get();
+        servo = std::make_unique<Servo>(scene, Settings{}, std::move(group),
+                                        std::vector<Pose>{Pose{Quat::Identity(), {0, 0, 0.2}}});
+        servo->activate();
+        timing.reserve(4000);
+    }
+    void run(const std::function<void(const Timing::Stall&)>& stuck) {
+        const std::atomic<bool> stop{false};
+        run_real(*servo, {}, {}, Time(0), std::chrono::seconds(3), stop, timing, stuck);
+    }
+};
+
+TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
+    Blocked blocked(true);
+    blocked.run([](const Timing::Stall&) { FAIL(); });
+    EXPECT_EQ(blocked.devices->stops, 1);
+    ASSERT_TRUE(blocked.timing.stall);
+    EXPECT_TRUE(blocked.timing.stall->stopped);
+    EXPECT_NE(describe(*blocked.timing.stall).find("the watchdog switched the devices' force off"),
+              std::string::npos);
+    // the tick after the one that blocked knows by its own clock, which a replay has too
+    EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
+    EXPECT_GT(blocked.servo->fault().value, Settings{}.safety.max_pause);
+    EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // a second after the fault
+}
+
+TEST(WatchdogInRealTime, SaysWhenTheLoopIsStuckForGood) {
+    Blocked blocked(false);
+    std::atomic<int> told{0};
+    blocked.run([&](const Timing::Stall& stall) {
+        ++told;
+        EXPECT_FALSE(stall.stopped);
+        EXPECT_NE(describe(stall).find("no stop that the watchdog may call"), std::string::npos);
+        blocked.devices->let_go();  // a program would end here
+    });
+    EXPECT_EQ(told, 1);
+    EXPECT_EQ(blocked.devices->stops, 0);
+    EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
+}
+
+}  // namespace
+}  // namespace dihaptic::servo
