@@ -3,6 +3,25 @@
 #include <algorithm>
 
 namespace dihaptic::haptics {
+namespace {
+
+/// What the handle feels of a spring k and a damper c to a proxy that touches something. Between
+/// steps of the world the handle moves on: the force then stays in the friction cone of the step's
+/// contact.
+Vec3 felt(const dynamics::BodyState& proxy, double k, double c, const ProxyTouch& touch,
+          const Handle& handle, const Handle& of_step) noexcept {
+    // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
+    if (!touch.touching) return Vec3::Zero();
+    const Vec3 spring = k * (proxy.X_WB.p - handle.p_WH) + c * (proxy.v_WB - handle.v_WH);
+    if (handle.p_WH == of_step.p_WH && handle.v_WH == of_step.v_WH) return spring;
+    const double normal = std::max(0.0, spring.dot(touch.n_W));
+    Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
+    const double limit = touch.friction * normal;
+    if (tangential.norm() > limit) tangential *= limit / tangential.norm();
+    return normal * touch.n_W + tangential;
+}
+
+}  // namespace
 
 double damping(const CouplingSettings& settings, double h) {
     return settings.damping.value_or(settings.stiffness * h / 2);
@@ -16,7 +35,8 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
     damping_ = c;
     handle_ = handle;
     const double folded_mass = mass_ + h * c + h * h * k;
-    world.set_mass(proxy, folded_mass);
+    // a share of the whole equation: the velocity is the same, what contacts have to stop is less
+    world.set_mass(proxy, onset_.share() * folded_mass);
     world.set_velocity(
         proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
                    folded_mass);
@@ -24,18 +44,37 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
 
 Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                              const Handle& handle) const noexcept {
-    // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
-    if (!touch.touching) return Vec3::Zero();
+    return onset_.share() *
+           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
+}
+
+void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+                                  bool was_touching) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
-    Vec3 spring =
-        settings_.stiffness * (state.X_WB.p - handle.p_WH) + damping_ * (state.v_WB - handle.v_WH);
-    const bool of_this_step = handle.p_WH == handle_.p_WH && handle.v_WH == handle_.v_WH;
-    if (of_this_step) return spring;
-    const double normal = std::max(0.0, spring.dot(touch.n_W));
-    Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
-    const double limit = touch.friction * normal;
-    if (tangential.norm() > limit) tangential *= limit / tangential.norm();
-    return normal * touch.n_W + tangential;
+    const double k = settings_.stiffness;
+    const double c = damping(settings_, h);
+    damping_ = c;
+    handle_ = handle;
+    // lighter, no velocity that ends at the handle could pass on what the spring gives
+    const double mass = std::max(mass_, h * c + h * h * k);
+    const Vec3 stretch = handle.p_WH - state.X_WB.p;
+    const Vec3 change = stretch / h - state.v_WB;
+    const double most = h * max_force_ / mass;
+    const double size = change.norm();
+    double given = std::min(size, most);
+    if (was_touching && size > 0) {
+        // at the end of the step, were the proxy to go on as it goes; a pull takes it off a surface
+        const Vec3 spring = k * (stretch - h * state.v_WB) + c * (handle.v_WH - state.v_WB);
+        given = std::clamp(h / mass * spring.dot(change) / size, -most, given);
+    }
+    world.set_mass(proxy, onset_.share() * mass);
+    world.set_velocity(proxy, state.v_WB + (size > 0 ? given / size : 0) * change);
+}
+
+Vec3 VelocityImpulse::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                            const Handle& handle) const noexcept {
+    return onset_.share() *
+           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
 }
 
 void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
@@ -54,10 +93,11 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle
     const Vec3 along = speed.dot(line) * line;
     const Vec3 across = speed - along;
     world.set_mass(proxy, settings_.body_mass);
-    world.apply(
-        proxy,
-        k * stretch + settings_.body_damping_along * along + settings_.body_damping_across * across,
-        Vec3::Zero());
+    const double share = was_touching ? onset_.share() : 1;
+    world.apply(proxy,
+                share * (k * stretch + settings_.body_damping_along * along +
+                         settings_.body_damping_across * across),
+                Vec3::Zero());
 }
 
 void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handle,
@@ -66,7 +106,8 @@ void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handl
     const Vec3 stretch = state.X_WB.p - handle.p_WH;
     const Vec3 line = stretch.norm() > 0 ? Vec3(stretch.normalized()) : Vec3::Zero();
     const Vec3 along = (state.v_WB - handle.v_WH).dot(line) * line;
-    const Vec3 raw = settings_.stiffness * stretch + damping(settings_, h) * along;
+    const Vec3 raw =
+        onset_.share() * (settings_.stiffness * stretch + damping(settings_, h) * along);
     f_H_W_ = settings_.smoothing * raw + (1 - settings_.smoothing) * f_H_W_;
 }
 

@@ -8,6 +8,8 @@ Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSetti
       coupling_(ImplicitCoupling(coupling, finger.mass)),
       limiter_(max_force, max_force_rate) {
     if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
+    if (coupling.kind == CouplingKind::velocity_impulse)
+        coupling_ = VelocityImpulse(coupling, finger.mass, max_force);
 }
 
 Finger::Finger(PointProxy point, BodyIndex proxy, double max_force, double max_force_rate)
@@ -38,6 +40,8 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
         implicit->before_step(world, proxy_, handle, step);
     } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
         dual->before_step(world, proxy_, handle, step, touch_.touching);
+    } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
+        impulse->before_step(world, proxy_, handle, step, touch_.touching);
     }
 }
 
@@ -72,11 +76,14 @@ Finger::Output Finger::force(World& world, const Handle& handle, double tick) no
         out.f_asked_W = implicit->force(world, proxy_, touch_, handle);
     } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
         out.f_asked_W = dual->force();
+    } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
+        out.f_asked_W = impulse->force(world, proxy_, touch_, handle);
     } else {
         auto& point = std::get<PointProxy>(coupling_);
         out.f_asked_W = point.render(world, handle, tick, step_);
         feel(point.contacts());
     }
+    std::visit([&](auto& coupling) { coupling.onset().advance(touch_.touching, tick); }, coupling_);
     out.f_H_W = limiter_.limit(out.f_asked_W, tick, out.flags);
     return out;
 }

@@ -45,7 +45,7 @@ class Finger {
     void feel(std::span<const contact::Contact> contacts) noexcept;
 
     BodyIndex proxy_;
-    std::variant<ImplicitCoupling, DualSpring, PointProxy> coupling_;
+    std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy> coupling_;
     Limiter limiter_;
     ProxyTouch touch_;
     double step_ = 0;  // of the world [s]

@@ -32,6 +32,8 @@ class PointProxy {
         return {contacts_.data(), count_};
     }
 
+    Onset& onset() noexcept { return onset_; }
+
   private:
     Vec3 surface_velocity(const World& world) const noexcept;
     void resolve(const Vec3& f_W) noexcept;
@@ -39,6 +41,7 @@ class PointProxy {
     CouplingSettings coupling_;
     BodyIndex body_;
     GodObject point_;
+    Onset onset_;
     std::array<contact::Contact, kMostHalfSpaces> contacts_;
     size_t count_ = 0;
 };
