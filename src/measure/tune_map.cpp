@@ -130,7 +130,7 @@ double logarithm(double value) {
 std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title) {
     const double columns = static_cast<double>(setup.stiffness.size());
     const double rows = static_cast<double>(setup.damping.size());
-    const double width = std::max(kLeft + columns * kCell + 30, 780.0);
+    const double width = std::max(kLeft + columns * kCell + 30, 830.0);
     const double bottom = kTop + rows * kCell;
     Picture picture(width, bottom + 216);
     const auto x_of = [&](double k) {
@@ -199,17 +199,17 @@ std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std
     dot(picture, key, y);
     picture.text(key + 30, y + 5,
                  "calm with margin: with a tick more delay, 10 g, a loose and a firm hand, too");
-    picture.cell(key + 540, y, "#e69f00");
-    cross(picture, key + 540, y);
-    picture.text(key + 570, y + 5, "shaking");
+    picture.cell(key + 590, y, "#e69f00");
+    cross(picture, key + 590, y);
+    picture.text(key + 620, y + 5, "shaking");
     y += 50;
     picture.cell(key, y, "#a9d3f0");
     picture.text(key, y + 4, "DT", "middle", "font-size=\"11\" fill=\"#10364f\"");
     picture.text(key + 30, y + 5,
                  "calm as it is, but not with D: delay, T: ten grams, L: loose hand, F: firm hand");
-    picture.cell(key + 540, y, "#777777");
-    arrow_down(picture, key + 540, y);
-    picture.text(key + 570, y + 5, "dropped");
+    picture.cell(key + 590, y, "#777777");
+    arrow_down(picture, key + 590, y);
+    picture.text(key + 620, y + 5, "dropped");
     picture.text(key - 22, y + 52,
                  "black line: the damping that is taken when none is given, k h / 2");
     return picture.take();

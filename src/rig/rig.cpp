@@ -88,7 +88,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     for (const std::string& finger : fingers) {
         const Device& device = device_of(rig, finger);
         backend = devices::find_backend(device.backend);
-        configs.push_back({finger, device.X_WD(), device.options});
+        configs.push_back({finger, device.X_WD(), device.options, device.place});
     }
     if (backend == nullptr)
         throw Error(rig.place, "devices", "there are none", "List at least one device.");
