@@ -38,12 +38,28 @@ class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
-                    ["bench", "jitter"]]
+                    ["bench", "jitter"], ["tune"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
             self.assertIn("Example", result.stdout, command)
             self.assertIn("dihaptic", result.stdout, command)
+
+    def test_tune_refuses_a_rig_that_is_not_simulated_and_a_map_that_cannot_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            pathlib.Path(rig).write_text("devices:\n  - { finger: thumb, backend: replay }\n"
+                                         "  - { finger: index, backend: replay }\n")
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(rig + ":2: error: backend: devices of the backend 'replay' need a recording. Use", result.stderr)
+            pathlib.Path(rig).write_text("devices:\n  - { finger: toe, backend: simulated }\n")
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("no device is held by the scene's finger 'thumb'", result.stderr)
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("map.svg: error: cannot be written. Name another file by --map", result.stderr)
 
     def test_version(self):
         self.assertRegex(dihaptic("--version").stdout, r"^dihaptic \d+\.\d+\.\d+\n$")

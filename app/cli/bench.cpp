@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "experiment/plan.h"
 #include "measure/contact.h"
 #include "measure/friction.h"
 #include "measure/grasp.h"
@@ -16,6 +17,7 @@ struct Options {
     std::string solver;
     std::string coupling;
     std::string proxy;
+    std::vector<std::string> set;
     bool json = false;
 };
 
@@ -24,7 +26,7 @@ void add_common(CLI::App& command, Options& options) {
         "--solver", options.solver,
         "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
     command.add_option("--coupling", options.coupling,
-                       "coupling of handle and proxy: implicit, dual_spring");
+                       "coupling of handle and proxy: implicit, dual_spring, velocity_impulse");
     command.add_option("--rate", options.setup.settings.rate, "ticks a second [Hz]")
         ->check(rate_range())
         ->capture_default_str();
@@ -48,6 +50,8 @@ void resolve(Options& options) {
     choose(options.solver, "--solver", options.setup.settings.dynamics.solver);
     choose(options.proxy, "--proxy", options.setup.settings.proxy.kind);
     choose(options.coupling, "--coupling", options.setup.settings.coupling.kind);
+    for (const std::string& text : options.set)
+        experiment::apply_setting(options.setup.settings, text);
 }
 
 void add_grasp(CLI::App& bench) {
@@ -59,10 +63,13 @@ void add_grasp(CLI::App& bench) {
     command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
     command->add_option("--friction", options->setup.friction, "coefficient")
         ->capture_default_str();
+    command->add_option("--set", options->set,
+                        "any other setting, e.g. coupling.onset_ms=20; may be repeated");
     command->footer(
         "\nWithout --coupling the table has both couplings of rigid proxies, the JSON object the "
-        "default one.\n\nExample:\n"
-        "  dihaptic bench grasp --coupling dual_spring --mass 0.2");
+        "default one.\n\nExamples:\n"
+        "  dihaptic bench grasp --coupling dual_spring --mass 0.2\n"
+        "  dihaptic bench grasp --set coupling.onset_ms=20");
     command->callback([options] {
         resolve(*options);
         std::vector<measure::GraspResult> results{{options->setup, {}}};

@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
     cli::add_recover(app);
     cli::add_check(app);
     cli::add_bench(app);
+    cli::add_tune(app);
     try {
         refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);

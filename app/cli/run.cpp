@@ -197,7 +197,7 @@ void add_run(CLI::App& app) {
         "--solver", options->solver,
         "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
     command->add_option("--coupling", options->coupling,
-                        "coupling of handle and proxy: implicit, dual_spring");
+                        "coupling of handle and proxy: implicit, dual_spring, velocity_impulse");
     command->add_option("--proxy", options->proxy, "what a finger is in the world: rigid, point");
     command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
     command

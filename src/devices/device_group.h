@@ -57,6 +57,7 @@ struct DeviceConfig {
     std::string finger;
     Pose X_WD;
     Node options;  ///< the backend's own
+    Place place{};
 };
 
 /// What some backends need of the rest of the program.

@@ -113,10 +113,12 @@ void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
 /// Settings that a point has no use for.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     if (plan.settings.proxy.kind != haptics::ProxyKind::point) return;
-    if (plan.settings.coupling.kind == haptics::CouplingKind::dual_spring) {
-        diagnostics.warning(place_of(plan, "coupling.kind"), "coupling.kind",
-                            "a dual spring ties handles to rigid proxies; these proxies are points",
-                            "Leave it out, or use proxy: kind: rigid.");
+    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit) {
+        diagnostics.warning(
+            place_of(plan, "coupling.kind"), "coupling.kind",
+            fmt::format("{} ties handles to rigid proxies; these proxies are points",
+                        enum_name(plan.settings.coupling.kind)),
+            "Leave it out, or use proxy: kind: rigid.");
     }
     for (const scene::Finger& finger : plan.scene.fingers) {
         if (finger.torsion_radius <= 0) continue;
@@ -292,6 +294,12 @@ Plan make_plan(const Request& request) {
     diagnostics.throw_if_errors();
     plan.warnings = diagnostics.problems();
     return plan;
+}
+
+void apply_setting(servo::Settings& settings, const std::string& text) {
+    Diagnostics diagnostics;
+    read_fields(settings, setting(text), diagnostics);
+    diagnostics.throw_if_errors();
 }
 
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan) {

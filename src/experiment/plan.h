@@ -36,6 +36,9 @@ struct Plan {
     uint64_t seed = 1;
 };
 
+/// Overlays a setting in words, such as "coupling.stiffness_N_m=600". Throws Error.
+void apply_setting(servo::Settings& settings, const std::string& text);
+
 /// Reads and checks. Throws Error with every problem found.
 Plan make_plan(const Request& request);
 

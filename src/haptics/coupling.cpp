@@ -6,12 +6,36 @@ namespace dihaptic::haptics {
 namespace {
 
 /// What the step's contact can bear of it.
-Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) {
+Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
     const double normal = std::max(0.0, spring.dot(touch.n_W));
     Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
     const double limit = touch.friction * normal;
     if (tangential.norm() > limit) tangential *= limit / tangential.norm();
     return normal * touch.n_W + tangential;
+}
+
+bool same(const Handle& a, const Handle& b) noexcept {
+    return a.p_WH == b.p_WH && a.v_WH == b.v_WH;
+}
+
+/// What the handle feels of a spring k and a damper c to a proxy that touches something. Between
+/// steps of the world the handle moves on: the force then stays in the friction cone of the step's
+/// contact.
+Vec3 felt(const dynamics::BodyState& proxy, double k, double c, const ProxyTouch& touch,
+          const Handle& handle, const Handle& of_step) noexcept {
+    // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
+    if (!touch.touching) return Vec3::Zero();
+    const Vec3 spring = k * (proxy.X_WB.p - handle.p_WH) + c * (proxy.v_WB - handle.v_WH);
+    return same(handle, of_step) ? spring : in_cone(spring, touch);
+}
+
+/// Energy of that spring.
+double stored_in(const dynamics::BodyState& proxy, double k, const ProxyTouch& touch,
+                 const Handle& handle, const Handle& of_step) noexcept {
+    if (!touch.touching) return 0;
+    Vec3 stretch = proxy.X_WB.p - handle.p_WH;
+    if (!same(handle, of_step)) stretch = in_cone(stretch, touch);
+    return k / 2 * stretch.squaredNorm();
 }
 
 }  // namespace
@@ -28,7 +52,8 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
     damping_ = c;
     handle_ = handle;
     const double folded_mass = mass_ + h * c + h * h * k;
-    world.set_mass(proxy, folded_mass);
+    // a share of the whole equation: the velocity is the same, what contacts have to stop is less
+    world.set_mass(proxy, onset_.share() * folded_mass);
     world.set_velocity(
         proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
                    folded_mass);
@@ -36,20 +61,49 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
 
 Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                              const Handle& handle) const noexcept {
-    // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
-    if (!touch.touching) return Vec3::Zero();
-    const dynamics::BodyState& state = world.state(proxy);
-    Vec3 spring =
-        settings_.stiffness * (state.X_WB.p - handle.p_WH) + damping_ * (state.v_WB - handle.v_WH);
-    return of_this_step(handle) ? spring : in_cone(spring, touch);
+    return onset_.share() *
+           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
 }
 
 double ImplicitCoupling::stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                                 const Handle& handle) const noexcept {
-    if (!touch.touching) return 0;
-    Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
-    if (!of_this_step(handle)) stretch = in_cone(stretch, touch);
-    return settings_.stiffness / 2 * stretch.squaredNorm();
+    return onset_.share() *
+           stored_in(world.state(proxy), settings_.stiffness, touch, handle, handle_);
+}
+
+void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+                                  bool was_touching) noexcept {
+    const dynamics::BodyState& state = world.state(proxy);
+    const double k = settings_.stiffness;
+    const double c = damping(settings_, h);
+    damping_ = c;
+    handle_ = handle;
+    // lighter, no velocity that ends at the handle could pass on what the spring gives
+    const double mass = std::max(mass_, h * c + h * h * k);
+    const Vec3 stretch = handle.p_WH - state.X_WB.p;
+    const Vec3 change = stretch / h - state.v_WB;
+    const double most = h * max_force_ / mass;
+    const double size = change.norm();
+    double given = std::min(size, most);
+    if (was_touching && size > 0) {
+        // at the end of the step, were the proxy to go on as it goes; a pull takes it off a surface
+        const Vec3 spring = k * (stretch - h * state.v_WB) + c * (handle.v_WH - state.v_WB);
+        given = std::clamp(h / mass * spring.dot(change) / size, -most, given);
+    }
+    world.set_mass(proxy, onset_.share() * mass);
+    world.set_velocity(proxy, state.v_WB + (size > 0 ? given / size : 0) * change);
+}
+
+Vec3 VelocityImpulse::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                            const Handle& handle) const noexcept {
+    return onset_.share() *
+           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
+}
+
+double VelocityImpulse::stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                               const Handle& handle) const noexcept {
+    return onset_.share() *
+           stored_in(world.state(proxy), settings_.stiffness, touch, handle, handle_);
 }
 
 void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
@@ -68,10 +122,11 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle
     const Vec3 along = speed.dot(line) * line;
     const Vec3 across = speed - along;
     world.set_mass(proxy, settings_.body_mass);
-    world.apply(
-        proxy,
-        k * stretch + settings_.body_damping_along * along + settings_.body_damping_across * across,
-        Vec3::Zero());
+    const double share = was_touching ? onset_.share() : 1;
+    world.apply(proxy,
+                share * (k * stretch + settings_.body_damping_along * along +
+                         settings_.body_damping_across * across),
+                Vec3::Zero());
 }
 
 void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handle,
@@ -80,7 +135,8 @@ void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handl
     const Vec3 stretch = state.X_WB.p - handle.p_WH;
     const Vec3 line = stretch.norm() > 0 ? Vec3(stretch.normalized()) : Vec3::Zero();
     const Vec3 along = (state.v_WB - handle.v_WH).dot(line) * line;
-    const Vec3 raw = settings_.stiffness * stretch + damping(settings_, h) * along;
+    const Vec3 raw =
+        onset_.share() * (settings_.stiffness * stretch + damping(settings_, h) * along);
     f_H_W_ = settings_.smoothing * raw + (1 - settings_.smoothing) * f_H_W_;
 }
 

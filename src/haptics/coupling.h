@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/world.h"
+#include "haptics/onset.h"
 #include "haptics/settings.h"
 
 namespace dihaptic::haptics {
@@ -29,7 +30,7 @@ class ImplicitCoupling {
   public:
     /// `mass`: the proxy's own [kg].
     ImplicitCoupling(const CouplingSettings& settings, double mass)
-        : settings_(settings), mass_(mass) {}
+        : settings_(settings), mass_(mass), onset_(settings.onset) {}
 
     /// Folds spring and damper into the proxy's mass and velocity. `h`: the coming step of the
     /// world [s].
@@ -43,14 +44,39 @@ class ImplicitCoupling {
     /// does not [J].
     double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                   const Handle& handle) const noexcept;
+    Onset& onset() noexcept { return onset_; }
 
   private:
-    bool of_this_step(const Handle& handle) const noexcept {
-        return handle.p_WH == handle_.p_WH && handle.v_WH == handle_.v_WH;
-    }
-
     CouplingSettings settings_;
     double mass_;
+    Onset onset_;
+    double damping_ = 0;  // c [N*s/m]
+    Handle handle_;       // of the last step
+};
+
+/// Before each step the proxy is given the velocity that takes it to the handle in that step, by an
+/// impulse that is bounded: in free space by the largest force that the hand may feel, in touch by
+/// what spring and damper give. The report's idea of 2012.
+class VelocityImpulse {
+  public:
+    /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].
+    VelocityImpulse(const CouplingSettings& settings, double mass, double max_force)
+        : settings_(settings), mass_(mass), max_force_(max_force), onset_(settings.onset) {}
+
+    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+                     bool was_touching) noexcept;
+    /// As ImplicitCoupling's.
+    Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+               const Handle& handle) const noexcept;
+    double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                  const Handle& handle) const noexcept;
+    Onset& onset() noexcept { return onset_; }
+
+  private:
+    CouplingSettings settings_;
+    double mass_;
+    double max_force_;
+    Onset onset_;
     double damping_ = 0;  // c [N*s/m]
     Handle handle_;       // of the last step
 };
@@ -59,7 +85,8 @@ class ImplicitCoupling {
 /// Both forces follow from where proxy and handle are at the tick, before the world steps on.
 class DualSpring {
   public:
-    explicit DualSpring(const CouplingSettings& settings) : settings_(settings) {}
+    explicit DualSpring(const CouplingSettings& settings)
+        : settings_(settings), onset_(settings.onset) {}
 
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
                      bool was_touching) noexcept;
@@ -68,11 +95,13 @@ class DualSpring {
     Vec3 force() const noexcept { return f_H_W_; }
     double stored(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
-        return settings_.stiffness / 2 * stretch.squaredNorm();
+        return onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm();
     }
+    Onset& onset() noexcept { return onset_; }
 
   private:
     CouplingSettings settings_;
+    Onset onset_;
     Vec3 f_H_W_ = Vec3::Zero();  // smoothed [N]
 };
 

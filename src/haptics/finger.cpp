@@ -2,9 +2,12 @@
 
 namespace dihaptic::haptics {
 
-Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling)
+Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
+               double max_force)
     : proxy_(proxy), coupling_(ImplicitCoupling(coupling, finger.mass)) {
     if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
+    if (coupling.kind == CouplingKind::velocity_impulse)
+        coupling_ = VelocityImpulse(coupling, finger.mass, max_force);
 }
 
 Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
@@ -34,6 +37,8 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
         implicit->before_step(world, proxy_, handle, step);
     } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
         dual->before_step(world, proxy_, handle, step, touch_.touching);
+    } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
+        impulse->before_step(world, proxy_, handle, step, touch_.touching);
     }
 }
 
@@ -63,20 +68,30 @@ void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
 }
 
 Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
-    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
-        return implicit->force(world, proxy_, touch_, handle);
-    if (auto* dual = std::get_if<DualSpring>(&coupling_)) return dual->force();
-    auto& point = std::get<PointProxy>(coupling_);
-    const Vec3 f_H_W = point.render(world, handle, tick, step_);
-    feel(point.contacts());
+    Vec3 f_H_W;
+    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
+        f_H_W = implicit->force(world, proxy_, touch_, handle);
+    } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
+        f_H_W = dual->force();
+    } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
+        f_H_W = impulse->force(world, proxy_, touch_, handle);
+    } else {
+        auto& point = std::get<PointProxy>(coupling_);
+        f_H_W = point.render(world, handle, tick, step_);
+        feel(point.contacts());
+    }
+    stored_ = spring_energy(world, handle);
+    std::visit([&](auto& coupling) { coupling.onset().advance(touch_.touching, tick); }, coupling_);
     return f_H_W;
 }
 
-double Finger::stored(const World& world, const Handle& handle) const noexcept {
+double Finger::spring_energy(const World& world, const Handle& handle) const noexcept {
     if (const auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
         return implicit->stored(world, proxy_, touch_, handle);
     if (const auto* dual = std::get_if<DualSpring>(&coupling_))
         return dual->stored(world, proxy_, handle);
+    if (const auto* impulse = std::get_if<VelocityImpulse>(&coupling_))
+        return impulse->stored(world, proxy_, touch_, handle);
     return std::get<PointProxy>(coupling_).stored(handle);
 }
 

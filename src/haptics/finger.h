@@ -12,8 +12,10 @@ namespace dihaptic::haptics {
 
 class Finger {
   public:
-    /// `finger`'s proxy is body `proxy` of the world.
-    Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling);
+    /// `finger`'s proxy is body `proxy` of the world. `max_force`: the largest that the hand may
+    /// feel [N].
+    Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
+           double max_force);
     /// The same with a point for a proxy.
     Finger(PointProxy point, BodyIndex proxy);
 
@@ -34,15 +36,17 @@ class Finger {
     /// Last in every tick: what the coupling wants the handle to feel as it is now [N]. `tick`: its
     /// length [s].
     Vec3 force(World& world, const Handle& handle, double tick) noexcept;
-    /// Energy in its coupling's spring after that [J].
-    double stored(const World& world, const Handle& handle) const noexcept;
+    /// Energy in its coupling's spring then [J].
+    double stored() const noexcept { return stored_; }
 
   private:
     void feel(std::span<const contact::Contact> contacts) noexcept;
+    double spring_energy(const World& world, const Handle& handle) const noexcept;
 
     BodyIndex proxy_;
-    std::variant<ImplicitCoupling, DualSpring, PointProxy> coupling_;
+    std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy> coupling_;
     ProxyTouch touch_;
+    double stored_ = 0;
     double step_ = 0;  // of the world [s]
 };
 

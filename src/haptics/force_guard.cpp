@@ -1,15 +1,6 @@
 #include "haptics/force_guard.h"
 
-#include <algorithm>
-
 namespace dihaptic::haptics {
-namespace {
-
-double max_force(const SafetySettings& settings, const DeviceLimits& limits) {
-    return std::min(settings.max_force.value_or(limits.peak_force), limits.peak_force);
-}
-
-}  // namespace
 
 ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick,
                        const Pose& X_WD)
@@ -18,7 +9,7 @@ ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limit
       X_DW_(X_WD.inverse()),
       energy_(settings.energy_guard),
       wall_(limits.workspace, settings.workspace_stiffness, tick),
-      limiter_(max_force(settings, limits), settings.max_force_rate,
+      limiter_(settings.largest_force(limits.peak_force), settings.max_force_rate,
                Heating(limits.peak_force, limits.continuous_force, settings.heating_time)) {}
 
 Vec3 ForceGuard::shape(const Vec3& f_asked_W, const Handle& handle, const Vec3& p_WP, double stored,

@@ -18,7 +18,8 @@ PointProxy::PointProxy(const scene::Scene& scene, size_t finger, BodyIndex body,
                        const CouplingSettings& coupling, const ProxySettings& settings)
     : coupling_(coupling),
       body_(body),
-      point_(scene.bodies, frictions(scene, scene.fingers[finger]), settings.sliding_friction) {}
+      point_(scene.bodies, frictions(scene, scene.fingers[finger]), settings.sliding_friction),
+      onset_(coupling.onset) {}
 
 void PointProxy::place(World& world, const Vec3& p_WP) noexcept {
     point_.place(p_WP, world.states());
@@ -34,8 +35,8 @@ Vec3 PointProxy::render(World& world, const Handle& handle, double h, double ste
 
     count_ = 0;
     if (point_.contacts().empty()) return Vec3::Zero();
-    resolve(coupling_.stiffness * (p_WP - handle.p_WH) +
-            damping(coupling_, h) * (surface_velocity(world) - handle.v_WH));
+    resolve(onset_.share() * (coupling_.stiffness * (p_WP - handle.p_WH) +
+                              damping(coupling_, h) * (surface_velocity(world) - handle.v_WH)));
     Vec3 f_H_W = Vec3::Zero();
     for (const contact::Contact& c : contacts()) {
         f_H_W += c.f_B_W;

@@ -30,11 +30,14 @@ class PointProxy {
     /// Of the last tick, from body to point.
     /// Energy of the spring to it [J].
     double stored(const Handle& handle) const noexcept {
-        return coupling_.stiffness / 2 * (point_.position() - handle.p_WH).squaredNorm();
+        return onset_.share() * coupling_.stiffness / 2 *
+               (point_.position() - handle.p_WH).squaredNorm();
     }
     std::span<const contact::Contact> contacts() const noexcept {
         return {contacts_.data(), count_};
     }
+
+    Onset& onset() noexcept { return onset_; }
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;
@@ -43,6 +46,7 @@ class PointProxy {
     CouplingSettings coupling_;
     BodyIndex body_;
     GodObject point_;
+    Onset onset_;
     std::array<contact::Contact, kMostHalfSpaces> contacts_;
     size_t count_ = 0;
 };

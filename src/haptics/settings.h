@@ -1,6 +1,7 @@
 // What an experiment may choose about haptic rendering.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -9,9 +10,9 @@
 
 namespace dihaptic::haptics {
 
-enum class CouplingKind { implicit, dual_spring };
+enum class CouplingKind { implicit, dual_spring, velocity_impulse };
 constexpr auto enum_names(CouplingKind) {
-    return std::array{"implicit", "dual_spring"};
+    return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
 /// How a handle and its proxy pull at each other; equations in README.md.
@@ -19,6 +20,7 @@ struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
     std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
+    double onset = 0;  ///< from first touch to full stiffness and damping; 0: at once [s]
 
     // dual spring only
     double body_mass = 0.02;  ///< of the proxy, in place of its own: an explicit spring diverges
@@ -33,6 +35,7 @@ struct CouplingSettings {
         v("kind", kind);
         v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("onset", onset, Field::of(Quantity::time).within(0, 1));
         v("body_mass", body_mass, Field::of(Quantity::mass).positive());
         v("body_damping_along", body_damping_along, Field::of(Quantity::damping).at_least(0));
         v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
@@ -77,6 +80,9 @@ struct SafetySettings {
     std::string dead_man_finger;       ///< whose device has the dead-man switch; empty: none
     int dead_man_button = 0;           ///< which of its buttons
     EnergyGuardMode energy_guard = EnergyGuardMode::warn;
+
+    /// Magnitude limit with a device of so much peak force [N].
+    double largest_force(double peak) const { return std::min(max_force.value_or(peak), peak); }
 
     template <class Visitor>
     void visit(Visitor& v) {

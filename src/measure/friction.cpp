@@ -211,7 +211,7 @@ scene::Scene arch_scene(int voussoirs) {
 
 Trial pinch_trial() {
     Trial trial;
-    const double grip = model::series_spring_force(kSqueeze, kHandStiffness, 1000);
+    const double grip = press_force({});
     scene::Body block = box("block", Vec3::Constant(kBlockSize), Vec3::Zero(), 0.8);
     block.mass = 0.1;
     trial.scene.bodies = {block};

@@ -31,12 +31,12 @@ BenchSetup with(BenchSetup setup, double k, Fingering fingering = Fingering::ide
 
 /// A spring of the same K that pushes at every instant, sampled by nothing: the best that the kick
 /// can be.
-double perfect_peak(double k, double speed) {
+double perfect_peak(const BenchSetup& setup, double speed) {
     const double h = 1e-6;
     const double mass = 0.075;
-    const double damping = 3;
+    const double k = setup.settings.coupling.stiffness;
     double x = -kStartGap, v = 0, peak = 0;
-    const double end = kStartGap + kSqueeze;
+    const double end = kStartGap + setup.squeeze;
     const auto steps = static_cast<int>((end / speed + 1) / h);
     for (int i = 0; i < steps; ++i) {
         const double t = i * h;
@@ -45,7 +45,8 @@ double perfect_peak(double k, double speed) {
         const double push = x > 0 ? k * x : 0;
         peak = std::max(peak, push);
         v += h / mass *
-             (kHandStiffness * (target - x) + damping * ((running ? speed : 0) - v) - push);
+             (setup.impedance.stiffness * (target - x) +
+              setup.impedance.damping * ((running ? speed : 0) - v) - push);
         x += h * v;
     }
     return peak;
@@ -79,14 +80,13 @@ HoldFigures measure_hold(const BenchSetup& setup) {
     out.turn_deg = degrees(trace.turn(hold));
     out.hf_force_n = trace.force_above_5_hz(settled);
     out.weight_ratio = trace.weight_felt(settled) / (setup.mass * kGravity);
-    out.grip_ratio =
-        trace.mean_grip(settled) / model::series_spring_force(kSqueeze, kHandStiffness, k);
+    out.grip_ratio = trace.mean_grip(settled) / press_force(setup);
     return out;
 }
 
-bool calm_grasp(const HoldFigures& hold) {
+bool calm_grasp(const HoldFigures& hold, double grip_slack) {
     return hold.held && hold.hf_force_n < 0.02 && std::abs(hold.weight_ratio - 1) < 0.005 &&
-           std::abs(hold.grip_ratio - 1) < 0.02;
+           std::abs(hold.grip_ratio - 1) < 0.02 + grip_slack;
 }
 
 bool calm_wall(const BenchSetup& setup) {
@@ -95,15 +95,14 @@ bool calm_wall(const BenchSetup& setup) {
     bench.run([&](const servo::Frame& frame) { trace.add(frame); });
     const double end = bench.driver().duration();
     const analysis::Range settled = trace.between(end - kLastSeconds, end);
-    const double expected =
-        model::series_spring_force(kSqueeze, kHandStiffness, setup.settings.coupling.stiffness);
+    const double expected = press_force(setup);
     return trace.force_above_5_hz(settled) < 0.02 &&
            std::abs(trace.mean_force(settled) / expected - 1) < 0.02;
 }
 
 KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
-    const double way = kStartGap + kSqueeze;
+    const double way = kStartGap + setup.squeeze;
     hand.script = {{"press", way / speed, {}, {way, 0, 0}, true},
                    {"stay", 1, {}, Vec3::Zero(), false},
                    {"leave", way / speed, {}, {-way, 0, 0}, true},
@@ -135,7 +134,7 @@ KickFigures measure_kick(BenchSetup setup, double speed) {
             out.leave_pull_n = std::max(out.leave_pull_n, -push);
         }
     });
-    out.kick_ratio = peak / perfect_peak(out.k, speed);
+    out.kick_ratio = peak / perfect_peak(setup, speed);
     out.touch_step_n = std::max(0.0, first_force - out.k * first_depth);
     return out;
 }

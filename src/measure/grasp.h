@@ -54,7 +54,8 @@ struct GraspFigures {
 
 /// One lift and hold, with setup.settings.coupling.stiffness.
 HoldFigures measure_hold(const BenchSetup& setup);
-bool calm_grasp(const HoldFigures& hold);
+/// `grip_slack`: share of the grip that the device's friction may take.
+bool calm_grasp(const HoldFigures& hold, double grip_slack = 0);
 /// One finger pressed 15 mm into a fixed wall: whether it is calm.
 bool calm_wall(const BenchSetup& setup);
 /// Touching a wall at a speed, and leaving it.

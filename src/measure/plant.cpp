@@ -1,5 +1,8 @@
 #include "measure/plant.h"
 
+#include <cmath>
+
+#include "base/field_writer.h"
 #include "measure/blocks.h"
 
 namespace dihaptic::measure {
@@ -28,17 +31,43 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
     }
 }
 
-Node device_options(const BenchSetup& setup) {
-    Node options = Node::mapping();
-    if (setup.row == Row::delay) options.set("delay_ticks", Node::of("1"));
-    if (setup.row == Row::premium) {
-        options.set("position_step_mm", Node::of("0.03"));
-        options.set("friction_N", Node::of("0.04"));
+/// The setup's devices, with what its row does to them.
+rig::Rig devices_of(const BenchSetup& setup, const std::vector<std::string>& fingers) {
+    rig::Rig rig = rig::simulated_rig(fingers);
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        if (i < setup.devices.size()) {
+            rig.devices[i] = setup.devices[i];
+            rig.devices[i].finger = fingers[i];
+        }
+        devices::simulated::Options options = simulated_options(rig.devices[i]);
+        if (setup.row == Row::delay) ++options.delay_ticks;
+        if (setup.row == Row::premium) {
+            options.position_step = 0.03e-3;
+            options.friction = 0.04;
+        }
+        rig.devices[i].options = write_fields(options);
     }
-    return options;
+    return rig;
 }
 
 }  // namespace
+
+devices::simulated::Options simulated_options(const rig::Device& device) {
+    devices::simulated::Options options;
+    Diagnostics diagnostics;
+    if (device.options.kind != Node::Kind::null) read_fields(options, device.options, diagnostics);
+    diagnostics.throw_if_errors();
+    return options;
+}
+
+double press_force(const BenchSetup& setup) {
+    // F = x k (a + b F) / (k + a + b F), the hand's a growing by b for each newton
+    const double k = setup.settings.coupling.stiffness;
+    const double a = setup.impedance.stiffness;
+    const double b = setup.impedance.stiffness_per_force;
+    const double half = (a + k - setup.squeeze * k * b) / 2;
+    return setup.squeeze * k * a / (half + std::sqrt(half * half + b * setup.squeeze * k * a));
+}
 
 double reach(const BenchSetup& setup) {
     return setup.settings.proxy.kind == haptics::ProxyKind::point ? 0 : kPadThickness / 2;
@@ -60,13 +89,14 @@ scene::Scene grasp_scene(const BenchSetup& setup) {
 
 hand::HandSpec grasp_hand(const BenchSetup& setup) {
     hand::HandSpec hand;
+    hand.impedance = setup.impedance;
     const double contact = kBlockSize + 2 * reach(setup);
     hand.centre = {0, 0, kBlockSize / 2};
     hand.aperture = contact + 2 * kStartGap;
-    const double closed = contact - 2 * kSqueeze;
+    const double closed = contact - 2 * setup.squeeze;
     hand.script = {{"close", 1, closed, Vec3::Zero(), false},
                    {"wait", 1, {}, Vec3::Zero(), false},
-                   {"rise", 1, {}, {0, 0, kLift}, false},
+                   {"rise", setup.rise_time, {}, {0, 0, setup.lift}, false},
                    {"hold", setup.hold_time, {}, Vec3::Zero(), false},
                    {"open", 1, hand.aperture, Vec3::Zero(), false}};
     hand::FingerPlace thumb{"thumb", {-1, 0, 0}, Vec3::Zero()};
@@ -100,8 +130,9 @@ scene::Scene wall_scene(const BenchSetup& setup) {
 
 hand::HandSpec wall_hand(const BenchSetup& setup) {
     hand::HandSpec hand;
+    hand.impedance = setup.impedance;
     hand.centre = {-reach(setup) - kStartGap, 0, 0};
-    hand.script = {{"close", 1, {}, {kStartGap + kSqueeze, 0, 0}, false},
+    hand.script = {{"close", 1, {}, {kStartGap + setup.squeeze, 0, 0}, false},
                    {"hold", 5, {}, Vec3::Zero(), false}};
     return hand;
 }
@@ -109,8 +140,7 @@ hand::HandSpec wall_hand(const BenchSetup& setup) {
 Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const BenchSetup& setup) {
     const std::vector<std::string> fingers = scene::finger_names(scene);
     driver_ = std::make_unique<hand::ScriptDriver>(hand, fingers);
-    rig::Rig rig = rig::simulated_rig(fingers);
-    for (rig::Device& device : rig.devices) device.options = device_options(setup);
+    const rig::Rig rig = devices_of(setup, fingers);
     devices::Context context;
     context.tick = setup.settings.tick();
     context.driver = driver_.get();

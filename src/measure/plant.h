@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "analysis/grasp_trace.h"
+#include "devices/simulated/options.h"
 #include "hand/script.h"
+#include "rig/rig.h"
 #include "servo/run.h"
 
 namespace dihaptic::measure {
@@ -33,18 +35,22 @@ struct BenchSetup {
     double friction = 0.8;
     Fingering fingering = Fingering::ideal;
     Row row = Row::ideal;
-    double hold_time = 5;  ///< [s]
-    int extra_blocks = 0;  ///< on the table, behind the work
+    std::vector<rig::Device> devices;  ///< of thumb and index, simulated; empty: ideal ones
+    hand::Impedance impedance;
+    double squeeze = 0.015;  ///< targets go so far beyond contact [m]
+    double lift = 0.1;       ///< the hand rises so far [m]
+    double rise_time = 1;    ///< [s]
+    double hold_time = 5;    ///< [s]
+    int extra_blocks = 0;    ///< on the table, behind the work
 };
 
 constexpr double kBlockSize = 0.04;      // [m]
 constexpr double kPadThickness = 0.005;  // [m]
 /// From a finger's proxy to its face: half a pad, or nothing for a point [m].
 double reach(const BenchSetup& setup);
-constexpr double kSqueeze = 0.015;      // targets go so far beyond contact [m]
-constexpr double kStartGap = 0.03;      // fingers start so far off the faces [m]
-constexpr double kLift = 0.1;           // [m]
-constexpr double kHandStiffness = 300;  // [N/m]
+constexpr double kStartGap = 0.03;  // fingers start so far off the faces [m]
+/// Force of a finger that presses, in closed form [N].
+double press_force(const BenchSetup& setup);
 
 scene::Scene grasp_scene(const BenchSetup& setup);
 /// Close 1 s, wait 1 s, rise 1 s, hold 5 s, open 1 s.
@@ -54,6 +60,9 @@ enum GraspPhase { kClose, kWait, kRise, kHold, kOpen };
 /// One finger and a fixed wall at x = 0, its face looking toward -x.
 scene::Scene wall_scene(const BenchSetup& setup);
 hand::HandSpec wall_hand(const BenchSetup& setup);
+
+/// What a simulated device is like. Throws Error.
+devices::simulated::Options simulated_options(const rig::Device& device);
 
 /// A servo on simulated devices in the scripted hand.
 class Bench {

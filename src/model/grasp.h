@@ -10,6 +10,11 @@ constexpr double series_spring_force(double x, double k_hand, double k) {
     return x * k_hand * k / (k_hand + k);
 }
 
+/// How far the hand's spring and the coupling's in series give under a force [m].
+constexpr double series_spring_stretch(double force, double k_hand, double k) {
+    return force * (k_hand + k) / (k_hand * k);
+}
+
 /// Smallest grip force that holds a load with two digits: load / (2 mu) [N].
 constexpr double minimum_grip(double load, double friction) {
     return load / (2 * friction);

@@ -42,6 +42,8 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
         diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
 }
 
+}  // namespace
+
 const Device& device_of(const Rig& rig, const std::string& finger) {
     const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
                                     [&](const Device& d) { return d.finger == finger; });
@@ -53,8 +55,6 @@ const Device& device_of(const Rig& rig, const std::string& finger) {
                 fmt::format("The rig has devices for {}: add one, or choose another rig.",
                             fmt::join(held, ", ")));
 }
-
-}  // namespace
 
 Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
     Rig rig;
@@ -88,7 +88,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     for (const std::string& finger : fingers) {
         const Device& device = device_of(rig, finger);
         backend = devices::find_backend(device.backend);
-        configs.push_back({finger, device.X_WD(), device.options});
+        configs.push_back({finger, device.X_WD(), device.options, device.place});
     }
     if (backend == nullptr)
         throw Error(rig.place, "devices", "there are none", "List at least one device.");

@@ -51,6 +51,8 @@ Rig simulated_rig(const std::vector<std::string>& fingers);
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context);
+/// The device that a finger holds. Throws Error when it holds none.
+const Device& device_of(const Rig& rig, const std::string& finger);
 /// X_WD by finger.
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers);
 

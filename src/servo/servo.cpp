@@ -68,7 +68,8 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
                 haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
         } else {
             const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
-            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling);
+            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling,
+                                  settings.safety.largest_force(info.peak_force));
         }
         X_DW_.push_back(X_WD_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed);
@@ -177,9 +178,8 @@ void Servo::make_forces(Time now) noexcept {
         force.flags = 0;
         force.asked_W = fingers_[i].force(world_, handles_[i], settings_.tick());
         const Vec3& p_WP = world_.state(fingers_[i].proxy()).X_WB.p;
-        const double stored = fingers_[i].stored(world_, handles_[i]);
-        force.felt_W =
-            force_guards_[i].shape(force.asked_W, handles_[i], p_WP, stored, stepped, force.flags);
+        force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], p_WP,
+                                              fingers_[i].stored(), stepped, force.flags);
         asked = asked || force.felt_W != Vec3::Zero();
     }
     const bool allowed = switch_held();

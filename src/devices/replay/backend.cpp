@@ -63,8 +63,9 @@ void check(const DeviceConfig& config, Diagnostics& diagnostics) {
 std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
                                   const Context& context) {
     if (!context.recording) {
-        throw Error("devices of the backend 'replay' need a recording",
-                    "Use: dihaptic replay SESSION.");
+        throw Error(configs.empty() ? Place{} : configs.front().place, "backend",
+                    "devices of the backend 'replay' need a recording",
+                    "Use dihaptic replay SESSION, or backend: simulated.");
     }
     return std::make_unique<ReplayGroup>(configs, context);
 }

@@ -165,7 +165,7 @@ TEST(Plan, WarnsOfWhatAPointHasNoUseFor) {
                              "settings: {proxy: {kind: point}, coupling: {kind: dual_spring}}\n");
     files.scene += "fingers: [{name: thumb, shape: sphere, radius_mm: 8, torsion_radius_mm: 6}]\n";
     const std::string said = files.messages();
-    EXPECT_NE(said.find("warning: coupling.kind: a dual spring ties handles to rigid proxies"),
+    EXPECT_NE(said.find("warning: coupling.kind: dual_spring ties handles to rigid proxies"),
               std::string::npos)
         << said;
     EXPECT_NE(said.find("a point carries no moment about a contact's normal"), std::string::npos)

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "haptics/finger.h"
 #include "haptics/limiter.h"
@@ -88,7 +91,7 @@ CouplingSettings implicit(double k) {
 
 TEST(ImplicitCoupling, LeavesTheHandFreeInFreeSpaceAndTheProxyFollows) {
     Scene s;
-    Finger finger(s.finger, s.proxy, implicit(1000));
+    Finger finger(s.finger, s.proxy, implicit(1000), 8.5);
     for (int i = 0; i < 300; ++i) {
         const double y = 0.1 * i * kStep;
         EXPECT_EQ(s.tick(finger, {{-0.05, y, 0}, {0, 0.1, 0}}), Vec3::Zero());
@@ -99,7 +102,7 @@ TEST(ImplicitCoupling, LeavesTheHandFreeInFreeSpaceAndTheProxyFollows) {
 TEST(ImplicitCoupling, PressesAWallWithStiffnessTimesDepth) {
     for (const double k : {300.0, 4000.0}) {
         Scene s;
-        Finger finger(s.finger, s.proxy, implicit(k));
+        Finger finger(s.finger, s.proxy, implicit(k), 8.5);
         Vec3 f;
         const double depth = 0.01;
         for (int i = 0; i < 2000; ++i) {
@@ -116,7 +119,7 @@ TEST(ImplicitCoupling, PressesAWallWithStiffnessTimesDepth) {
 
 TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
     Scene s;
-    Finger finger(s.finger, s.proxy, implicit(1000));
+    Finger finger(s.finger, s.proxy, implicit(1000), 8.5);
     Vec3 f;
     double largest = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -136,7 +139,7 @@ TEST(ImplicitCoupling, FrictionHoldsTheProxyUntilTheHandLeavesItsCone) {
 
 TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
     Scene s;
-    Finger finger(s.finger, s.proxy, implicit(1000));
+    Finger finger(s.finger, s.proxy, implicit(1000), 8.5);
     for (int i = 0; i < 2000; ++i)
         s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
     EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).x(), -11, 0.01);
@@ -152,7 +155,7 @@ TEST(DualSpring, SmoothsTheForceByItsFilter) {
     settings.kind = CouplingKind::dual_spring;
     settings.stiffness = 100;
     settings.damping = 0;
-    Finger finger(s.finger, s.proxy, settings);
+    Finger finger(s.finger, s.proxy, settings, 8.5);
     const Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
     // the proxy stands still for the first force: it is one hundredth of a metre behind
     finger.begin_tick(s.world, handle, kStep);
@@ -167,7 +170,7 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
     Scene s;
     CouplingSettings settings;
     settings.kind = CouplingKind::dual_spring;
-    Finger finger(s.finger, s.proxy, settings);
+    Finger finger(s.finger, s.proxy, settings, 8.5);
     Vec3 f;
     for (int i = 0; i < 400; ++i) {
         const double t = i * kStep;
@@ -176,6 +179,122 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
     // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper
     // adds a little, since the proxy's speed is a step late
     EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
+}
+
+CouplingSettings velocity_impulse(double k) {
+    CouplingSettings settings = implicit(k);
+    settings.kind = CouplingKind::velocity_impulse;
+    return settings;
+}
+
+TEST(VelocityImpulse, TakesTheProxyToTheHandleInOneStepAndLeavesTheHandFree) {
+    Scene s;
+    Finger finger(s.finger, s.proxy, velocity_impulse(1000), 8.5);
+    for (int i = 0; i < 300; ++i) {
+        const double t = i * kStep;
+        const Handle handle{{-0.05, 2 * t * t, 0.001 * std::sin(40 * t)}, Vec3::Zero()};
+        EXPECT_EQ(s.tick(finger, handle), Vec3::Zero());
+        EXPECT_LT((s.world.state(s.proxy).X_WB.p - handle.p_WH).norm(), 1e-12) << i;
+    }
+}
+
+TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
+    const double k = 4000;
+    const double max_force = 2;
+    Scene s;
+    Finger finger(s.finger, s.proxy, velocity_impulse(k), max_force);
+    // free: far behind a handle that jumped, it comes with max_force at most
+    const double mass = kStep * kStep * k * 1.5;  // h^2 k + h c, c = k h / 2
+    double v = 0;
+    for (int i = 0; i < 5; ++i) {
+        s.tick(finger, {{-0.05, 0.1, 0}, Vec3::Zero()});
+        const double faster = s.world.state(s.proxy).v_WB.y() - v;
+        EXPECT_NEAR(faster * mass / kStep, max_force, 1e-9);
+        v += faster;
+    }
+    // in touch: 10 mm deep, the spring would give 40 N
+    for (int i = 0; i < 2000; ++i)
+        s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
+    EXPECT_NEAR(finger.touch().normal_force, max_force, 1e-6);
+}
+
+TEST(VelocityImpulse, PressesAWallWithStiffnessTimesDepthAndGivesItTheSame) {
+    for (const double k : {300.0, 4000.0}) {  // lighter and heavier than the finger's gram
+        Scene s;
+        Finger finger(s.finger, s.proxy, velocity_impulse(k), 1e3);
+        Vec3 f;
+        for (int i = 0; i < 2000; ++i)
+            f = s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
+        EXPECT_NEAR(f.x() / (-k * 0.01), 1, 1e-6);
+        EXPECT_NEAR(finger.touch().normal_force / (k * 0.01), 1, 1e-6);
+    }
+}
+
+/// A handle that runs into the wall, stays, leaves, comes back within the onset, stays, and leaves.
+Handle there_and_back(int tick) {
+    const std::array<std::pair<int, double>, 7> way{{{0, -0.05},
+                                                     {100, 0.0075},
+                                                     {300, 0.0075},
+                                                     {400, -0.005},
+                                                     {415, -0.005},
+                                                     {515, 0.0075},
+                                                     {715, 0.0075}}};
+    for (size_t i = 1; i < way.size(); ++i) {
+        if (tick >= way[i].first) continue;
+        const auto [t0, x0] = way[i - 1];
+        const auto [t1, x1] = way[i];
+        const double v = (x1 - x0) / ((t1 - t0) * kStep);
+        return {{x0 + v * (tick - t0) * kStep, 0, 0}, {v, 0, 0}};
+    }
+    return {{way.back().second, 0, 0}, Vec3::Zero()};
+}
+
+class Onsets : public ::testing::TestWithParam<CouplingKind> {};
+INSTANTIATE_TEST_SUITE_P(Couplings, Onsets,
+                         ::testing::Values(CouplingKind::implicit, CouplingKind::dual_spring,
+                                           CouplingKind::velocity_impulse),
+                         [](const auto& of) { return std::string(enum_name(of.param)); });
+
+TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) {
+    const double k = 1000;
+    const double time = 0.05;
+    CouplingSettings settings = implicit(k);
+    settings.kind = GetParam();
+    settings.onset = time;
+    const bool dual = GetParam() == CouplingKind::dual_spring;
+    if (dual) settings.smoothing = 1;
+    Scene s;
+    Finger soft(s.finger, s.proxy, settings, 1e3);
+    Scene h;
+    settings.onset = 0;
+    Finger hard(h.finger, h.proxy, settings, 1e3);
+    Vec3 last = Vec3::Zero();
+    int touches = 0;
+    int ticks = 0;  // of this touch
+    for (int i = 0; i < 715; ++i) {
+        const Handle handle = there_and_back(i);
+        const Vec3 f = s.tick(soft, handle);
+        const Vec3 f_hard = h.tick(hard, handle);
+        // share k v h and c v while the handle moves, and the growth of the share at 10 mm; the
+        // dual spring's proxy bounces, and each touch has its own
+        const double step = k * 0.57 * kStep * 1.5 + 0.9 * kStep / time * k * 0.01;
+        EXPECT_LT((f - last).norm(), dual ? 2 * step : step) << i;
+        last = f;
+        const bool touching = soft.touch().touching;
+        ticks = touching ? ticks + 1 : 0;
+        if (ticks == 1 && ++touches == 1 && !dual) {
+            EXPECT_LT(-f.x(), Onset::kFirstShare * k * 0.57 * kStep * 1.5);
+        }
+        if ((i > 200 && i < 300) || i > 700) {
+            EXPECT_NEAR(f.x() / f_hard.x(), 1, 1e-9);
+        } else if (ticks > 2 && !dual) {
+            // once the proxy stands, the wall gets what the handle feels: its mass is shared, too
+            EXPECT_NEAR(soft.touch().normal_force, -f.x(), 1e-6) << i;
+        }
+    }
+    if (!dual) {
+        EXPECT_EQ(touches, 2);
+    }
 }
 
 TEST(Coupling, DefaultDampingCancelsTheHoldOfOneSample) {

@@ -13,6 +13,25 @@ TEST_P(GraspBars, AreReached) {
     expect_bars_of_grasp(GetParam());
 }
 
+TEST(VelocityImpulse, ReachesTheBars) {
+    expect_bars_of_grasp(dynamics::Solver::newton, haptics::CouplingKind::velocity_impulse);
+}
+
+class HoldBars : public ::testing::TestWithParam<dynamics::Solver> {};
+INSTANTIATE_TEST_SUITE_P(Soak, HoldBars,
+                         ::testing::Values(dynamics::Solver::newton,
+                                           dynamics::Solver::sequential_impulse,
+                                           dynamics::Solver::stewart_trinkle,
+                                           dynamics::Solver::staggered_projections),
+                         solver_name);
+TEST_P(HoldBars, WhatFrictionHoldsIsHeldAndTheRestFalls) {
+    for (const double friction : {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2}) {
+        const auto [held, dropped] = held_and_dropped(friction);
+        for (const double mass : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, held, dropped})
+            expect_hold_as_friction_says(GetParam(), friction, mass);
+    }
+}
+
 class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Soak, FrictionBars,
                          ::testing::Values(dynamics::Solver::stewart_trinkle,

@@ -9,6 +9,7 @@
 
 #include "measure/friction.h"
 #include "measure/grasp.h"
+#include "model/grasp.h"
 
 namespace dihaptic::measure {
 
@@ -36,9 +37,23 @@ inline double lift_slip_bar(dynamics::Solver solver, Fingering fingering) {
     return solver == dynamics::Solver::sequential_impulse ? 0.01 : slip_bar(solver, fingering);
 }
 
-inline void expect_bars_of_grasp(dynamics::Solver solver) {
+/// The stiffest hold that is asked for, more than the bench's table has.
+inline void expect_held_at_6000(BenchSetup setup) {
+    setup.settings.coupling.stiffness = 6000;
+    for (const Fingering fingering : {Fingering::ideal, Fingering::real, Fingering::off_centre}) {
+        SCOPED_TRACE(std::string(enum_name(fingering)) + ", K 6000");
+        setup.fingering = fingering;
+        const HoldFigures h = measure_hold(setup);
+        EXPECT_TRUE(h.held);
+        EXPECT_LE(h.slip_mm, slip_bar(setup.settings.dynamics.solver, fingering));
+    }
+}
+
+inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind coupling = {}) {
     BenchSetup setup;
     setup.settings.dynamics.solver = solver;
+    setup.settings.coupling.kind = coupling;
+    expect_held_at_6000(setup);
     const GraspFigures figures = bench_grasp(setup, {});
     for (const HoldFigures& h : figures.hold) {
         SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + std::to_string(h.k));
@@ -60,21 +75,53 @@ inline void expect_bars_of_grasp(dynamics::Solver solver) {
     }
     EXPECT_GE(figures.wall_k, 5000);
     EXPECT_GE(figures.wall_k_delay, 1500);
-    EXPECT_GE(figures.calm_k / figures.wall_k, 0.8);
-    EXPECT_GE(figures.calm_k_delay / figures.wall_k_delay, 0.8);
+    EXPECT_GE(figures.calm_k / figures.wall_k, 0.9);
+    EXPECT_GE(figures.calm_k_delay / figures.wall_k_delay, 0.9);
     EXPECT_GE(figures.calm_k_premium, 1000);
     EXPECT_LE(figures.torque_turn_deg, 0.1);
     for (const KickFigures& kick : figures.kick) {
         SCOPED_TRACE("K " + std::to_string(kick.k) + ", " + std::to_string(kick.speed) + " m/s");
-        EXPECT_LE(kick.kick_ratio, 1.03);
-        EXPECT_LE(kick.touch_step_n, 0.03);
-        EXPECT_LE(kick.leave_pull_n, 0.01);
+        EXPECT_LE(kick.kick_ratio, 1.02);
+        EXPECT_LE(kick.touch_step_n, 0.02);
+        EXPECT_LE(kick.leave_pull_n, 0.005);
     }
-    EXPECT_LE(figures.drag_n, 0.01);
+    EXPECT_LE(figures.drag_n, 0.005);
     for (const SlowFigures& slow : figures.slow_dynamics) {
         EXPECT_TRUE(slow.held) << slow.k;
         EXPECT_LE(slow.slip_mm, 0.01) << slow.k;
     }
+}
+
+/// A block of `share` of the weight that the grip can carry in closed form, 2 mu F / g: held and
+/// calm, or dropped.
+inline void expect_hold_as_friction_says(dynamics::Solver solver, double friction, double mass) {
+    BenchSetup setup;
+    setup.settings.dynamics.solver = solver;
+    setup.settings.coupling.stiffness = 1000;
+    setup.friction = friction;
+    setup.mass = mass;
+    // a hand gives way under a heavy block, and bobs: it rises by so much more, and slowly enough
+    // for "never 1 mm lower" to be about the grip
+    setup.rise_time = 2;
+    const double load = mass * 9.81 / 2;
+    setup.lift += model::series_spring_stretch(load, setup.impedance.stiffness, 1000);
+    const double needed = model::minimum_grip(mass * 9.81, friction);
+    const double grip = press_force(setup);
+    SCOPED_TRACE(std::to_string(mass * 1e3) + " g, friction " + std::to_string(friction));
+    if (grip >= 1.1 * needed) {
+        const HoldFigures hold = measure_hold(setup);
+        EXPECT_TRUE(hold.held);
+        EXPECT_TRUE(calm_grasp(hold)) << hold.slip_mm << " " << hold.hf_force_n << " "
+                                      << hold.weight_ratio << " " << hold.grip_ratio;
+    } else if (grip <= 0.9 * needed) {
+        EXPECT_FALSE(measure_hold(setup).held);
+    }
+}
+
+/// The heaviest block that has to be held at this friction, and the lightest that has to fall [kg].
+inline std::pair<double, double> held_and_dropped(double friction) {
+    const double most = 2 * friction * press_force({}) / 9.81;
+    return {most / 1.1 * (1 - 1e-9), most / 0.9 * (1 + 1e-9)};
 }
 
 inline void expect_bars_of_friction(dynamics::Solver solver) {

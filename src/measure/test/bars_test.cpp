@@ -13,6 +13,16 @@ TEST_P(GraspBars, AreReached) {
     expect_bars_of_grasp(GetParam());
 }
 
+/// At the ends of 0.3 to 1.2, on both sides of what the grip can carry, and the lightest block; all
+/// solvers and the grid between are a soak.
+TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
+    for (const double friction : {0.3, 1.2}) {
+        const auto [held, dropped] = held_and_dropped(friction);
+        for (const double mass : {0.01, held, dropped})
+            expect_hold_as_friction_says(dynamics::Solver::newton, friction, mass);
+    }
+}
+
 class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Bench, FrictionBars,
                          ::testing::Values(dynamics::Solver::newton,

@@ -109,6 +109,40 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     });
 }
 
+/// A slow ramp takes the peak of a fast touch down, and adds no step and no pull.
+TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
+    setup.settings.coupling.onset = 0.1;
+    for (const double k : {1000.0, 2000.0}) {
+        setup.settings.coupling.stiffness = k;
+        const KickFigures kick = measure_kick(setup, 0.5);
+        EXPECT_LT(kick.kick_ratio, 0.9);
+        EXPECT_EQ(kick.touch_step_n, 0);
+        EXPECT_LE(kick.leave_pull_n, 0.005);
+    }
+    EXPECT_TRUE(calm_wall(setup));  // at the force of the full stiffness
+}
+
+TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
+    BenchSetup setup;
+    setup.settings.coupling.kind = haptics::CouplingKind::velocity_impulse;
+    for (const double k : {300.0, 2000.0}) {
+        for (const double speed : {0.1, 0.3, 0.5}) {
+            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
+            setup.settings.coupling.stiffness = k;
+            const KickFigures kick = measure_kick(setup, speed);
+            EXPECT_LE(kick.kick_ratio, 1.02);
+            EXPECT_LE(kick.touch_step_n, 0.02);
+            EXPECT_LE(kick.leave_pull_n, 0.005);
+        }
+    }
+    EXPECT_EQ(measure_drag(setup), 0);
+    setup.fingering = Fingering::offset;
+    for (const double k : {300.0, 6000.0}) {
+        setup.settings.coupling.stiffness = k;
+        EXPECT_TRUE(calm_grasp(measure_hold(setup))) << k;
+    }
+}
+
 TEST(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
     BenchSetup setup;
     setup.settings.proxy.kind = haptics::ProxyKind::point;

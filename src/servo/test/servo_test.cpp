@@ -124,11 +124,13 @@ TEST(Servo, IsTheSameWhereverTheDevicesStand) {
 
 TEST(Servo, AllocatesNothingAfterActivation) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    for (const auto kind : {haptics::CouplingKind::implicit, haptics::CouplingKind::dual_spring}) {
+    for (const auto kind : {haptics::CouplingKind::implicit, haptics::CouplingKind::dual_spring,
+                            haptics::CouplingKind::velocity_impulse}) {
         for (const char* options : {"", "preset: premium_1_0\ndelay_ticks: 1\n"}) {
             Settings settings;
             settings.coupling.kind = kind;
             settings.coupling.stiffness = 500;
+            settings.coupling.onset = 0.05;
             Grasp grasp(settings, options);
             const Director director = [](const Frame&, std::span<const haptics::Handle>,
                                          Commands& commands) {

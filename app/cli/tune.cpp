@@ -1,0 +1,91 @@
+#include "measure/tune.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "command.h"
+#include "experiment/plan.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct Options {
+    experiment::Request request;
+    std::string coupling;
+    std::string map = "tune.svg";
+    bool json = false;
+};
+
+void write_map(const std::string& svg, const std::string& file) {
+    std::ofstream out(file, std::ios::binary);
+    out << svg;
+    out.close();
+    if (!out)
+        throw Error({file, 0}, "", "cannot be written",
+                    "Name another file by --map, in a folder that there is and with room left.");
+}
+
+void run(Options options) {
+    if (!options.coupling.empty())
+        options.request.set.push_back("coupling.kind=" + options.coupling);
+    const experiment::Plan plan = experiment::make_plan(options.request);
+    const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
+                                                         plan.settings, plan.hand.impedance);
+    write_map("", options.map);  // before a minute of somebody's time, not after it
+    measure::TuneResult result;
+    {
+        ProgressLine line("tune");
+        result = measure::tune(setup, stop_requested, [&](const std::string& what, double share) {
+            line.show(share, what);
+        });
+    }
+    if (result.interrupted) {
+        fmt::print(stderr, "interrupted: there is no proposal\n");
+        exit_code = kFailed;
+        return;
+    }
+    write_map(measure::tune_map(result, setup, plan.rig.title), options.map);
+    if (options.json) {
+        fmt::print("{}", to_json(result, setup));
+    } else {
+        fmt::print("{}\n{}", plan.rig.title, to_table(result, setup));
+        fmt::print("\nmap: {}\n", options.map);
+        if (result.proposal)
+            fmt::print("\nfor the rig, the scene or the experiment:\n\n{}",
+                       settings_block(result, setup));
+    }
+    if (!result.proposal) exit_code = kFailed;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "tune", "Find the stiffest coupling that stays calm on a device, in a hand");
+    auto options = std::make_shared<Options>();
+    command
+        ->add_option("FILE", options->request.file,
+                     "scene or experiment: its rig, hand and settings, as run takes them")
+        ->required();
+    command->add_option("--rig", options->request.rig,
+                        "rig file with simulated devices, in place of the experiment's");
+    command->add_option("--coupling", options->coupling,
+                        "coupling of handle and proxy: implicit, dual_spring, velocity_impulse");
+    command->add_option("--set", options->request.set,
+                        "any other setting, e.g. rate_Hz=2000; may be repeated");
+    command->add_option("--map", options->map, "picture of calm and shaking settings (SVG)")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
+    command->footer(
+        "\nA simulated hand holds a block at each stiffness and damping, with what may come on "
+        "top: "
+        "a tick more\ndelay, a block of 10 g, a loose and a firm hand. It takes about a minute.\n\n"
+        "Examples:\n"
+        "  dihaptic tune experiments/lift-block.yaml\n"
+        "  dihaptic tune scenes/block-on-table.yaml --rig rigs/premium-pair.yaml --map "
+        "premium.svg");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace dihaptic::cli

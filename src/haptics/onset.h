@@ -1,0 +1,33 @@
+// The soft first touch: proxy, spring and damper together are rendered as a share s of what they
+// are set to. s grows from kFirstShare to 1 over the onset's time while the proxy touches
+// something, and falls back as fast while it does not. The force is s times a spring that has just
+// begun to be stretched, so that it has no step: not on touch, nor on leaving, nor on touching
+// again.
+#pragma once
+
+#include <algorithm>
+
+namespace dihaptic::haptics {
+
+class Onset {
+  public:
+    static constexpr double kFirstShare = 0.1;
+
+    /// `time`: from first touch to full stiffness [s]; 0: at once.
+    explicit Onset(double time) : time_(time), share_(time > 0 ? kFirstShare : 1) {}
+
+    /// s of this tick, 0 to 1.
+    double share() const noexcept { return share_; }
+    /// Last in a tick of h [s].
+    void advance(bool touching, double h) noexcept {
+        if (time_ <= 0) return;
+        const double way = (1 - kFirstShare) * h / time_;
+        share_ = std::clamp(share_ + (touching ? way : -way), kFirstShare, 1.0);
+    }
+
+  private:
+    double time_;
+    double share_;
+};
+
+}  // namespace dihaptic::haptics

@@ -1,0 +1,336 @@
+#include "measure/tune.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "model/grasp.h"
+
+namespace dihaptic::measure {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kHandSpread = 3;   // firm over usual, usual over loose
+constexpr double kGripShare = 0.4;  // of the weaker device's peak force
+constexpr double kNotMargin = 1.5;  // so much stiffer a proposal need not bear
+constexpr double kAsStiff = 0.95;   // of the stiffest, where it saves damping
+constexpr int kBisections = 3;      // of the way between two stiffnesses of the map
+constexpr std::array kAllBurdens{Burden::none, Burden::delay, Burden::light, Burden::loose,
+                                 Burden::firm};
+
+bool dual(const TuneSetup& setup) {
+    return setup.settings.coupling.kind == haptics::CouplingKind::dual_spring &&
+           setup.settings.proxy.kind == haptics::ProxyKind::rigid;
+}
+
+/// Does `work(i)` for every i below `count`, on several threads; `done(i)` on this one, with how
+/// many are. Each result belongs to its i: in which order they come makes no difference.
+template <class Work, class Done>
+void in_parallel(size_t count, unsigned threads, const std::atomic<bool>& stop, const Work& work,
+                 const Done& done) {
+    std::atomic<size_t> next{0};
+    std::atomic<size_t> ended{0};
+    std::atomic<unsigned> running{0};
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto worker = [&] {
+        try {
+            for (size_t i = next++; i < count && !stop; i = next++) {
+                work(i);
+                ++ended;
+            }
+        } catch (...) {
+            const std::lock_guard lock(mutex);
+            if (!failure) failure = std::current_exception();
+            next = count;
+        }
+        --running;
+    };
+    if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+    threads = static_cast<unsigned>(std::min<size_t>(threads, count));
+    running = threads;
+    std::vector<std::thread> pool;
+    for (unsigned i = 0; i < threads; ++i) pool.emplace_back(worker);
+    while (running > 0) {
+        done(ended.load());
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    for (std::thread& thread : pool) thread.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+Verdict judge(const TuneSetup& setup, const TunePoint& point, Burden burden) {
+    const HoldFigures hold = measure_hold(hold_setup(setup, point, burden));
+    double friction = 0;
+    for (const rig::Device& device : setup.devices)
+        friction = std::max(friction, simulated_options(device).friction);
+    // a device's friction takes its part of the hand's force, one way or the other
+    if (calm_grasp(hold, friction / setup.grip)) return Verdict::calm;
+    return hold.held ? Verdict::shaking : Verdict::dropped;
+}
+
+/// Judges points: first all as they are, then what is calm under each burden.
+void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
+               const std::atomic<bool>& stop, const std::function<void(double)>& share) {
+    const auto n = static_cast<double>(points.size());
+    in_parallel(
+        points.size(), setup.threads, stop,
+        [&](size_t i) { points[i].verdicts[0] = judge(setup, points[i], Burden::none); },
+        [&](size_t ended) { share(static_cast<double>(ended) / (n * kBurdens)); });
+    std::vector<TunePoint*> calm;
+    for (TunePoint& point : points) {
+        if (point.calm(Burden::none)) calm.push_back(&point);
+    }
+    constexpr size_t kOthers = kBurdens - 1;
+    const size_t count = calm.size() * kOthers;
+    in_parallel(
+        count, setup.threads, stop,
+        [&](size_t i) {
+            TunePoint& point = *calm[i / kOthers];
+            const Burden burden = kAllBurdens[1 + i % kOthers];
+            point.verdicts[static_cast<size_t>(burden)] = judge(setup, point, burden);
+        },
+        [&](size_t ended) {
+            share((1 + (kBurdens - 1) * static_cast<double>(ended) / static_cast<double>(count)) /
+                  kBurdens);
+        });
+}
+
+/// To two digits, down: what people write into files.
+double rounded_down(double k) {
+    const double unit = std::pow(10, std::floor(std::log10(k)) - 1);
+    return std::floor(k / unit * (1 + 1e-12)) * unit;
+}
+
+/// The rows of the map that get as far as any, each between its last good and its first bad K.
+struct Bracket {
+    double c;
+    double smoothing;
+    double good;
+    double bad;
+};
+std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result) {
+    std::vector<Bracket> rows;
+    for (const double smoothing : setup.smoothing) {
+        for (const double c : setup.damping) {
+            double good = setup.stiffness.back();
+            for (const Burden burden : kAllBurdens)
+                good = std::min(good, calm_limit(result, c, smoothing, burden));
+            if (good <= 0 || (!rows.empty() && good < rows.front().good)) continue;
+            if (!rows.empty() && good > rows.front().good) rows.clear();
+            const auto next =
+                std::upper_bound(setup.stiffness.begin(), setup.stiffness.end(), good);
+            rows.push_back({c, smoothing, good, next == setup.stiffness.end() ? good : *next});
+        }
+    }
+    return rows;
+}
+
+}  // namespace
+
+bool TunePoint::calm_with_margin() const {
+    return std::all_of(kAllBurdens.begin(), kAllBurdens.end(), [&](Burden b) { return calm(b); });
+}
+
+TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
+                     const servo::Settings& settings, const hand::Impedance& hand) {
+    if (fingers.size() < 2) {
+        throw Error(fmt::format("tuning holds a block between two fingers; the scene has only {}",
+                                fingers.empty() ? "none" : fingers.front()),
+                    "Name a scene or an experiment with two fingers, on a rig with two devices.");
+    }
+    TuneSetup out;
+    out.settings = settings;
+    out.hand = hand;
+    double peak = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < 2; ++i) {
+        const rig::Device& device = rig::device_of(rig, fingers[i]);
+        if (device.backend != "simulated") {
+            throw Error(device.place, "backend",
+                        fmt::format("'{}' cannot be tuned for: settings are tried on simulated "
+                                    "devices, before a person holds the real ones",
+                                    device.backend),
+                        "Write a rig with backend: simulated and the device's mass_g, "
+                        "peak_force_N, position_step_mm, friction_N and delay_ticks.");
+        }
+        peak = std::min(peak, simulated_options(device).peak_force);
+        out.devices.push_back(device);
+    }
+    out.grip = kGripShare * std::min(peak, settings.safety.max_force.value_or(peak));
+    out.stiffness = {200,  260,  340,  440,  570,  740,  970,  1300,
+                     1600, 2100, 2800, 3600, 4700, 6100, 7900, 10000};
+    out.damping = {0, 0.25, 0.5, 1, 1.5, 2, 3, 4};
+    out.smoothing = {settings.coupling.smoothing};
+    if (dual(out)) out.smoothing = {0.1, 0.2, 0.4, 0.7, 1};
+    return out;
+}
+
+BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden burden) {
+    BenchSetup out;
+    out.settings = setup.settings;
+    out.settings.coupling.stiffness = point.k;
+    out.settings.coupling.damping = point.c;
+    out.settings.coupling.smoothing = point.smoothing;
+    out.fingering = Fingering::offset;
+    out.devices = setup.devices;
+    out.impedance = setup.hand;
+    if (burden == Burden::delay) out.row = Row::delay;
+    if (burden == Burden::light) out.mass = 0.01;
+    if (burden == Burden::loose || burden == Burden::firm) {
+        const double factor = burden == Burden::firm ? kHandSpread : 1 / kHandSpread;
+        out.impedance.stiffness *= factor;
+        out.impedance.damping *= factor;
+        out.impedance.stiffness_per_force *= factor;
+    }
+    // all hands grip with the same force, and lift to the same height
+    const double k_hand = out.impedance.stiffness + out.impedance.stiffness_per_force * setup.grip;
+    out.squeeze = model::series_spring_stretch(setup.grip, k_hand, point.k);
+    out.lift += model::series_spring_stretch(out.mass * kGravity / 2, k_hand, point.k);
+    return out;
+}
+
+double calm_limit(const TuneResult& result, double damping, double smoothing, Burden burden) {
+    double limit = 0;
+    for (const TunePoint& point : result.map) {
+        if (point.c != damping || point.smoothing != smoothing) continue;
+        if (!point.calm(Burden::none) || !point.calm(burden)) break;
+        limit = point.k;
+    }
+    return limit;
+}
+
+TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Progress& progress) {
+    TuneResult out;
+    for (const double smoothing : setup.smoothing) {
+        for (const double c : setup.damping) {
+            for (const double k : setup.stiffness) out.map.push_back({k, c, smoothing, {}});
+        }
+    }
+    const auto say = [&](const char* what, double from, double to) {
+        return [&progress, what, from, to](double share) {
+            if (progress) progress(what, from + share * (to - from));
+        };
+    };
+    judge_all(setup, out.map, stop, say("the map", 0, 0.85));
+
+    std::vector<Bracket> rows = best_rows(setup, out);
+    for (int i = 0; i < kBisections && !stop; ++i) {
+        std::vector<TunePoint> middle;
+        for (const Bracket& row : rows) {
+            if (row.bad > row.good)
+                middle.push_back({std::sqrt(row.good * row.bad), row.c, row.smoothing, {}});
+        }
+        judge_all(setup, middle, stop, say("the proposal", 0.85 + 0.03 * i, 0.88 + 0.03 * i));
+        auto judged = middle.begin();
+        for (Bracket& row : rows) {
+            if (row.bad <= row.good) continue;
+            (judged->calm_with_margin() ? row.good : row.bad) = judged->k;
+            ++judged;
+        }
+    }
+    out.interrupted = stop;
+    if (rows.empty() || stop) return out;
+
+    // the least damped (rows rise) of those that are as stiff as any within what bisection
+    // resolves: a damper is felt on every touch
+    const double stiffest =
+        std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
+            return a.good < b.good;
+        })->good;
+    const Bracket& best = *std::find_if(rows.begin(), rows.end(), [&](const Bracket& row) {
+        return row.good >= kAsStiff * stiffest;
+    });
+    // rounding may meet an island of shaking: then what the search itself found calm
+    std::vector<TunePoint> last{{rounded_down(best.good), best.c, best.smoothing, {}},
+                                {best.good, best.c, best.smoothing, {}}};
+    judge_all(setup, last, stop, say("the proposal", 0.94, 0.97));
+    out.proposal = last[0].calm_with_margin() ? last[0] : last[1];
+    std::vector<TunePoint> stiffer{{kNotMargin * out.proposal->k, best.c, best.smoothing, {}}};
+    judge_all(setup, stiffer, stop, say("the proposal", 0.97, 1));
+    out.stiffer = stiffer.front();
+    out.interrupted = stop;
+    return out;
+}
+
+std::string settings_block(const TuneResult& result, const TuneSetup& setup) {
+    const TunePoint& p = *result.proposal;
+    std::string out = fmt::format(
+        "settings:\n  coupling:\n    kind: {}\n    stiffness_N_m: {:.6g}\n"
+        "    damping_Ns_m: {:.6g}\n",
+        enum_name(setup.settings.coupling.kind), p.k, p.c);
+    if (dual(setup)) out += fmt::format("    smoothing: {:g}\n", p.smoothing);
+    return out;
+}
+
+std::string to_json(const TuneResult& result, const TuneSetup& setup) {
+    using Json = nlohmann::ordered_json;
+    const auto point = [](const TunePoint& p) {
+        Json verdicts;
+        for (const Burden burden : kAllBurdens) {
+            const auto& verdict = p.verdicts[static_cast<size_t>(burden)];
+            verdicts[std::string(enum_name(burden))] =
+                verdict ? Json(std::string(enum_name(*verdict))) : Json(nullptr);
+        }
+        return Json{{"stiffness_n_m", p.k},
+                    {"damping_ns_m", p.c},
+                    {"smoothing", p.smoothing},
+                    {"verdicts", verdicts}};
+    };
+    Json out;
+    out["coupling"] = enum_name(setup.settings.coupling.kind);
+    out["solver"] = enum_name(setup.settings.dynamics.solver);
+    out["proxy"] = enum_name(setup.settings.proxy.kind);
+    out["rate_hz"] = setup.settings.rate;
+    out["grip_n"] = setup.grip;
+    out["hand"] = {{"stiffness_n_m", setup.hand.stiffness}, {"damping_ns_m", setup.hand.damping}};
+    out["proposal"] = result.proposal ? point(*result.proposal) : Json(nullptr);
+    out["stiffer"] = result.stiffer ? point(*result.stiffer) : Json(nullptr);
+    out["map"] = Json::array();
+    for (const TunePoint& p : result.map) out["map"].push_back(point(p));
+    return out.dump(2) + "\n";
+}
+
+std::string to_table(const TuneResult& result, const TuneSetup& setup) {
+    std::string out = fmt::format(
+        "{}, solver {}, {:g} Hz; hand of {:g} N/m and {:g} N*s/m, grip of {:g} N\n\n"
+        "stiffest calm hold of a block of 100 g, N/m\n{}damping N*s/m",
+        enum_name(setup.settings.coupling.kind), enum_name(setup.settings.dynamics.solver),
+        setup.settings.rate, setup.hand.stiffness, setup.hand.damping, setup.grip,
+        dual(setup) ? "smoothing  " : "");
+    for (const Burden burden : kAllBurdens) out += fmt::format("  {:>10s}", enum_name(burden));
+    out += "\n";
+    for (const double smoothing : setup.smoothing) {
+        for (const double c : setup.damping) {
+            if (dual(setup)) out += fmt::format("{:9g}  ", smoothing);
+            out += fmt::format("{:13g}", c);
+            for (const Burden burden : kAllBurdens)
+                out += fmt::format("  {:10g}", calm_limit(result, c, smoothing, burden));
+            out += "\n";
+        }
+    }
+    if (!result.proposal) {
+        return out +
+               "\nno setting is calm with a margin: see the map for those that are calm "
+               "as it is\n";
+    }
+    out +=
+        fmt::format("\nproposal: {:.6g} N/m, {:.6g} N*s/m", result.proposal->k, result.proposal->c);
+    if (dual(setup)) out += fmt::format(", smoothing {:g}", result.proposal->smoothing);
+    out += "\n  calm as it is, with a tick more delay, with 10 g, in a loose and in a firm hand\n";
+    const TunePoint& stiffer = *result.stiffer;
+    out += fmt::format("  at {:.6g} N/m:", stiffer.k);
+    for (const Burden burden : kAllBurdens) {
+        const auto& verdict = stiffer.verdicts[static_cast<size_t>(burden)];
+        if (verdict) out += fmt::format(" {}: {};", enum_name(burden), enum_name(*verdict));
+    }
+    out.back() = '\n';
+    return out;
+}
+
+}  // namespace dihaptic::measure

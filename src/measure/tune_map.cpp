@@ -1,0 +1,218 @@
+// The picture of a search: stiffness to the right, damping upward, a cell a setting. Blue is calm,
+// orange shakes, grey fell; and each has its own mark, for eyes and printers that see no colours.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/tune.h"
+
+namespace dihaptic::measure {
+namespace {
+
+constexpr double kCell = 44, kLeft = 96, kTop = 84;  // [px]
+
+/// What may be in a picture's text.
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+class Picture {
+  public:
+    Picture(double width, double height) {
+        out_ = fmt::format(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
+            "height=\"{1:g}\" font-family=\"sans-serif\" font-size=\"13\">\n"
+            "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n",
+            width, height);
+    }
+    void cell(double x, double y, const char* colour, const std::string& tip = "") {
+        out_ += fmt::format(
+            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" "
+            "stroke=\"#ffffff\"><title>{}</title></rect>\n",
+            x - kCell / 2, y - kCell / 2, kCell, kCell, colour, escaped(tip));
+    }
+    /// An SVG path; `fill` may be "none".
+    void path(const std::string& d, const char* stroke, double width, const char* fill = "none") {
+        out_ += fmt::format(
+            "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{:g}\" fill=\"{}\" "
+            "stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n",
+            d, stroke, width, fill);
+    }
+    /// `anchor`: start, middle, end.
+    void text(double x, double y, const std::string& words, const char* anchor = "start",
+              const char* more = "") {
+        out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x,
+                            y, anchor, more, escaped(words));
+    }
+    std::string take() { return out_ + "</svg>\n"; }
+
+  private:
+    std::string out_;
+};
+
+void cross(Picture& picture, double x, double y) {
+    picture.path(fmt::format("M{:.1f} {:.1f}l12 12m0 -12l-12 12", x - 6, y - 6), "#7a3300", 2.5);
+}
+
+void arrow_down(Picture& picture, double x, double y) {
+    picture.path(fmt::format("M{0:.1f} {1:.1f}v16m-6 -6l6 6l6 -6", x, y - 8), "#ffffff", 2.5);
+}
+
+void dot(Picture& picture, double x, double y) {
+    picture.path(fmt::format("M{:.1f} {:.1f}a5 5 0 1 0 10 0a5 5 0 1 0 -10 0", x - 5, y), "none", 0,
+                 "#ffffff");
+}
+
+/// Which burdens it does not bear, a letter each.
+std::string lacking(const TunePoint& point) {
+    std::string out;
+    if (!point.calm(Burden::delay)) out += 'D';
+    if (!point.calm(Burden::light)) out += 'T';
+    if (!point.calm(Burden::loose)) out += 'L';
+    if (!point.calm(Burden::firm)) out += 'F';
+    return out;
+}
+
+void draw_point(Picture& picture, double x, double y, const TunePoint& point) {
+    const Verdict verdict = point.verdicts[0].value_or(Verdict::dropped);
+    const std::string where = fmt::format("{:g} N/m, {:g} N*s/m: ", point.k, point.c);
+    if (verdict == Verdict::shaking) {
+        picture.cell(x, y, "#e69f00", where + "shaking");
+        cross(picture, x, y);
+    } else if (verdict == Verdict::dropped) {
+        picture.cell(x, y, "#777777", where + "dropped");
+        arrow_down(picture, x, y);
+    } else if (point.calm_with_margin()) {
+        picture.cell(x, y, "#0a5ea8", where + "calm with margin");
+        dot(picture, x, y);
+    } else {
+        picture.cell(x, y, "#a9d3f0", where + "calm, but not with " + lacking(point));
+        picture.text(x, y + 4, lacking(point), "middle", "font-size=\"11\" fill=\"#10364f\"");
+    }
+}
+
+/// Where a value stands among rising ones, as a real index: between them by `scale`.
+double index_of(const std::vector<double>& values, double value, double (*scale)(double)) {
+    const auto above = std::upper_bound(values.begin(), values.end(), value);
+    if (above == values.begin()) return 0;
+    if (above == values.end()) return static_cast<double>(values.size() - 1);
+    const double low = scale(*(above - 1));
+    return static_cast<double>(above - values.begin() - 1) +
+           (scale(value) - low) / (scale(*above) - low);
+}
+
+double same(double value) {
+    return value;
+}
+double logarithm(double value) {
+    return std::log(value);
+}
+
+}  // namespace
+
+std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title) {
+    const double columns = static_cast<double>(setup.stiffness.size());
+    const double rows = static_cast<double>(setup.damping.size());
+    const double width = std::max(kLeft + columns * kCell + 30, 830.0);
+    const double bottom = kTop + rows * kCell;
+    Picture picture(width, bottom + 216);
+    const auto x_of = [&](double k) {
+        return kLeft + kCell * (0.5 + index_of(setup.stiffness, k, logarithm));
+    };
+    const auto y_of = [&](double c) {
+        return bottom - kCell * (0.5 + index_of(setup.damping, c, same));
+    };
+    const double smoothing = result.proposal ? result.proposal->smoothing : setup.smoothing.back();
+
+    picture.text(20, 30, "Calm and shaking settings: " + title, "start",
+                 "font-size=\"18\" font-weight=\"bold\"");
+    std::string how = fmt::format(
+        "coupling {}, solver {}, {:g} Hz; a hand of {:g} N/m and {:g} N·s/m grips 100 g with {:g} "
+        "N",
+        enum_name(setup.settings.coupling.kind), enum_name(setup.settings.dynamics.solver),
+        setup.settings.rate, setup.hand.stiffness, setup.hand.damping, setup.grip);
+    if (setup.smoothing.size() > 1) how += fmt::format("; smoothing {:g}", smoothing);
+    picture.text(20, 54, how);
+
+    for (const TunePoint& point : result.map) {
+        if (point.smoothing == smoothing) draw_point(picture, x_of(point.k), y_of(point.c), point);
+    }
+    for (const double k : setup.stiffness)
+        picture.text(x_of(k), bottom + 18, fmt::format("{:g}", k), "middle", "font-size=\"11\"");
+    for (const double c : setup.damping)
+        picture.text(kLeft - 10, y_of(c) + 4, fmt::format("{:g}", c), "end");
+    picture.text(kLeft + columns * kCell / 2, bottom + 42, "stiffness of the coupling, N/m",
+                 "middle");
+    const double middle = kTop + rows * kCell / 2;
+    picture.text(36, middle, "damping of the coupling, N·s/m", "middle",
+                 fmt::format("transform=\"rotate(-90 36 {:g})\"", middle).c_str());
+
+    // the damping that the program takes when none is given
+    std::string line;
+    const double per_k = setup.settings.step() / 2;
+    for (const double k : setup.stiffness) {
+        if (k * per_k > setup.damping.back()) break;
+        line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x_of(k), y_of(k * per_k));
+    }
+    if (!line.empty()) {
+        picture.path(line, "#ffffff", 4);
+        picture.path(line, "#000000", 1.5);
+    }
+
+    if (result.proposal) {
+        const double x = x_of(result.proposal->k);
+        const double y = y_of(result.proposal->c);
+        std::string star;
+        for (int i = 0; i < 10; ++i) {
+            const double angle = std::acos(-1.0) * i / 5;
+            const double radius = i % 2 == 0 ? 17 : 7;
+            star += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x + radius * std::sin(angle),
+                                y - radius * std::cos(angle));
+        }
+        picture.path(star + "Z", "#000000", 2, "#ffe14d");
+        picture.text(kLeft + columns * kCell, 76,
+                     fmt::format("★ proposal: {:.6g} N/m, {:.6g} N·s/m", result.proposal->k,
+                                 result.proposal->c),
+                     "end", "font-weight=\"bold\"");
+    }
+
+    double y = bottom + 80;
+    const double key = kLeft;
+    picture.cell(key, y, "#0a5ea8");
+    dot(picture, key, y);
+    picture.text(key + 30, y + 5,
+                 "calm with margin: with a tick more delay, 10 g, a loose and a firm hand, too");
+    picture.cell(key + 590, y, "#e69f00");
+    cross(picture, key + 590, y);
+    picture.text(key + 620, y + 5, "shaking");
+    y += 50;
+    picture.cell(key, y, "#a9d3f0");
+    picture.text(key, y + 4, "DT", "middle", "font-size=\"11\" fill=\"#10364f\"");
+    picture.text(key + 30, y + 5,
+                 "calm as it is, but not with D: delay, T: ten grams, L: loose hand, F: firm hand");
+    picture.cell(key + 590, y, "#777777");
+    arrow_down(picture, key + 590, y);
+    picture.text(key + 620, y + 5, "dropped");
+    picture.text(key - 22, y + 52,
+                 "black line: the damping that is taken when none is given, k h / 2");
+    return picture.take();
+}
+
+}  // namespace dihaptic::measure
