@@ -22,7 +22,7 @@ Vec3 ForceGuard::shape(const Vec3& f_asked_W, const Handle& handle, const Vec3& 
 
 Vec3 ForceGuard::limit(const Vec3& f_H_W, bool allowed, double share, unsigned& flags) noexcept {
     if (allowed && share < 1 && f_H_W != Vec3::Zero()) flags |= kSoftStarted;
-    const Vec3 limited = limiter_.limit(share * f_H_W, tick_, flags);
+    Vec3 limited = limiter_.limit(share * f_H_W, tick_, flags);
     if (allowed) return limited;
     flags |= kSwitchedOff;
     limiter_.drop();

@@ -11,12 +11,12 @@ namespace dihaptic::haptics {
 namespace {
 
 constexpr double kTick = 1e-3;
-constexpr double k = 1000;  // [N/m]
+constexpr double kStiffness = 1000;  // [N/m]
 
 /// One tick along x. Returns what the guard adds [N].
 double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double force,
              unsigned& flags) {
-    const double stored = k / 2 * (p_P - p_H) * (p_P - p_H);
+    const double stored = kStiffness / 2 * (p_P - p_H) * (p_P - p_H);
     return guard
         .watch({{p_H, 0, 0}, {v_H, 0, 0}}, {p_P, 0, 0}, {force, 0, 0}, stored, true, kTick, flags)
         .x();
@@ -39,7 +39,7 @@ struct Motion {
         for (int i = 0; i <= 50 * cycles; ++i) {
             const double x = depth * std::sin(w * i * kTick);
             const double v = depth * w * std::cos(w * i * kTick);
-            tick(x, v, std::min(x, 0.0), x > 0 ? -k * x - c * v : 0);
+            tick(x, v, std::min(x, 0.0), x > 0 ? -kStiffness * x - c * v : 0);
             if (x > 0) squares += (x - last) * (x - last);
             last = x;
         }
@@ -48,16 +48,16 @@ struct Motion {
 };
 
 TEST(EnergyGuard, SeesWhatTheHoldOfASampleGenerates) {
-    // k / 2 times the square of each step (README.md): no damper takes it
+    // kStiffness / 2 times the square of each step (README.md): no damper takes it
     Motion run;
     const double squares = run.press(0, 0.004, 1);
-    EXPECT_NEAR(run.guard.generated(), k / 2 * squares, 0.06 * k / 2 * squares);
+    EXPECT_NEAR(run.guard.generated(), kStiffness / 2 * squares, 0.06 * kStiffness / 2 * squares);
 }
 
 TEST(EnergyGuard, SeesThatTheDefaultDampingTakesIt) {
     Motion undamped, damped;
     undamped.press(0, 0.004, 20);
-    damped.press(k * kTick / 2, 0.004, 20);
+    damped.press(kStiffness * kTick / 2, 0.004, 20);
     EXPECT_GT(undamped.guard.generated(), kEnergyBudget);
     EXPECT_LT(damped.guard.generated(), 0.1 * undamped.guard.generated());
     EXPECT_EQ(damped.flags, 0u);
@@ -84,7 +84,7 @@ TEST(EnergyGuard, LetsABodyBounceOffAHandAtRest) {
     Motion run;
     for (int i = 0; i <= 50; ++i) {
         const double x = -0.004 * std::sin(std::numbers::pi * i / 50);
-        run.tick(0, 0, x, k * x);
+        run.tick(0, 0, x, kStiffness * x);
     }
     EXPECT_LT(run.guard.generated(), 1e-9);
 }
@@ -97,7 +97,7 @@ TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
         const double x = 0.02 * std::sin(2 * std::numbers::pi * i * kTick / 2);
         const double v = 0.02 * std::numbers::pi * std::cos(2 * std::numbers::pi * i * kTick / 2);
         p_P = std::clamp(p_P, x - 0.002, x + 0.002);
-        run.tick(x, v, p_P, k * (p_P - x) - k * kTick / 2 * v);
+        run.tick(x, v, p_P, kStiffness * (p_P - x) - kStiffness * kTick / 2 * v);
     }
     EXPECT_LT(run.guard.generated(), kEnergyBudget / 10);
     EXPECT_EQ(run.flags, 0u);

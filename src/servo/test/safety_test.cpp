@@ -26,6 +26,7 @@ class SwitchedGroup final : public devices::DeviceGroup {
   private:
     static std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& group) {
         std::vector<devices::DeviceInfo> out;
+        out.reserve(static_cast<size_t>(group.size()));
         for (int i = 0; i < group.size(); ++i) out.push_back(group.info(i));
         return out;
     }
