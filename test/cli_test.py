@@ -344,7 +344,7 @@ class Damage(unittest.TestCase):
     def test_only_the_log_is_needed_and_nothing_that_is_cut_crashes(self):
         random.seed(2)
         names = [name for name in os.listdir(self.folder)]
-        self.assertEqual(len(names), 11, names)
+        self.assertEqual(len(names), 12, names)
         whole = {name: pathlib.Path(self.folder + name).read_bytes() for name in names}
         inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
         for name in names:
