@@ -64,6 +64,18 @@ std::vector<Table::Cell> run_movement(const Options& options, const std::string&
     const analysis::PhaseFigures* grasp = figures.phase("grasp");
     const double grip = grasp != nullptr ? grasp->mean_grip : NAN;
     const double peak = grasp != nullptr ? grasp->peak_grip : NAN;
+    double held = 0;
+    double slip = NAN;
+    double slid = 0;
+    double flown = 0;
+    for (const analysis::Episode& e : figures.episodes) {
+        const double lasted = e.end - e.start;
+        if (e.kind == analysis::EpisodeKind::slide) slid += e.distance;
+        if (e.kind == analysis::EpisodeKind::flight) flown += lasted;
+        if (e.kind != analysis::EpisodeKind::hold || lasted <= held) continue;
+        held = lasted;
+        slip = e.slip;
+    }
     const auto limited = figures.ticks_with(servo::kForceLimited);
     const experiment::MovementReport& report = *plan.movement;
     const bool guessed = report.bridged_share > hand::kMuchBridged;
@@ -91,6 +103,10 @@ std::vector<Table::Cell> run_movement(const Options& options, const std::string&
             force,
             static_cast<double>(limited),
             static_cast<double>(figures.ticks_with(servo::kRateLimited)),
+            held,
+            slip * 1e3,
+            slid * 1e3,
+            flown,
             result.folder};
 }
 
@@ -119,6 +135,10 @@ void run_batch(const Options& options) {
                        {"peak_force_N", "of the whole session"},
                        {"force_limited_ticks", ""},
                        {"rate_limited_ticks", ""},
+                       {"held_s", "the object's longest hold"},
+                       {"hold_slip_mm", "in that"},
+                       {"slid_mm", "along what it lies on, in all"},
+                       {"flown_s", "untouched in the air, in all"},
                        {"session", ""}};
     const std::string table = options.run.out + "/summary.csv";
     std::error_code failed;

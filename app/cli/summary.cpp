@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/plural.h"
 #include "command.h"
@@ -12,6 +13,45 @@ namespace {
 
 std::string number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
+
+/// Figures of an episode, in words.
+std::string describe(const analysis::Episode& e) {
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    std::string out;
+    const auto add = [&](double value, const std::string& text) {
+        if (!std::isnan(value)) out += (out.empty() ? "" : "; ") + text;
+    };
+    add(e.slip, fmt::format("slip {:.4f} mm", e.slip * 1e3));
+    if (e.slip - e.least_slip >= 1e-7)
+        add(e.least_slip, fmt::format("least {:.4f} mm", e.least_slip * 1e3));
+    add(e.sag, fmt::format("sank {:.4f} mm", std::abs(e.sag) * 1e3));
+    if (e.hand_turn * kDegrees >= 5) {
+        add(e.turn, fmt::format("turned {:.2f} deg, {:.4f} of the hand's", e.turn * kDegrees,
+                                e.turn / e.hand_turn));
+    }
+    add(e.distance, fmt::format("{:.2f} mm", e.distance * 1e3));
+    add(e.friction_ratio, fmt::format("friction {:.4f} of mu N", e.friction_ratio));
+    add(e.release_speed, fmt::format("let go at {:.4f} m/s", e.release_speed));
+    add(e.release_ratio, fmt::format("{:.4f} of the hand's", e.release_ratio));
+    add(e.rise, fmt::format("rose {:.2f} mm", e.rise * 1e3));
+    add(e.off_path, fmt::format("{:.6f} mm off the ballistic path", e.off_path * 1e3));
+    return out;
+}
+
+void print_episodes(const analysis::SessionFigures& figures) {
+    if (figures.episodes.empty()) return;
+    constexpr size_t kMost = 20;
+    fmt::print("{:10s} {:>7s} {:>7s}  of the object\n", "episode", "from s", "to s");
+    for (size_t i = 0; i < figures.episodes.size() && i < kMost; ++i) {
+        const analysis::Episode& e = figures.episodes[i];
+        const std::string fingers = finger_list(e, figures.fingers);
+        fmt::print("{:10s} {:7.2f} {:7.2f}  {}{}{}\n", enum_name(e.kind), e.start, e.end, fingers,
+                   fingers.empty() ? "" : ": ", describe(e));
+    }
+    if (figures.episodes.size() > kMost)
+        fmt::print("and {} more, in episodes.csv\n", figures.episodes.size() - kMost);
+    fmt::print("\n");
 }
 
 }  // namespace
@@ -55,6 +95,7 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         "digits; finger: force on\n"
         "the busiest handle; slip: of a finger on the object; weight: vertical handle forces over "
         "the object's weight\n\n");
+    print_episodes(figures);
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;

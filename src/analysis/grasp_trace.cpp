@@ -16,17 +16,39 @@ void GraspTrace::add(const servo::Frame& frame) {
     sample.grip = frame.grip_force;
     sample.load = frame.load_force;
     sample.on_support = false;
+    sample.support = -1;
+    sample.n_support.setZero();
+    sample.v_sliding.setZero();
+    sample.v_WB.setZero();
+    sample.awake = false;
     sample.touching.assign(n, false);
-    if (object_ >= 0) sample.X_WB = frame.bodies[static_cast<size_t>(object_)].X_WB;
+    if (object_ >= 0) {
+        const servo::BodyFrame& object = frame.bodies[static_cast<size_t>(object_)];
+        sample.X_WB = object.X_WB;
+        sample.v_WB = object.v_WB;
+        sample.awake = object.awake != 0;
+    }
     for (const servo::FingerFrame& finger : frame.fingers) {
         sample.p_WP.push_back(finger.p_WP);
+        sample.v_WH.push_back(finger.v_WH);
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
+    double pressed = 0;
     for (const servo::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0 || (contact.a != object_ && contact.b != object_)) continue;
         const int other = contact.a == object_ ? contact.b : contact.a;
         if (other < first_proxy) {
             sample.on_support = true;
+            if (contact.normal_force <= pressed) continue;
+            pressed = contact.normal_force;
+            sample.support = other;
+            sample.n_support = (contact.a == object_ ? -1 : 1) * contact.n_W.normalized();
+            const auto velocity = [&](int body) {
+                const servo::BodyFrame& b = frame.bodies[static_cast<size_t>(body)];
+                return Vec3(b.v_WB + b.w_WB.cross(contact.p_WC - b.X_WB.p));
+            };
+            const Vec3 v = velocity(object_) - velocity(other);
+            sample.v_sliding = v - v.dot(sample.n_support) * sample.n_support;
         } else {
             sample.touching[static_cast<size_t>(other - first_proxy)] = true;
         }
@@ -74,14 +96,18 @@ bool GraspTrace::all_touching(Range range) const {
 
 double GraspTrace::slip(Range range) const {
     double most = 0;
+    for (size_t f = 0; f < fingers(); ++f) most = std::max(most, slip(range, f));
+    return most;
+}
+
+double GraspTrace::slip(Range range, size_t finger) const {
+    double most = 0;
     if (range.size() == 0) return most;
     const Sample& start = samples_[range.first];
-    for (size_t f = 0; f < fingers(); ++f) {
-        const Vec3 reference = start.X_WB.inverse() * start.p_WP[f];
-        for (size_t i = range.first; i < range.last; ++i) {
-            most = std::max(most,
-                            (samples_[i].X_WB.inverse() * samples_[i].p_WP[f] - reference).norm());
-        }
+    const Vec3 reference = start.X_WB.inverse() * start.p_WP[finger];
+    for (size_t i = range.first; i < range.last; ++i) {
+        const Sample& s = samples_[i];
+        most = std::max(most, (s.X_WB.inverse() * s.p_WP[finger] - reference).norm());
     }
     return most;
 }

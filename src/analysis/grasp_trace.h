@@ -29,8 +29,14 @@ class GraspTrace {
         double grip;      ///< [N]
         double load;      ///< [N]
         bool on_support;  ///< the object presses on something that is no finger
+        int support;      ///< which body most; -1: none
+        Vec3 n_support;   ///< of that, into the object
+        Vec3 v_sliding;   ///< of the object's point there, along the support [m/s]
+        bool awake;       ///< the object is
         Pose X_WB;        ///< object
+        Vec3 v_WB;
         std::vector<Vec3> p_WP;
+        std::vector<Vec3> v_WH;
         std::vector<Vec3> f_sent_W;  ///< on the handle
         std::vector<char> touching;  ///< presses the object
     };
@@ -50,6 +56,7 @@ class GraspTrace {
     /// Largest distance of a proxy's origin, in the object's frame, from where it was at the
     /// range's start [m].
     double slip(Range range) const;
+    double slip(Range range, size_t finger) const;
     /// Root mean square, and peak to peak, of the object's height about its mean [m].
     double height_rms(Range range) const;
     double height_range(Range range) const;

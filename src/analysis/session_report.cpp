@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
@@ -51,18 +52,26 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     return out;
 }
 
-/// The object's weight [N]; 0 when scene.yaml is not what it was, or cannot be read.
-double weight_of(const std::string& object, const recording::SessionFolder& folder,
-                 const recording::Setup& setup) {
-    if (object.empty() || !folder.changed(setup.inputs, Severity::warning).empty()) return 0;
+/// Of the object; nothing is known when scene.yaml is not what it was, or cannot be read.
+ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
+                     const recording::Setup& setup) {
+    if (name.empty() || !folder.changed(setup.inputs, Severity::warning).empty()) return {};
     try {
         Diagnostics diagnostics;
         const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
-        const int i = scene.find(object);
-        if (diagnostics.has_errors() || i < 0) return 0;
-        return scene::mass(scene.bodies[static_cast<size_t>(i)]) * scene.gravity.norm();
+        const int i = scene.find(name);
+        if (diagnostics.has_errors() || i < 0) return {};
+        const scene::Body& object = scene.bodies[static_cast<size_t>(i)];
+        ObjectFacts facts;
+        facts.mass = scene::mass(object);
+        facts.gravity = scene.gravity;
+        for (const scene::Body& body : scene.bodies) {
+            facts.friction.push_back(scene::pair_friction(scene, object.name, object.friction,
+                                                          body.name, body.friction));
+        }
+        return facts;
     } catch (const Error&) {
-        return 0;
+        return {};
     }
 }
 
@@ -72,7 +81,8 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     const std::vector<std::string>& bodies = log.head().bodies;
     const auto found = std::find(bodies.begin(), bodies.end(), info.object);
     const int object = found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
-    const double weight = weight_of(info.object, folder, log.head());
+    const ObjectFacts facts = facts_of(info.object, folder, log.head());
+    const double weight = facts.mass * facts.gravity.norm();
 
     std::vector<std::string> names;
     for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
@@ -116,6 +126,8 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     close_phase();
     figures.log = log.health();
     figures.tick = log.head().tick;
+    figures.fingers = log.head().fingers;
+    if (object >= 0) figures.episodes = find_episodes(trace, facts);
     out.events = events.events();
     out.fault = fault.table();
     return out;
@@ -139,6 +151,35 @@ Table phase_table(const SessionFigures& figures) {
         table.rows.push_back({p.start, p.end, static_cast<double>(p.trial), p.name, p.mean_grip,
                               p.peak_grip, p.mean_load, p.mean_force, p.peak_force, p.slip * 1e3,
                               p.weight_felt});
+    }
+    return table;
+}
+
+Table episode_table(const SessionFigures& figures) {
+    Table table;
+    table.columns = {
+        {"start_time", "s"},
+        {"stop_time", "s"},
+        {"episode", "hold, slide or flight of the object"},
+        {"fingers", "that pressed it, or let it go"},
+        {"slip_mm", "hold: largest slip of these fingers on it"},
+        {"least_slip_mm", "hold: of the finger that slipped least, as the one that takes it over"},
+        {"sag_mm", "hold: its lowest height, from that at the start"},
+        {"turn_deg", "hold: of the object, when the line between the fingers had turned most"},
+        {"hand_turn_deg", "hold: of that line"},
+        {"distance_mm", "slide"},
+        {"friction_ratio", "slide: work of friction over its closed form"},
+        {"release_speed_m_s", "flight: when let go"},
+        {"release_ratio", "flight: its velocity along the hand's, over that"},
+        {"rise_mm", "flight: above where it was let go"},
+        {"off_path_mm", "flight: largest distance from the ballistic path"}};
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    for (const Episode& e : figures.episodes) {
+        table.rows.push_back({e.start, e.end, std::string(enum_name(e.kind)),
+                              finger_list(e, figures.fingers), e.slip * 1e3, e.least_slip * 1e3,
+                              e.sag * 1e3, e.turn * kDegrees, e.hand_turn * kDegrees,
+                              e.distance * 1e3, e.friction_ratio, e.release_speed, e.release_ratio,
+                              e.rise * 1e3, e.off_path * 1e3});
     }
     return table;
 }
@@ -220,8 +261,10 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
         keep("session.nwb", fmt::format("{}; the log has {}", counted(ticks, "tick"),
                                         counted(figures.frames, "tick")));
     }
-    const std::pair<const char*, const char*> tables[] = {
-        {"trials.csv", "stop_time"}, {"phases.csv", "stop_time"}, {"events.csv", "time_s"}};
+    const std::pair<const char*, const char*> tables[] = {{"trials.csv", "stop_time"},
+                                                          {"phases.csv", "stop_time"},
+                                                          {"episodes.csv", "stop_time"},
+                                                          {"events.csv", "time_s"}};
     for (const auto& [name, column] : tables) {
         const double last = last_time(folder.file(name), column);
         if (last > figures.duration + figures.tick / 2) {
@@ -257,6 +300,12 @@ Table read_settings(const recording::SessionFolder& folder) {
     return table;
 }
 
+std::string finger_list(const Episode& episode, const std::vector<std::string>& names) {
+    std::string out;
+    for (const size_t finger : episode.fingers) out += (out.empty() ? "" : ", ") + names[finger];
+    return out;
+}
+
 const PhaseFigures* SessionFigures::phase(const std::string& name) const {
     for (const PhaseFigures& phase : phases) {
         if (phase.name == name) return &phase;
@@ -288,6 +337,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     recording::write_nwb(folder, content, part(0.4, 1));
     write_csv(content.trials, folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
+    write_csv(episode_table(figures), folder.file("episodes.csv"));
     write_csv(event_table(reading.events), folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.write_info(info);

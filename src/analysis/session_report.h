@@ -1,5 +1,5 @@
-// From raw.log to what a lab reads: trials.csv, phases.csv, events.csv and session.nwb. A session
-// that ended and one that was killed go the same way.
+// From raw.log to what a lab reads: trials.csv, phases.csv, episodes.csv, events.csv and
+// session.nwb. A session that ended and one that was killed go the same way.
 #pragma once
 
 #include <bit>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/episodes.h"
 #include "base/table.h"
 #include "recording/log_health.h"
 #include "recording/session.h"
@@ -28,6 +29,8 @@ struct PhaseFigures {
 
 struct SessionFigures {
     std::vector<PhaseFigures> phases;
+    std::vector<Episode> episodes;     ///< of the object
+    std::vector<std::string> fingers;  ///< names
     int64_t frames = 0;
     recording::LogHealth log;           ///< what is missing
     double tick = 0;                    ///< period of the clock [s]
@@ -49,8 +52,12 @@ struct SessionFigures {
     const PhaseFigures* phase(const std::string& name) const;
 };
 
-/// Writes session.nwb, trials.csv, phases.csv, events.csv and, after a fault, fault.csv; at last
-/// session.yaml with `info`, whose state they have then; it is `recovered` when the log is damaged.
+/// "thumb, index"
+std::string finger_list(const Episode& episode, const std::vector<std::string>& names);
+
+/// Writes session.nwb, trials.csv, phases.csv, episodes.csv, events.csv and, after a fault,
+/// fault.csv; at last session.yaml with `info`, whose state they have then; it is `recovered` when
+/// the log is damaged.
 /// Throws Error when it cannot, or when those that are there tell of more than the log does now.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);

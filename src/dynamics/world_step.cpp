@@ -91,6 +91,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         item.torque.setZero();
         // what contacts are looked for ahead of
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
+        body.setInterpolationAngularVelocity(body.getAngularVelocity());
         collision->update_bounds(body, h);
     }
 }

@@ -54,37 +54,66 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
                                 spec.tremor.high),
                     "Give the lower frequency as low_Hz.");
     }
-    double time = 0;
-    double aperture = spec.aperture;
-    Vec3 centre = spec.centre;
-    for (const ScriptStep& step : spec.script) {
-        Segment segment;
-        segment.start = time;
-        segment.duration = step.duration;
-        segment.aperture0 = aperture;
-        segment.aperture1 = step.aperture.value_or(aperture);
-        segment.centre0 = centre;
-        segment.centre1 = centre + step.move;
-        segment.steady = step.steady;
-        segments_.push_back(segment);
-        phases_.push_back({step.name, time, time + step.duration});
-        time += step.duration;
-        aperture = segment.aperture1;
-        centre = segment.centre1;
+    Segment start;
+    for (const FingerPlace& place : fingers_) {
+        Way& way = start.ways.emplace_back();
+        way.aperture0 = way.aperture1 = place.aperture.value_or(spec.aperture);
+        way.centre0 = way.centre1 = place.centre.value_or(spec.centre);
     }
+    segments_.push_back(start);
+    for (const ScriptStep& step : spec.script) add(step, fingers);
+    const double time = phases_.empty() ? 0 : phases_.back().end;
     if (time > kLongestScript) {
         throw Error(spec.place, "script",
                     fmt::format("lasts {:.6g} s, where {:g} s are the most", time, kLongestScript),
                     "Make it several experiments.");
     }
-    if (segments_.empty()) {
-        Segment rest;
-        rest.duration = 1;
-        rest.aperture0 = rest.aperture1 = aperture;
-        rest.centre0 = rest.centre1 = centre;
-        segments_.push_back(rest);
+    if (spec.script.empty()) {
+        segments_.front().duration = 1;
         phases_.push_back({"rest", 0, 1});
+    } else {
+        segments_.erase(segments_.begin());
     }
+}
+
+/// Goes on from where the last segment ends.
+void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& fingers) {
+    const Segment& last = segments_.back();
+    Segment segment;
+    segment.start = last.start + last.duration;
+    segment.duration = step.duration;
+    segment.steady = step.steady;
+    if (step.steady && !step.end_velocity.isZero()) {
+        throw Error(step.place, "end_velocity",
+                    fmt::format("'{}' is steady: it has one speed throughout", step.name),
+                    "Leave out one of the two.");
+    }
+    for (const std::string& name : step.fingers) {
+        if (std::find(fingers.begin(), fingers.end(), name) != fingers.end()) continue;
+        throw Error(step.place, "fingers",
+                    fmt::format("'{}' is to move '{}', which is not among the scene's fingers",
+                                step.name, name),
+                    fmt::format("Known: {}.", fmt::join(fingers, ", ")));
+    }
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        const Way& before = last.ways[i];
+        Way way;
+        way.aperture0 = way.aperture1 = before.aperture1;
+        way.centre0 = way.centre1 = before.centre1;
+        way.v0 = before.v1;
+        way.R0 = Quat(Eigen::AngleAxisd(before.angle, before.axis)) * before.R0;
+        if (step.fingers.empty() ||
+            std::find(step.fingers.begin(), step.fingers.end(), fingers[i]) != step.fingers.end()) {
+            way.aperture1 = step.aperture.value_or(way.aperture0);
+            way.centre1 = way.centre0 + step.move;
+            way.v1 = step.end_velocity;
+            way.angle = step.turn.norm();
+            if (way.angle > 0) way.axis = step.turn / way.angle;
+        }
+        segment.ways.push_back(way);
+    }
+    phases_.push_back({step.name, segment.start, segment.start + segment.duration});
+    segments_.push_back(std::move(segment));
 }
 
 FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
@@ -92,20 +121,33 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     for (const Segment& s : segments_) {
         if (t >= s.start) segment = &s;
     }
-    const double s = (t - segment->start) / segment->duration;
-    const bool inside = s > 0 && s < 1;
+    const Way& way = segment->ways[static_cast<size_t>(finger)];
+    const double T = segment->duration;
+    const double s = (t - segment->start) / T;
+    // a way that does not start or end at rest has its speed there inside only
+    const bool inside = segment->steady ? s > 0 && s < 1 : s >= 0 && s < 1;
     const model::MinimumJerk step =
-        segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), inside ? 1.0 : 0.0}
-                        : model::minimum_jerk(s);
-    const double per_second = step.rate / segment->duration;
+        segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), 1.0} : model::minimum_jerk(s);
+    const double rate = inside ? step.rate / T : 0.0;
 
+    const double aperture_change = way.aperture1 - way.aperture0;
+    const Vec3 centre_change = way.centre1 - way.centre0;
+    Vec3 centre = way.centre0 + step.share * centre_change;
+    Vec3 v = rate * centre_change;
+    if (!segment->steady) {
+        const model::MinimumJerk from = model::start_speed_part(s);
+        const model::MinimumJerk to = model::end_speed_part(s);
+        centre += T * (from.share * way.v0 + to.share * way.v1);
+        if (inside) v += from.rate * way.v0 + to.rate * way.v1;
+    }
     const FingerPlace& place = fingers_[static_cast<size_t>(finger)];
-    const double aperture_change = segment->aperture1 - segment->aperture0;
-    const Vec3 centre_change = segment->centre1 - segment->centre0;
+    const Quat R = Quat(Eigen::AngleAxisd(step.share * way.angle, way.axis)) * way.R0;
+    const Vec3 arm =
+        R * (place.offset + (way.aperture0 + step.share * aperture_change) / 2 * place.side);
     FingerTarget target;
-    target.p_WT = segment->centre0 + step.share * centre_change + place.offset +
-                  (segment->aperture0 + step.share * aperture_change) / 2 * place.side;
-    target.v_WT = per_second * (centre_change + aperture_change / 2 * place.side);
+    target.p_WT = centre + arm;
+    target.v_WT =
+        v + rate * (aperture_change / 2 * (R * place.side) + way.angle * way.axis.cross(arm));
     return target;
 }
 

@@ -1,4 +1,9 @@
-// A hand that follows a script: aperture and centre change step by step, by minimum jerk.
+// A hand that follows a script: aperture, centre and turn change step by step, by minimum jerk.
+//
+//     p_WT = c + R (offset + a / 2 side)
+//
+// Each finger has a centre c, an aperture a and a turn R of its own, all changed alike by the steps
+// that move it: fingers with the same are a hand, and a scene may have several.
 #pragma once
 
 #include "hand/driver.h"
@@ -18,13 +23,23 @@ class ScriptDriver final : public Driver {
   private:
     FingerTarget do_target(int finger, double t) const noexcept override;
 
+    /// What one finger's hand does in a step.
+    struct Way {
+        double aperture0 = 0, aperture1 = 0;                  // [m]
+        Vec3 centre0 = Vec3::Zero(), centre1 = Vec3::Zero();  // [m]
+        Vec3 v0 = Vec3::Zero(), v1 = Vec3::Zero();            // of the centre [m/s]
+        Quat R0 = Quat::Identity();                           // turn done before
+        Vec3 axis = Vec3::UnitX();
+        double angle = 0;  // turn in this step [rad]
+    };
     struct Segment {
         double start = 0;
         double duration = 0;
-        double aperture0 = 0, aperture1 = 0;
-        Vec3 centre0, centre1;
         bool steady = false;
+        std::vector<Way> ways;  // by finger
     };
+    void add(const ScriptStep& step, const std::vector<std::string>& fingers);
+
     std::vector<Segment> segments_;
     std::vector<Phase> phases_;
     std::vector<FingerPlace> fingers_;

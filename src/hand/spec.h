@@ -11,6 +11,8 @@ namespace dihaptic::hand {
 /// What a script may ask for. Beyond, a unit is wrong.
 constexpr double kLongestScript = 3600;  // [s]
 constexpr double kFarthest = 100;        // [m]
+constexpr double kFastest = 20;          // [m/s]
+constexpr double kMostTurn = 100;        // [rad]
 
 /// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The
 /// spring stiffens with the force that the finger feels, as muscle does.
@@ -51,19 +53,23 @@ struct TremorSpec {
 struct FingerPlace {
     std::string name;
     Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
-    Vec3 offset = Vec3::Zero();  ///< added in world axes [m]
+    Vec3 offset = Vec3::Zero();  ///< added in world axes, and turned with the hand [m]
     Place place{};
+    std::optional<Vec3> centre{};      ///< of a finger of another hand: where that is [m]
+    std::optional<double> aperture{};  ///< of that hand at the start [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
         v("side", side);
         v("offset", offset, Field::length().within(-kFarthest, kFarthest));
+        v("centre", centre, Field::length().within(-kFarthest, kFarthest));
+        v("aperture", aperture, Field::length().within(0, kFarthest));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// One step of a script: the hand goes from where the last step left it, by minimum jerk.
+/// One step of a script: fingers go from where the last step left them, by minimum jerk.
 struct ScriptStep {
     std::string name;
     double duration = 0;  ///< [s]
@@ -71,6 +77,10 @@ struct ScriptStep {
         aperture;              ///< at the end: twice each finger's distance from the centre [m]
     Vec3 move = Vec3::Zero();  ///< of the centre [m]
     bool steady = false;       ///< constant speed instead of minimum jerk
+    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre: world axis times angle [rad]
+    Vec3 end_velocity = Vec3::Zero();    ///< of the centre; the next step starts with it [m/s]
+    std::vector<std::string> fingers{};  ///< that move, the others stay; empty: all
+    Place place{};
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -80,6 +90,10 @@ struct ScriptStep {
         v("aperture", aperture, Field::length().within(0, kFarthest));
         v("move", move, Field::length().within(-kFarthest, kFarthest));
         v("steady", steady);
+        v("turn", turn, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
+        v("end_velocity", end_velocity, Field::of(Quantity::speed).within(-kFastest, kFastest));
+        v("fingers", fingers);
+        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -2,7 +2,10 @@
 //
 //     x(s) = x0 + (x1 - x0) (10 s^3 - 15 s^4 + 6 s^5),   s = t / T in [0, 1]
 //
-// Peak speed is 15/8 of the mean speed, at s = 1/2.
+// Peak speed is 15/8 of the mean speed, at s = 1/2. Between points that are passed at speeds v0 and
+// v1, without acceleration, the smoothest path is the quintic
+//
+//     x(s) = the same + T v0 (s - 6 s^3 + 8 s^4 - 3 s^5) + T v1 (-4 s^3 + 7 s^4 - 3 s^5)
 #pragma once
 
 #include <algorithm>
@@ -18,6 +21,16 @@ struct MinimumJerk {
 constexpr MinimumJerk minimum_jerk(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return {s * s * s * (10 + s * (6 * s - 15)), 30 * s * s * (1 - s) * (1 - s)};
+}
+
+/// What a speed of one at the start, and one at the end, adds to the share: the two brackets above.
+constexpr MinimumJerk start_speed_part(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    return {s * (1 + s * s * (-6 + s * (8 - 3 * s))), 1 + s * s * (-18 + s * (32 - 15 * s))};
+}
+constexpr MinimumJerk end_speed_part(double s) {
+    s = std::clamp(s, 0.0, 1.0);
+    return {s * s * s * (-4 + s * (7 - 3 * s)), s * s * (-12 + s * (28 - 15 * s))};
 }
 
 /// Peak speed over mean speed.

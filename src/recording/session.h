@@ -5,7 +5,8 @@
 //   settings.csv                       every setting with its origin
 //   raw.log                            every tick
 //
-// and at its end (or by `dihaptic recover`) session.nwb, trials.csv, phases.csv and events.csv.
+// and at its end (or by `dihaptic recover`) session.nwb, trials.csv, phases.csv, episodes.csv
+// and events.csv.
 // Last of all session.yaml gets another state than running: then all of them are there.
 #pragma once
 

@@ -11,8 +11,20 @@ namespace {
 constexpr double kWorldHalfExtent = 10.0;  // [m]
 /// Pairs are found this much before they touch.
 constexpr double kApproach = 3e-3;  // [m]
-/// Bullet finds contacts of round shapes this much before they touch.
-constexpr double kRoundMargin = 2e-3;  // [m]
+/// Bullet finds contacts of round shapes this much before they touch, and further for bodies that
+/// could close more in the step.
+constexpr double kRoundMargin = 2e-3;      // [m]
+constexpr double kMostRoundMargin = 5e-2;  // [m]
+
+/// Largest speed of a point of the body by its turning; its centre lies anywhere inside [m/s].
+double turning(const btCollisionObject& object) {
+    const btScalar speed = object.getInterpolationAngularVelocity().length();
+    if (speed == 0) return 0;
+    btVector3 centre;
+    btScalar radius = 0;
+    object.getCollisionShape()->getBoundingSphere(centre, radius);
+    return speed * (centre.length() + radius);
+}
 
 enum Group { kMovable = 1, kImmovable = 2 };
 
@@ -26,6 +38,12 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
 
 }  // namespace
 
+double approach(const btCollisionObject& a, const btCollisionObject& b, double h) {
+    const btVector3 closing =
+        a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
+    return h * (closing.length() + turning(a) + turning(b));
+}
+
 Collision::Collision(int max_bodies, int max_pairs)
     : configuration_(pools(max_pairs)),
       dispatcher_(&configuration_, max_pairs),
@@ -34,8 +52,7 @@ Collision::Collision(int max_bodies, int max_pairs)
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_bodies + 2), &pairs_, true),
       max_pairs_(max_pairs) {
-    // round shapes too are met ahead of touch, whatever their size
-    gContactBreakingThreshold = kRoundMargin;
+    // the distance at which contacts are found is ours, whatever the shapes' size
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -82,8 +99,9 @@ void Collision::update_bounds(btCollisionObject& object, double h) {
     btVector3 low;
     btVector3 high;
     object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
-    const btVector3 travel = h * btRigidBody::upcast(&object)->getLinearVelocity();
-    const btVector3 margin = travel.absolute() + btVector3(kApproach, kApproach, kApproach);
+    const btVector3 travel = h * object.getInterpolationLinearVelocity();
+    const double most = kApproach + h * turning(object);
+    const btVector3 margin = travel.absolute() + btVector3(most, most, most);
     broadphase_.setAabb(object.getBroadphaseHandle(), low - margin, high + margin, &dispatcher_);
 }
 
@@ -125,9 +143,30 @@ void Collision::list_live_pairs() {
 }
 
 bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
-    btCollisionDispatcher::defaultNearCallback(pair, dispatcher_, info);
-    if (pair.m_algorithm == nullptr) return false;
+    auto& object0 = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+    auto& object1 = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+    if (!dispatcher_.needsCollision(&object0, &object1)) return false;
+    const btCollisionObjectWrapper wrap0(nullptr, object0.getCollisionShape(), &object0,
+                                         object0.getWorldTransform(), -1, -1);
+    const btCollisionObjectWrapper wrap1(nullptr, object1.getCollisionShape(), &object1,
+                                         object1.getWorldTransform(), -1, -1);
+    // round shapes are met ahead of touch: Bullet asks for the distance in three places
+    const double margin =
+        std::min(kMostRoundMargin, kRoundMargin + approach(object0, object1, step_));
+    gContactBreakingThreshold = margin;  // of manifolds to come
     scratch_.resizeNoInitialize(0);
+    if (pair.m_algorithm == nullptr) {
+        pair.m_algorithm =
+            dispatcher_.findAlgorithm(&wrap0, &wrap1, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+        if (pair.m_algorithm == nullptr) return false;
+    } else {
+        pair.m_algorithm->getAllContactManifolds(scratch_);
+        for (int m = 0; m < scratch_.size(); ++m) scratch_[m]->setContactBreakingThreshold(margin);
+        scratch_.resizeNoInitialize(0);
+    }
+    btManifoldResult result(&wrap0, &wrap1);
+    result.m_closestPointDistanceThreshold = margin;
+    pair.m_algorithm->processCollision(&wrap0, &wrap1, info, &result);
     pair.m_algorithm->getAllContactManifolds(scratch_);
     bool woke = false;
     for (int m = 0; m < scratch_.size(); ++m) {

@@ -81,4 +81,8 @@ class Collision {
 
 constexpr int kAwake = 1;
 
+/// How far the surfaces of two bodies may come closer in a step, by their velocities before
+/// contacts act: nothing that could touch in the step is further apart [m].
+double approach(const btCollisionObject& a, const btCollisionObject& b, double h);
+
 }  // namespace dihaptic::dynamics

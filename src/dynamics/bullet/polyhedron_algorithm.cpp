@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "dynamics/bullet/collision.h"
 #include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
 
@@ -15,18 +16,12 @@ namespace {
 /// Contacts are found this far ahead of touch, and further for bodies that could close more in the
 /// step.
 constexpr double kMargin = 5e-4;      // [m]
-constexpr double kMostMargin = 2e-2;  // [m]
+constexpr double kMostMargin = 5e-2;  // [m]
 /// A contact is the continuation of an old one within this distance on the body.
 constexpr double kSamePoint = 5e-3;  // [m]
 
 const Polyhedron* polyhedron(const btCollisionObject& object) {
     return static_cast<const Polyhedron*>(object.getUserPointer());
-}
-
-double reach(const btCollisionObject& a, const btCollisionObject& b, double h) {
-    const btVector3 closing =
-        a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
-    return std::min(kMostMargin, kMargin + h * closing.length());
 }
 
 class Algorithm final : public btActivatingCollisionAlgorithm {
@@ -51,7 +46,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         const btCollisionObject& b = *b_wrap->getCollisionObject();
         const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
         const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
-        const double margin = reach(a, b, step_);
+        const double margin = std::min(kMostMargin, kMargin + approach(a, b, step_));
         ContactPatch patch;
         if (polyhedron(a) == nullptr) {
             patch = collide_half_space(X_WA, *polyhedron(b), X_WB, margin);

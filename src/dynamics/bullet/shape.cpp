@@ -8,8 +8,9 @@ namespace dihaptic::dynamics {
 namespace {
 
 /// Hulls and cylinders carry a thin skin, without which Bullet's distance algorithm loses its
-/// normal at depth zero. Cylinders are drawn in by as much; a sphere or a capsule meets a hull this
-/// far outside its surface.
+/// normal at depth zero. Cylinders and boxes are drawn in by as much, and their edges rounded
+/// (Bullet's own skin would round a box by a tenth of its half edge); a sphere or a capsule meets a
+/// hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
 
 std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull, const Pose& X_BM) {
@@ -26,8 +27,11 @@ std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull, const Pos
 std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const Pose& X_BM) {
     using scene::ShapeKind;
     switch (shape.kind) {
-        case ShapeKind::box:
-            return std::make_unique<btBoxShape>(to_bullet(Vec3(shape.size / 2)));
+        case ShapeKind::box: {
+            auto out = std::make_unique<btBoxShape>(to_bullet(Vec3(shape.size / 2)));
+            out->setMargin(kSkin);
+            return out;
+        }
         case ShapeKind::sphere:
             return std::make_unique<btSphereShape>(shape.radius);
         case ShapeKind::capsule:

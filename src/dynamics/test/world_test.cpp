@@ -202,6 +202,57 @@ TEST(World, RoundShapesRestOnAPlaneWhereTheyShould) {
     EXPECT_NEAR(world.states()[3].X_WB.p.z(), 0.02, 1e-4);
 }
 
+/// Steps, and returns the lowest height of `points` of the body, by any time.
+double lowest_of(World& world, int body, const std::vector<Vec3>& points, double time) {
+    double lowest = 1;
+    for (double t = kStep / 2; t < time; t += kStep) {
+        world.step(kStep);
+        for (const Vec3& p : points)
+            lowest = std::min(lowest, (world.states()[static_cast<size_t>(body)].X_WB * p).z());
+    }
+    return lowest;
+}
+
+TEST(World, ABallMeetsABoxesCornerWhereItIs) {
+    const double radius = 0.008;
+    const Vec3 away = Vec3::Ones().normalized();
+    scene::Body ball = block({0, 0, 0});
+    ball.shape = scene::Shape::sphere(radius);
+    ball.position = Vec3::Constant(0.02) + (radius + 0.001) * away;
+    World world = make({box("box", Vec3::Constant(0.04), Vec3::Zero(), 0), ball}, awake());
+    world.step(kStep);
+    ASSERT_EQ(world.contacts().size(), 1u);
+    EXPECT_NEAR(world.contacts()[0].gap, 0.001, 1.5e-4);  // Bullet's skin rounds it
+    EXPECT_GT(world.contacts()[0].n_W.dot(away), 0.999);
+}
+
+TEST(World, BallsThatFlyAtEachOtherNeverOverlap) {
+    for (const double speed : {1.0, 3.0, 9.0}) {
+        std::vector<scene::Body> balls{block({-0.1, 0, 1}), block({0.1, 0.002, 1})};
+        for (scene::Body& ball : balls) ball.shape = scene::Shape::sphere(0.01);
+        balls[1].name = "other";
+        World world = make(balls, awake());
+        world.set_velocity({0}, {speed, 0, 0});
+        world.set_velocity({1}, {-speed, 0, 0});
+        double nearest = 1;
+        for (int i = 0; i < 150; ++i) {
+            world.step(kStep);
+            nearest =
+                std::min(nearest, (world.states()[0].X_WB.p - world.states()[1].X_WB.p).norm());
+        }
+        EXPECT_GT(nearest, 0.02 - 2e-4) << speed;
+        EXPECT_LT(nearest, 0.02 + 2e-4) << speed;
+    }
+}
+
+TEST(World, ABoxThatSpinsIntoTheTableDoesNotSinkIn) {
+    World world = make({table(), block({0, 0, 0.032})}, awake());
+    const double inertia = 0.1 * 0.04 * 0.04 / 6;
+    world.apply({1}, Vec3::Zero(), Vec3(0, 60 * inertia / kStep, 0));
+    EXPECT_GT(lowest_of(world, 1, scene::marks(scene::Shape::box(Vec3::Constant(0.04))), 0.3),
+              -2e-4);
+}
+
 TEST(Sleep, RestingBodiesSleepAndStayExactlyWhereTheyAre) {
     World world =
         make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});

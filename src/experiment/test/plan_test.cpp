@@ -248,6 +248,33 @@ INSTANTIATE_TEST_SUITE_P(
                     "hand: {script: [{name: a, duration_s: 3600}, {name: b, duration_s: 1}]}\n";
             },
             "experiment.yaml:3: error: script: lasts 3601 s, where 3600 s are the most"},
+        Bad{"a step of unknown fingers",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, fingers: [thmub]}\n";
+            },
+            "experiment.yaml:5: error: fingers: 'a' is to move 'thmub', which is not among the "
+            "scene's fingers. Known: thumb, index."},
+        Bad{"a steady step that ends with another speed",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, steady: yes, "
+                    "end_velocity_m_s: [1, 0, 0]}\n";
+            },
+            "experiment.yaml:5: error: end_velocity: 'a' is steady: it has one speed throughout"},
+        Bad{"a turn in millimetres",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, turn_mm: [1, 0, 0]}\n";
+            },
+            "experiment.yaml:5: error: turn_mm"},
+        Bad{"a throw beyond all hands",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, end_velocity_m_s: [0, 0, "
+                    "1200]}\n";
+            },
+            "experiment.yaml:5: error: end_velocity_m_s: must be"},
         Bad{"a hand too damped to simulate",
             [](Files& f) { f.experiment += "hand: {impedance: {damping_Ns_m: 1e9}}\n"; },
             "experiment.yaml:3: error: impedance: the hand is stiffer or more damped"},

@@ -39,6 +39,71 @@ TEST(Script, VelocityIsTheDerivativeOfPosition) {
     }
 }
 
+/// A throw: up to 1.2 m/s, and on while the hand opens and turns; then the index alone.
+HandSpec throwing() {
+    HandSpec hand = spec();
+    ScriptStep up;
+    up.name = "up";
+    up.duration = 0.4;
+    up.move = {0, 0, 0.2};
+    up.end_velocity = {0, 0, 1.2};
+    ScriptStep open;
+    open.name = "open";
+    open.duration = 0.2;
+    open.move = {0, 0, 0.1};
+    open.aperture = 0.2;
+    open.turn = {0, 0, 0.5};
+    ScriptStep index = open;
+    index.name = "index";
+    index.fingers = {"index"};
+    hand.script = {up, open, index};
+    return hand;
+}
+
+TEST(Script, PassesFromStepToStepAtTheSpeedAskedFor) {
+    const ScriptDriver driver(throwing(), {"thumb", "index"});
+    for (const double t : {0.4 - 1e-9, 0.4}) {
+        EXPECT_LT((driver.target(0, t).p_WT - Vec3(-0.04, 0, 0.22)).norm(), 1e-8);
+        EXPECT_LT((driver.target(0, t).v_WT - Vec3(0, 0, 1.2)).norm(), 1e-8) << t;
+    }
+    const double h = 1e-7;
+    for (double t = 0.05; t < 0.8; t += 0.1) {
+        for (const int finger : {0, 1}) {
+            const Vec3 slope =
+                (driver.target(finger, t + h).p_WT - driver.target(finger, t - h).p_WT) / (2 * h);
+            EXPECT_LT((slope - driver.target(finger, t).v_WT).norm(), 1e-7) << t;
+        }
+    }
+}
+
+TEST(Script, TurnsTheHandAboutItsCentre) {
+    const ScriptDriver driver(throwing(), {"thumb", "index"});
+    const Vec3 arm(0.1 * std::cos(0.5), 0.1 * std::sin(0.5), 0);
+    EXPECT_LT((driver.target(1, 0.6).p_WT - Vec3(0.01, 0, 0.32) - arm).norm(), 1e-15);
+    EXPECT_LT((driver.target(0, 0.6).p_WT - Vec3(0.01, 0, 0.32) + arm).norm(), 1e-15);
+    // turns add up
+    const Vec3 twice(0.1 * std::cos(1), 0.1 * std::sin(1), 0);
+    EXPECT_LT((driver.target(1, 0.8).p_WT - Vec3(0.01, 0, 0.42) - twice).norm(), 1e-15);
+}
+
+TEST(Script, MovesTheNamedFingersOnly) {
+    const ScriptDriver driver(throwing(), {"thumb", "index"});
+    EXPECT_EQ(driver.target(0, 0.65).p_WT, driver.target(0, 0.8).p_WT);
+    EXPECT_EQ(driver.target(0, 0.7).v_WT, Vec3::Zero());
+    EXPECT_GT(driver.target(1, 0.7).v_WT.z(), 0.5);
+}
+
+TEST(Script, HasAsManyHandsAsItsFingersSay) {
+    HandSpec hand = spec();
+    hand.fingers = {{"ring", {0, 1, 0}, Vec3::Zero(), {}, Vec3(0, 0, 0.3), 0.06}};
+    hand.script.resize(2);
+    hand.script[1].fingers = {"ring"};
+    const ScriptDriver driver(hand, {"thumb", "index", "ring"});
+    EXPECT_LT((driver.target(2, 0).p_WT - Vec3(0, 0.03, 0.3)).norm(), 1e-15);
+    EXPECT_LT((driver.target(2, 3).p_WT - Vec3(0, 0.02, 0.4)).norm(), 1e-15);
+    EXPECT_LT((driver.target(0, 3).p_WT - Vec3(-0.01, 0, 0.02)).norm(), 1e-15);
+}
+
 TEST(Script, NamesItsPhases) {
     const ScriptDriver driver(spec(), {"thumb", "index"});
     ASSERT_EQ(driver.phases().size(), 3u);

@@ -24,6 +24,37 @@ TEST(MinimumJerk, StartsAndEndsAtRestWithItsPeakInTheMiddle) {
     }
 }
 
+TEST(MinimumJerk, PassesItsEndsAtTheSpeedsAskedForWithoutAcceleration) {
+    const double x0 = 0.3, x1 = -0.2, v0 = 1.5, v1 = -0.7, T = 0.8;
+    const auto x = [&](double t) {
+        const double s = t / T;
+        return x0 + (x1 - x0) * minimum_jerk(s).share + T * v0 * start_speed_part(s).share +
+               T * v1 * end_speed_part(s).share;
+    };
+    const auto v = [&](double t) {
+        const double s = t / T;
+        return (x1 - x0) / T * minimum_jerk(s).rate + v0 * start_speed_part(s).rate +
+               v1 * end_speed_part(s).rate;
+    };
+    EXPECT_DOUBLE_EQ(x(0), x0);
+    EXPECT_DOUBLE_EQ(x(T), x1);
+    EXPECT_DOUBLE_EQ(v(0), v0);
+    EXPECT_NEAR(v(T), v1, 1e-14);
+    const double h = 1e-5;
+    EXPECT_NEAR((v(h) - v(0)) / h, 0, 1e-2);
+    EXPECT_NEAR((v(T) - v(T - h)) / h, 0, 1e-2);
+    for (double t = 0.05; t < T; t += 0.1) {
+        EXPECT_NEAR((x(t + h) - x(t - h)) / (2 * h), v(t), 1e-8) << t;
+    }
+    // a path of least jerk has no sixth derivative: sixth differences vanish
+    const double d = 0.02;
+    for (double t = 3 * d; t < T - 3 * d; t += 0.1) {
+        const double sixth = x(t - 3 * d) - 6 * x(t - 2 * d) + 15 * x(t - d) - 20 * x(t) +
+                             15 * x(t + d) - 6 * x(t + 2 * d) + x(t + 3 * d);
+        EXPECT_NEAR(sixth, 0, 1e-14) << t;
+    }
+}
+
 std::vector<double> sine(double frequency, double rate, size_t n) {
     std::vector<double> out(n);
     for (size_t i = 0; i < n; ++i)

@@ -1,0 +1,178 @@
+#include "analysis/episodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace dihaptic::analysis {
+namespace {
+
+using Sample = GraspTrace::Sample;
+
+constexpr double kShortest = 0.02;     // [s]
+constexpr double kLettingGo = 0.05;    // fingers that pressed so shortly before let it go [s]
+constexpr double kSlideSpeed = 0.001;  // below, it creeps or rests [m/s]
+constexpr double kHandSpeed = 0.05;    // below, the hand stands still [m/s]
+
+/// What one sample is part of, if anything.
+struct State {
+    std::optional<EpisodeKind> kind;
+    std::vector<char> touching;
+    bool operator==(const State&) const = default;
+};
+
+State state_of(const Sample& s) {
+    if (!s.awake || !s.X_WB.p.allFinite()) return {};
+    const bool touched =
+        std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
+    if (s.on_support) {
+        if (!(s.v_sliding.norm() > kSlideSpeed)) return {};
+        return {EpisodeKind::slide, s.touching};
+    }
+    return {touched ? EpisodeKind::hold : EpisodeKind::flight, s.touching};
+}
+
+struct Run {
+    State state;
+    Range range;
+};
+
+/// Stretches of one state that last; of holds and slides, those that are only broken by shorter
+/// ones are one.
+std::vector<Run> runs_of(const GraspTrace& trace) {
+    const std::vector<Sample>& samples = trace.samples();
+    const auto shortest = static_cast<size_t>(std::ceil(kShortest / trace.tick()));
+    std::vector<Run> out;
+    for (size_t first = 0; first < samples.size();) {
+        const State state = state_of(samples[first]);
+        size_t last = first + 1;
+        while (last < samples.size() && state_of(samples[last]) == state) ++last;
+        if (state.kind && last - first >= shortest) {
+            const bool goes_on = !out.empty() && out.back().state == state &&
+                                 *state.kind != EpisodeKind::flight &&
+                                 first - out.back().range.last < shortest;
+            if (goes_on) {
+                out.back().range.last = last;
+            } else {
+                out.push_back({state, {first, last}});
+            }
+        }
+        first = last;
+    }
+    return out;
+}
+
+void measure_hold(const GraspTrace& trace, Episode& out) {
+    out.slip = 0;
+    out.least_slip = std::numeric_limits<double>::infinity();
+    for (const size_t finger : out.fingers) {
+        const double slip = trace.slip(out.range, finger);
+        out.slip = std::max(out.slip, slip);
+        out.least_slip = std::min(out.least_slip, slip);
+    }
+    out.sag = trace.sag(out.range);
+    if (out.fingers.size() < 2) return;
+    const auto line = [&](const Sample& s) {
+        return Vec3(s.p_WP[out.fingers[1]] - s.p_WP[out.fingers[0]]);
+    };
+    const Sample& start = trace.samples()[out.range.first];
+    out.turn = out.hand_turn = 0;
+    for (size_t i = out.range.first; i < out.range.last; ++i) {
+        const Sample& s = trace.samples()[i];
+        const Vec3 a = line(start);
+        const Vec3 b = line(s);
+        const double turned = std::atan2(a.cross(b).norm(), a.dot(b));
+        if (turned <= out.hand_turn) continue;
+        out.hand_turn = turned;
+        out.turn = angle_between(start.X_WB.R, s.X_WB.R);
+    }
+}
+
+void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& out) {
+    const std::vector<Sample>& samples = trace.samples();
+    const double h = trace.tick();
+    out.distance = 0;
+    double work = 0;
+    double closed_form = 0;
+    for (size_t i = out.range.first + 1; i < out.range.last; ++i) {
+        const Sample& s = samples[i];
+        // a step's force times the mean of the velocities around it is its change of energy
+        const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
+        out.distance += h * v.norm();
+        if (s.support < 0) continue;  // it left its support for less than an episode
+        Vec3 load = object.mass * object.gravity;
+        for (const size_t finger : out.fingers) load -= s.f_sent_W[finger];
+        const double mu = object.friction.empty() ? Episode::kNone
+                                                  : object.friction[static_cast<size_t>(s.support)];
+        work += h * load.dot(v);
+        closed_form += h * mu * std::max(0.0, -load.dot(s.n_support)) * v.norm();
+    }
+    const auto energy = [&](size_t i) {
+        return object.mass * samples[i].v_sliding.squaredNorm() / 2;
+    };
+    work += energy(out.range.first) - energy(out.range.last - 1);
+    if (closed_form > 0) out.friction_ratio = work / closed_form;
+}
+
+void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode& out) {
+    const std::vector<Sample>& samples = trace.samples();
+    const double h = trace.tick();
+    const size_t first = out.range.first;
+    const Vec3 p0 = samples[first].X_WB.p;
+    // of a parabola through the first two positions
+    const Vec3 v0 = (samples[first + 1].X_WB.p - p0) / h - object.gravity * h / 2;
+    out.rise = out.off_path = 0;
+    for (size_t i = first; i < out.range.last; ++i) {
+        const double t = static_cast<double>(i - first) * h;
+        const Vec3 path = p0 + t * v0 + t * t / 2 * object.gravity;
+        const double off = (samples[i].X_WB.p - path).norm();
+        out.off_path = std::isnan(off) ? off : std::max(out.off_path, off);
+        out.rise = std::max(out.rise, samples[i].X_WB.p.z() - p0.z());
+    }
+    if (first == 0) return;
+    const Sample& release = samples[first - 1];
+    const size_t back = std::min(first, static_cast<size_t>(std::ceil(kLettingGo / h)));
+    for (size_t finger = 0; finger < trace.fingers(); ++finger) {
+        const bool let_go = std::any_of(samples.begin() + static_cast<std::ptrdiff_t>(first - back),
+                                        samples.begin() + static_cast<std::ptrdiff_t>(first),
+                                        [&](const Sample& s) { return s.touching[finger] != 0; });
+        if (let_go) out.fingers.push_back(finger);
+    }
+    if (out.fingers.empty()) return;
+    Vec3 hand = Vec3::Zero();
+    for (const size_t finger : out.fingers)
+        hand += release.v_WH[finger] / static_cast<double>(out.fingers.size());
+    out.release_speed = release.v_WB.norm();
+    if (hand.norm() > kHandSpeed) out.release_ratio = release.v_WB.dot(hand) / hand.squaredNorm();
+}
+
+}  // namespace
+
+std::vector<Episode> find_episodes(const GraspTrace& trace, const ObjectFacts& object) {
+    std::vector<Episode> out;
+    for (const Run& run : runs_of(trace)) {
+        Episode episode;
+        episode.kind = *run.state.kind;
+        episode.range = run.range;
+        episode.start = trace.samples()[run.range.first].time;
+        episode.end = trace.samples()[run.range.last - 1].time;
+        for (size_t finger = 0; finger < run.state.touching.size(); ++finger) {
+            if (run.state.touching[finger]) episode.fingers.push_back(finger);
+        }
+        switch (episode.kind) {
+            case EpisodeKind::hold:
+                measure_hold(trace, episode);
+                break;
+            case EpisodeKind::slide:
+                measure_slide(trace, object, episode);
+                break;
+            case EpisodeKind::flight:
+                measure_flight(trace, object, episode);
+                break;
+        }
+        out.push_back(std::move(episode));
+    }
+    return out;
+}
+
+}  // namespace dihaptic::analysis

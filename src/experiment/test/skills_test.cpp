@@ -1,0 +1,131 @@
+// What the shipped experiments have the hand do with a block, against mechanics, with every solver.
+#include <gtest/gtest.h>
+
+#include "analysis/session_report.h"
+#include "experiment/session_run.h"
+#include "recording/raw_log.h"
+#include "testing/files.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+using analysis::Episode;
+using analysis::EpisodeKind;
+
+constexpr double kGravity = 9.81;
+
+class Skills : public ::testing::TestWithParam<dynamics::Solver> {
+  protected:
+    std::vector<Episode> run(const std::string& experiment) {
+        Request request;
+        request.file = "experiments/" + experiment + ".yaml";
+        request.set = {"dynamics.solver=" + std::string(enum_name(GetParam()))};
+        RunOptions options;
+        options.out = folder.path();
+        const std::atomic<bool> go_on{false};
+        const RunResult result = run_session(make_plan(request), options, go_on, {});
+        session = result.folder;
+        figures =
+            analysis::finish_session(recording::SessionFolder::open(session), result.info, {});
+        EXPECT_FALSE(figures.failed());
+        EXPECT_EQ(figures.ticks_with(servo::kForceLimited), 0);
+        return figures.episodes;
+    }
+    std::string fingers(const Episode& episode) const {
+        return finger_list(episode, figures.fingers);
+    }
+    double end() const { return figures.duration - 2 * figures.tick; }
+
+    testing::TemporaryFolder folder;
+    std::string session;
+    analysis::SessionFigures figures;
+};
+INSTANTIATE_TEST_SUITE_P(Session, Skills,
+                         ::testing::Values(dynamics::Solver::sequential_impulse,
+                                           dynamics::Solver::stewart_trinkle,
+                                           dynamics::Solver::staggered_projections,
+                                           dynamics::Solver::newton),
+                         [](const auto& of) { return std::string(enum_name(of.param)); });
+
+TEST_P(Skills, ABlockThatIsPushedFeelsFrictionAndSlidesOnAsFarAsItLets) {
+    const auto found = run("slide-block");
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].kind, EpisodeKind::slide);
+    EXPECT_EQ(fingers(found[0]), "index");
+    EXPECT_GT(found[0].distance, 0.2);
+    EXPECT_NEAR(found[0].friction_ratio, 1, 0.005);
+    EXPECT_EQ(found[1].kind, EpisodeKind::slide);
+    EXPECT_EQ(fingers(found[1]), "");
+    EXPECT_GT(found[1].distance, 0.03);
+    EXPECT_NEAR(found[1].friction_ratio, 1, 0.001);
+}
+
+TEST_P(Skills, ABlockRollsOnTheFingertipsThatTurnIt) {
+    const auto found = run("turn-block");
+    ASSERT_EQ(found.size(), 1u);
+    const Episode& hold = found[0];
+    EXPECT_EQ(fingers(hold), "thumb, index");
+    EXPECT_GT(hold.hand_turn, 0.5);
+    const double r = 0.006;
+    const double w = 0.02;
+    EXPECT_NEAR(hold.hand_turn / (hold.turn - std::atan(r * hold.turn / (w + r))), 1, 0.001);
+    EXPECT_NEAR(hold.slip, r * hold.turn, 1e-5);  // the way that they rolled, and nothing more
+    EXPECT_GT(hold.sag, -1e-6);
+}
+
+TEST_P(Skills, ABlockIsTossedAtTheHandsSpeedFliesBallisticallyAndIsCaught) {
+    const auto found = run("toss-block");
+    ASSERT_EQ(found.size(), 3u);
+    const Episode& flight = found[1];
+    EXPECT_EQ(flight.kind, EpisodeKind::flight);
+    EXPECT_EQ(fingers(flight), "thumb, index");
+    EXPECT_NEAR(flight.release_ratio, 1, 0.02);
+    EXPECT_GT(flight.release_speed, 0.9);
+    EXPECT_LT(flight.off_path, 1e-9);
+    EXPECT_NEAR(flight.rise, flight.release_speed * flight.release_speed / (2 * kGravity), 2e-3);
+    const Episode& caught = found[2];
+    EXPECT_EQ(caught.kind, EpisodeKind::hold);
+    EXPECT_EQ(fingers(caught), "thumb, index");
+    EXPECT_LT(caught.slip, 1e-3);
+    EXPECT_GE(caught.end, end());
+}
+
+TEST_P(Skills, ABlockThatIsDroppedIsCaughtByTheOtherHand) {
+    const auto found = run("catch-block");
+    ASSERT_EQ(found.size(), 3u);
+    const Episode& fall = found[1];
+    EXPECT_EQ(fall.kind, EpisodeKind::flight);
+    EXPECT_EQ(fingers(fall), "right_thumb, right_index");
+    EXPECT_GT(fall.end - fall.start, 0.08);
+    EXPECT_LT(fall.off_path, 1e-9);
+    const Episode& caught = found[2];
+    EXPECT_EQ(caught.kind, EpisodeKind::hold);
+    EXPECT_EQ(fingers(caught), "left_thumb, left_index");
+    EXPECT_LT(caught.slip, 3e-3);
+    EXPECT_GE(caught.end, end());
+}
+
+TEST_P(Skills, ABlockChangesHandsWithoutFalling) {
+    const auto found = run("hand-over");
+    ASSERT_EQ(found.size(), 3u);
+    EXPECT_EQ(fingers(found[0]), "right_thumb, right_index");
+    EXPECT_EQ(fingers(found[1]), "right_thumb, right_index, left_thumb, left_index");
+    EXPECT_EQ(fingers(found[2]), "left_thumb, left_index");
+    EXPECT_LT(found[0].slip, 1e-6);
+    EXPECT_LT(found[1].least_slip, 1e-6);
+    EXPECT_LT(found[2].slip, 1e-6);
+    // its weight goes onto the springs of the other hand, and of its coupling
+    double before = 0;
+    double after = 0;
+    recording::RawLogReader log(session + "/raw.log");
+    while (const servo::Frame* frame = log.next()) {
+        const double z = frame->bodies[1].X_WB.p.z();
+        if (frame->time < std::chrono::milliseconds(2000)) before = z;
+        if (frame->time < std::chrono::milliseconds(4500)) after = z;
+    }
+    const double k = 1 / (1 / 300.0 + 1 / 1000.0);
+    EXPECT_NEAR((before - after) / (0.1 * kGravity / (2 * k)), 1, 0.05);
+}
+
+}  // namespace
+}  // namespace dihaptic::experiment

@@ -1,0 +1,42 @@
+// A few seconds of play with every solver; src/measure/soak/play_soak.cpp has ten minutes.
+#include "measure/test/play.h"
+
+#include "measure/test/bars.h"
+
+namespace dihaptic::measure {
+namespace {
+
+TEST(Overlap, OfShapesWhoseDepthIsKnown) {
+    const Rounded cube{Vec3::Constant(0.02), 0};
+    const Rounded ball{Vec3::Zero(), 0.01};
+    const Rounded capsule{{0, 0, 0.02}, 0.01};
+    const Pose here;
+    const auto at = [](double x, double y, double z) { return Pose{Quat::Identity(), {x, y, z}}; };
+    EXPECT_NEAR(overlap(cube, here, cube, at(0.039, 0, 0.01)), 0.001, 1e-12);
+    EXPECT_NEAR(overlap(cube, here, cube, at(0.041, 0, 0.01)), -0.001, 1e-12);
+    // an edge toward a face
+    const Pose turned{rotation_xyz({0, 0, 0.7853981633974483}), {0.02 + 0.027, 0, 0}};
+    EXPECT_NEAR(overlap(cube, here, cube, turned), 0.02 * std::sqrt(2) - 0.027, 1e-12);
+    EXPECT_NEAR(overlap(ball, here, cube, at(0.029, 0.005, 0)), 0.001, 1e-12);
+    const double corner = 0.02 + 0.009 / std::sqrt(3);
+    EXPECT_NEAR(overlap(ball, here, cube, at(corner, corner, corner)), 0.001, 1e-12);
+    EXPECT_NEAR(overlap(ball, at(0.019, 0, 0.015), capsule, here), 0.001, 1e-9);
+    EXPECT_NEAR(overlap(capsule, at(0.019, 0, 0.01), capsule, here), 0.001, 1e-9);
+    // its line comes nearest to the cube's edge at its end
+    EXPECT_NEAR(overlap(capsule, at(0.026, 0, 0.048), cube, here), 0.01 - std::hypot(0.006, 0.008),
+                1e-9);
+}
+
+class PlayTest : public ::testing::TestWithParam<dynamics::Solver> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, PlayTest,
+                         ::testing::Values(dynamics::Solver::sequential_impulse,
+                                           dynamics::Solver::stewart_trinkle,
+                                           dynamics::Solver::staggered_projections,
+                                           dynamics::Solver::newton),
+                         solver_name);
+TEST_P(PlayTest, HarmsNothing) {
+    expect_harmless_play(GetParam(), 5);
+}
+
+}  // namespace
+}  // namespace dihaptic::measure
