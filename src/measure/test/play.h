@@ -194,7 +194,8 @@ class Play {
             } else {
                 body.shape = scene::Shape::box({size(), size(), size()});
             }
-            body.position = {-0.11 + 0.055 * (i % 5), i < 5 ? -0.06 : 0.07, 0.04};
+            // however they are turned, apart: the largest reaches 39 mm
+            body.position = {-0.11 + 0.055 * (i % 5), i < 5 ? -0.06 : 0.07, 0.11 + 0.08 * (i % 2)};
             body.rotation = {pick(-1, 1), pick(-1, 1), pick(-3, 3)};
             body.mass = std::pow(10, pick(-2, -0.7));  // 10 to 200 g
             body.friction = pick(0.2, 1);
@@ -384,10 +385,10 @@ class Play {
 };
 
 /// Plays for `time` [s], and expects that nothing was wrong.
-inline void expect_harmless_play(dynamics::Solver solver, double time) {
+inline PlayReport expect_harmless_play(dynamics::Solver solver, uint64_t seed, double time) {
     servo::Settings settings;
     settings.dynamics.solver = solver;
-    Play play(settings, 1);
+    Play play(settings, seed);
     const PlayReport report = play.run(time);
     std::printf(
         "deepest overlap %.3f mm (%s, at %.3f s); force %.2f N, change %.2f N; fastest object %.1f "
@@ -402,12 +403,10 @@ inline void expect_harmless_play(dynamics::Solver solver, double time) {
     EXPECT_LE(report.largest_force, 8.5 + 1e-9);
     EXPECT_LE(report.largest_change, settings.safety.max_force_rate * settings.tick() + 1e-9);
     EXPECT_LE(report.deepest, 1e-3) << report.deepest_pair << " at " << report.deepest_at << " s";
-    // sweeps that end at their bound make some
-    const double most = solver == dynamics::Solver::sequential_impulse ? 1e-2 : 1e-3;
-    EXPECT_LE(report.energy_made, most * report.hand_work);
+    EXPECT_LE(report.energy_made, 1e-3 * report.hand_work);
     EXPECT_EQ(report.lost, 0);
     EXPECT_GT(report.flying, 0);
-    EXPECT_GT(report.held, 0);
+    return report;
 }
 
 }  // namespace dihaptic::measure
