@@ -108,10 +108,15 @@ double rounded_down(double k) {
     return std::floor(k / unit * (1 + 1e-12)) * unit;
 }
 
+double one_digit_less(double k) {
+    return rounded_down(k * 0.99);
+}
+
 /// The rows of the map that get as far as any, each between its last good and its first bad K.
 struct Bracket {
     double c;
     double smoothing;
+    double of_map;  ///< the last good one of the map
     double good;
     double bad;
 };
@@ -126,7 +131,8 @@ std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result)
             if (!rows.empty() && good > rows.front().good) rows.clear();
             const auto next =
                 std::upper_bound(setup.stiffness.begin(), setup.stiffness.end(), good);
-            rows.push_back({c, smoothing, good, next == setup.stiffness.end() ? good : *next});
+            rows.push_back(
+                {c, smoothing, good, good, next == setup.stiffness.end() ? good : *next});
         }
     }
     return rows;
@@ -246,11 +252,20 @@ TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Pro
     const Bracket& best = *std::find_if(rows.begin(), rows.end(), [&](const Bracket& row) {
         return row.good >= kAsStiff * stiffest;
     });
-    // rounding may meet an island of shaking: then what the search itself found calm
-    std::vector<TunePoint> last{{rounded_down(best.good), best.c, best.smoothing, {}},
-                                {best.good, best.c, best.smoothing, {}}};
-    judge_all(setup, last, stop, say("the proposal", 0.94, 0.97));
-    out.proposal = last[0].calm_with_margin() ? last[0] : last[1];
+    // in steps of the second digit: where calm and shaking alternate, down to what the map found
+    // calm
+    std::vector<TunePoint> found;
+    for (double k = rounded_down(best.good); k > best.of_map && !stop; k = one_digit_less(k)) {
+        found = {{k, best.c, best.smoothing, {}}};
+        judge_all(setup, found, stop, say("the proposal", 0.94, 0.97));
+        if (found.front().calm_with_margin()) break;
+        found.clear();
+    }
+    if (found.empty()) {
+        found = {{best.of_map, best.c, best.smoothing, {}}};
+        judge_all(setup, found, stop, say("the proposal", 0.94, 0.97));
+    }
+    out.proposal = found.front();
     std::vector<TunePoint> stiffer{{kNotMargin * out.proposal->k, best.c, best.smoothing, {}}};
     judge_all(setup, stiffer, stop, say("the proposal", 0.97, 1));
     out.stiffer = stiffer.front();
