@@ -60,8 +60,9 @@ void add_grasp(CLI::App& bench) {
     command->add_option("--friction", options->setup.friction, "coefficient")
         ->capture_default_str();
     command->footer(
-        "\nWithout --coupling the table has both couplings of rigid proxies, the JSON object the "
-        "default one.\n\nExample:\n"
+        "\nWithout --coupling the table has both couplings of rigid proxies, and of points "
+        "friction "
+        "together with the dynamics and apart; the JSON object the default one.\n\nExample:\n"
         "  dihaptic bench grasp --coupling dual_spring --mass 0.2");
     command->callback([options] {
         resolve(*options);
@@ -70,6 +71,10 @@ void add_grasp(CLI::App& bench) {
         if (!options->json && options->coupling.empty() && rigid) {
             results.push_back(results.front());
             results.back().setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;
+        }
+        if (!options->json && !rigid) {
+            results.push_back(results.front());
+            results.back().setup.settings.proxy.friction = haptics::PointFriction::apart;
         }
         {
             ProgressLine line("bench grasp");

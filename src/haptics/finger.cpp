@@ -9,6 +9,8 @@ Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSetti
 
 Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
 
+Finger::Finger(SolvedPoint point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
+
 std::span<const contact::Contact> Finger::contacts() const noexcept {
     const auto* point = std::get_if<PointProxy>(&coupling_);
     return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
@@ -16,6 +18,10 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
 
 void Finger::place(World& world, const Handle& handle) noexcept {
     if (auto* point = std::get_if<PointProxy>(&coupling_)) {
+        point->place(world, handle.p_WH);
+        return;
+    }
+    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
         point->place(world, handle.p_WH);
         return;
     }
@@ -34,12 +40,15 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
         implicit->before_step(world, proxy_, handle, step);
     } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
         dual->before_step(world, proxy_, handle, step, touch_.touching);
+    } else if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
+        point->before_step(world, handle, step);
     }
 }
 
-void Finger::after_step(const World& world) noexcept {
-    // a point feels bodies where they are now: in force()
+void Finger::after_step(World& world, const Handle& handle) noexcept {
+    // apart, a point feels bodies where they are now: in force()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
+    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
 }
 
 void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
@@ -66,6 +75,8 @@ Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
         return implicit->force(world, proxy_, touch_, handle);
     if (auto* dual = std::get_if<DualSpring>(&coupling_)) return dual->force();
+    if (auto* solved = std::get_if<SolvedPoint>(&coupling_))
+        return solved->force(world, handle, tick);
     auto& point = std::get<PointProxy>(coupling_);
     const Vec3 f_H_W = point.render(world, handle, tick, step_);
     feel(point.contacts());
@@ -77,6 +88,7 @@ double Finger::stored(const World& world, const Handle& handle) const noexcept {
         return implicit->stored(world, proxy_, touch_, handle);
     if (const auto* dual = std::get_if<DualSpring>(&coupling_))
         return dual->stored(world, proxy_, handle);
+    if (const auto* solved = std::get_if<SolvedPoint>(&coupling_)) return solved->stored(handle);
     return std::get<PointProxy>(coupling_).stored(handle);
 }
 

@@ -7,6 +7,7 @@
 
 #include "haptics/coupling.h"
 #include "haptics/point_proxy.h"
+#include "haptics/solved_point.h"
 
 namespace dihaptic::haptics {
 
@@ -16,6 +17,7 @@ class Finger {
     Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling);
     /// The same with a point for a proxy.
     Finger(PointProxy point, BodyIndex proxy);
+    Finger(SolvedPoint point, BodyIndex proxy);
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
@@ -29,7 +31,7 @@ class Finger {
     void begin_tick(const World& world, const Handle& handle, double step) noexcept;
     /// In ticks in which the world steps: before it does, and after.
     void before_step(World& world, const Handle& handle, double step) noexcept;
-    void after_step(const World& world) noexcept;
+    void after_step(World& world, const Handle& handle) noexcept;
 
     /// Last in every tick: what the coupling wants the handle to feel as it is now [N]. `tick`: its
     /// length [s].
@@ -41,7 +43,7 @@ class Finger {
     void feel(std::span<const contact::Contact> contacts) noexcept;
 
     BodyIndex proxy_;
-    std::variant<ImplicitCoupling, DualSpring, PointProxy> coupling_;
+    std::variant<ImplicitCoupling, DualSpring, PointProxy, SolvedPoint> coupling_;
     ProxyTouch touch_;
     double step_ = 0;  // of the world [s]
 };

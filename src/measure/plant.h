@@ -33,11 +33,13 @@ struct BenchSetup {
     double friction = 0.8;
     Fingering fingering = Fingering::ideal;
     Row row = Row::ideal;
-    double hold_time = 5;  ///< [s]
-    int extra_blocks = 0;  ///< on the table, behind the work
+    double hold_time = 5;    ///< [s]
+    double soft_radius = 0;  ///< torsion radius, of spheres in place of pads; 0: pads [m]
+    int extra_blocks = 0;    ///< on the table, behind the work
 };
 
 constexpr double kBlockSize = 0.04;      // [m]
+constexpr double kSoftRadius = 0.006;    // of a soft fingertip [m]
 constexpr double kPadThickness = 0.005;  // [m]
 /// From a finger's proxy to its face: half a pad, or nothing for a point [m].
 double reach(const BenchSetup& setup);
