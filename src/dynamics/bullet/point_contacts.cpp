@@ -10,7 +10,12 @@ void PointContacts::reserve(int points) {
     // the last step's and the coming one's
     slots_.resize(2 * static_cast<size_t>(points) * kMostPointContacts);
     taken_.reserve(slots_.size());
-    for (Slot& slot : slots_) slot.manifold = std::make_unique<btPersistentManifold>();
+    for (Slot& slot : slots_) {
+        slot.manifold = std::make_unique<btPersistentManifold>();
+        // Bullet's constructor sets neither, and its solver leaves out contacts further off
+        slot.manifold->setContactProcessingThreshold(BT_LARGE_FLOAT);
+        slot.manifold->setContactBreakingThreshold(BT_LARGE_FLOAT);
+    }
 }
 
 void PointContacts::add(const Contact& contact) noexcept {
@@ -31,7 +36,8 @@ void PointContacts::add(const Contact& contact) noexcept {
     const btVector3 p_WC = contact.point->getWorldTransform().getOrigin();
     if (manifold.getNumContacts() == 0) {
         manifold.setBodies(contact.body, contact.point);
-        manifold.addManifoldPoint(btManifoldPoint({}, {}, {}, 0));
+        const btVector3 zero(0, 0, 0);
+        manifold.addManifoldPoint(btManifoldPoint(zero, zero, zero, 0));
     }
     to->face = contact.face;
     to->fresh = true;
