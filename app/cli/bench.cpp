@@ -66,8 +66,9 @@ void add_grasp(CLI::App& bench) {
     command->add_option("--set", options->set,
                         "any other setting, e.g. coupling.onset_ms=20; may be repeated");
     command->footer(
-        "\nWithout --coupling the table has both couplings of rigid proxies, the JSON object the "
-        "default one.\n\nExamples:\n"
+        "\nWithout --coupling the table has both couplings of rigid proxies, and of points "
+        "friction "
+        "together with the dynamics and apart; the JSON object the default one.\n\nExamples:\n"
         "  dihaptic bench grasp --coupling dual_spring --mass 0.2\n"
         "  dihaptic bench grasp --set coupling.onset_ms=20");
     command->callback([options] {
@@ -77,6 +78,10 @@ void add_grasp(CLI::App& bench) {
         if (!options->json && options->coupling.empty() && rigid) {
             results.push_back(results.front());
             results.back().setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;
+        }
+        if (!options->json && !rigid) {
+            results.push_back(results.front());
+            results.back().setup.settings.proxy.friction = haptics::PointFriction::apart;
         }
         {
             ProgressLine line("bench grasp");

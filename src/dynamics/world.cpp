@@ -67,8 +67,10 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
 }
 
 BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP) {
-    impl_->add(finger.name, finger.shape, 0, finger.friction, 0,
-               {rotation_xyz(finger.rotation), p_WP}, btVector3(0, 0, 0), btVector3(0, 0, 0));
+    // a point has no shape; its body must have one
+    impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
+               finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
+               btVector3(0, 0, 0));
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;
     return {size() - 1};
@@ -94,8 +96,14 @@ void World::activate() {
     w.can_move.reserve(count);
     w.grouped_bodies.reserve(count);
     w.batch_bodies.reserve(count);
-    w.grouped_contacts.reserve(static_cast<size_t>(max_contacts));
-    w.batch_contacts.reserve(static_cast<size_t>(max_contacts));
+    const auto points = static_cast<int>(std::count_if(
+        w.items.begin(), w.items.end(), [](const Impl::Item& item) { return item.is_point; }));
+    w.point_contacts.reserve(points);
+    const size_t manifolds =
+        static_cast<size_t>(max_contacts) + static_cast<size_t>(points) * kMostPointContacts;
+    w.collision->manifolds().reserve(manifolds);
+    w.grouped_contacts.reserve(manifolds);
+    w.batch_contacts.reserve(manifolds);
     contacts_.reserve(static_cast<size_t>(max_contacts));
     states_.resize(count);
     w.friction.resize(count * count);
@@ -193,6 +201,22 @@ void World::set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexc
     BodyState& state = states_[static_cast<size_t>(point.value)];
     state.X_WB.p = p_WP;
     state.v_WB = v_WP;
+    btRigidBody& body = *impl_->items[static_cast<size_t>(point.value)].body;
+    body.getWorldTransform().setOrigin(to_bullet(p_WP));
+    body.setLinearVelocity(to_bullet(v_WP));
+}
+
+void World::meet(BodyIndex point, const PointContact& contact) noexcept {
+    const auto p = static_cast<size_t>(point.value);
+    const auto b = static_cast<size_t>(contact.body.value);
+    const Impl::Item& body = impl_->items[b];
+    if (body.can_move) impl_->wake(b, states_);
+    const double torsion = impl_->settings.solver == Solver::sequential_impulse
+                               ? 0  // it knows none
+                               : std::max(body.torsion_radius, impl_->items[p].torsion_radius);
+    impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.face,
+                               contact.n_W, contact.gap,
+                               contact.friction_share * friction(contact.body, point), torsion});
 }
 
 }  // namespace dihaptic::dynamics

@@ -38,6 +38,9 @@ enum class StepStatus : unsigned {
                               ///< leaves the rest out. Raise dynamics.max_contacts.
 };
 
+/// What a point may meet in one step.
+constexpr size_t kMostPointContacts = 6;
+
 class World {
   public:
     /// All bodies of the scene, at their initial poses.
@@ -48,8 +51,7 @@ class World {
 
     /// Adds a finger's proxy at a position. Gravity does not act on it and it does not turn.
     BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP);
-    /// Adds a finger whose proxy is a point that touches nothing in the dynamics: whoever places it
-    /// applies what it does to bodies.
+    /// Adds a finger whose proxy is a point. It meets nothing but what meet() says.
     BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP);
     /// Reserves all memory that steps need.
     void activate();
@@ -85,6 +87,17 @@ class World {
     void apply_at(BodyIndex body, const Vec3& force_W, const Vec3& p_W) noexcept;
     /// Where a point is, and how fast it got there.
     void set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexcept;
+    /// What a point may meet in the next step: a face of a body, with the normal out of it at the
+    /// point, which is `gap` [m] off. Of the pair's friction only a share acts.
+    struct PointContact {
+        BodyIndex body;
+        int face = 0;
+        Vec3 n_W = Vec3::UnitZ();
+        double gap = 0;
+        double friction_share = 1;
+    };
+    /// Up to kMostPointContacts of them in a step.
+    void meet(BodyIndex point, const PointContact& contact) noexcept;
 
     /// The solver of the next steps; it starts from the last one's impulses.
     void set_solver(Solver solver) noexcept;

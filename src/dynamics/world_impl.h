@@ -6,6 +6,7 @@
 
 #include "contact/solver.h"
 #include "dynamics/bullet/collision.h"
+#include "dynamics/bullet/point_contacts.h"
 #include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
 #include "dynamics/bullet/solver.h"
@@ -54,6 +55,7 @@ struct World::Impl {
     std::vector<btPersistentManifold*> batch_contacts;
     std::vector<double> friction;  // by pair, row-major
     std::unique_ptr<Collision> collision;
+    PointContacts point_contacts;
     std::unique_ptr<Groups> groups;
     std::unique_ptr<SleepKeeper> sleep;
     SequentialImpulse sequential_impulse;

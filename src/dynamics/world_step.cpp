@@ -18,6 +18,7 @@ StepStatus World::step(double h) noexcept {
     w.collision->find_contacts(h);
     w.collect_awake(states_);  // some may have woken
     w.prepare_contacts();
+    w.point_contacts.take(w.collision->manifolds());
     w.group_contacts();
     stats_ = w.solve(h);
     w.integrate_positions(h, states_);
@@ -92,7 +93,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         // what contacts are looked for ahead of
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
-        collision->update_bounds(body, h);
+        if (!item.is_point) collision->update_bounds(body, h);
     }
 }
 
@@ -204,6 +205,11 @@ void World::Impl::integrate_positions(double h, std::vector<BodyState>& states) 
                                             body.getAngularVelocity(), h, next);
         body.setWorldTransform(next);
         body.updateInertiaTensor();
+        if (!items[i].is_point) read_state(i, states[i]);
+    }
+    for (const size_t i : awake) {
+        if (!items[i].is_point) continue;
+        items[i].body->getWorldTransform().getOrigin() += point_contacts.bend(*items[i].body, h);
         read_state(i, states[i]);
     }
 }

@@ -120,11 +120,13 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
                         enum_name(plan.settings.coupling.kind)),
             "Leave it out, or use proxy: kind: rigid.");
     }
+    if (plan.settings.proxy.friction == haptics::PointFriction::together) return;
     for (const scene::Finger& finger : plan.scene.fingers) {
         if (finger.torsion_radius <= 0) continue;
         diagnostics.warning(finger.place, "torsion_radius",
-                            "a point carries no moment about a contact's normal",
-                            "Leave it out, or use proxy: kind: rigid.");
+                            "where its friction is apart from the dynamics, a point carries no "
+                            "moment about a contact's normal",
+                            "Leave it out, or use proxy: friction: together.");
     }
 }
 
@@ -158,7 +160,8 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
 /// Soft fingers that are hard to this solver.
 void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
     if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
-    const bool points = plan.settings.proxy.kind == haptics::ProxyKind::point;
+    const bool apart = plan.settings.proxy.kind == haptics::ProxyKind::point &&
+                       plan.settings.proxy.friction == haptics::PointFriction::apart;
     std::string soft;
     const auto look = [&](const auto& items) {
         for (const auto& item : items) {
@@ -166,7 +169,7 @@ void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
         }
     };
     look(plan.scene.bodies);
-    if (!points) look(plan.scene.fingers);
+    if (!apart) look(plan.scene.fingers);
     if (soft.empty()) return;
     diagnostics.warning(
         place_of(plan, "dynamics.solver"), "dynamics.solver",

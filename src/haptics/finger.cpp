@@ -12,6 +12,8 @@ Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSetti
 
 Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
 
+Finger::Finger(SolvedPoint point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
+
 std::span<const contact::Contact> Finger::contacts() const noexcept {
     const auto* point = std::get_if<PointProxy>(&coupling_);
     return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
@@ -19,6 +21,10 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
 
 void Finger::place(World& world, const Handle& handle) noexcept {
     if (auto* point = std::get_if<PointProxy>(&coupling_)) {
+        point->place(world, handle.p_WH);
+        return;
+    }
+    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
         point->place(world, handle.p_WH);
         return;
     }
@@ -39,12 +45,15 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
         dual->before_step(world, proxy_, handle, step, touch_.touching);
     } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
         impulse->before_step(world, proxy_, handle, step, touch_.touching);
+    } else if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
+        point->before_step(world, handle, step);
     }
 }
 
-void Finger::after_step(const World& world) noexcept {
-    // a point feels bodies where they are now: in force()
+void Finger::after_step(World& world, const Handle& handle) noexcept {
+    // apart, a point feels bodies where they are now: in force()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
+    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
 }
 
 void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
@@ -75,6 +84,8 @@ Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
         f_H_W = dual->force();
     } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
         f_H_W = impulse->force(world, proxy_, touch_, handle);
+    } else if (auto* solved = std::get_if<SolvedPoint>(&coupling_)) {
+        f_H_W = solved->force(world, handle, tick);
     } else {
         auto& point = std::get<PointProxy>(coupling_);
         f_H_W = point.render(world, handle, tick, step_);
@@ -92,6 +103,7 @@ double Finger::spring_energy(const World& world, const Handle& handle) const noe
         return dual->stored(world, proxy_, handle);
     if (const auto* impulse = std::get_if<VelocityImpulse>(&coupling_))
         return impulse->stored(world, proxy_, touch_, handle);
+    if (const auto* solved = std::get_if<SolvedPoint>(&coupling_)) return solved->stored(handle);
     return std::get<PointProxy>(coupling_).stored(handle);
 }
 

@@ -7,6 +7,7 @@
 
 #include "haptics/coupling.h"
 #include "haptics/point_proxy.h"
+#include "haptics/solved_point.h"
 
 namespace dihaptic::haptics {
 
@@ -18,6 +19,7 @@ class Finger {
            double max_force);
     /// The same with a point for a proxy.
     Finger(PointProxy point, BodyIndex proxy);
+    Finger(SolvedPoint point, BodyIndex proxy);
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
@@ -31,7 +33,7 @@ class Finger {
     void begin_tick(const World& world, const Handle& handle, double step) noexcept;
     /// In ticks in which the world steps: before it does, and after.
     void before_step(World& world, const Handle& handle, double step) noexcept;
-    void after_step(const World& world) noexcept;
+    void after_step(World& world, const Handle& handle) noexcept;
 
     /// Last in every tick: what the coupling wants the handle to feel as it is now [N]. `tick`: its
     /// length [s].
@@ -44,7 +46,7 @@ class Finger {
     double spring_energy(const World& world, const Handle& handle) const noexcept;
 
     BodyIndex proxy_;
-    std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy> coupling_;
+    std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
     ProxyTouch touch_;
     double stored_ = 0;
     double step_ = 0;  // of the world [s]

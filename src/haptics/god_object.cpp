@@ -6,6 +6,8 @@
 namespace dihaptic::haptics {
 namespace {
 
+/// A point this near to a surface is on it, after solvers as well [m].
+constexpr double kTouching = 1e-6;
 /// A way that need not be gone [m].
 constexpr double kNoWay = 1e-10;
 /// Moves in a tick. A few are usual, some dozens where a round body is pressed nearly to its
@@ -21,6 +23,7 @@ GodObject::GodObject(std::span<const scene::Body> bodies, std::vector<double> fr
     X_WB_.resize(bodies.size());
     inside_.resize(bodies.size(), 0);
     near_.reserve(bodies.size());
+    coming_.resize(bodies.size());
 }
 
 void GodObject::place(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept {
@@ -39,10 +42,81 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     p_ = carried(bodies);
     push_out(start, bodies);
     count_ = 0;
-    pull(p_WH);
+    pull(p_WH, true);
+    leave_insides();
+}
+
+void GodObject::leave_insides() noexcept {
     for (size_t i = 0; i < surfaces_.size(); ++i) {
         if (inside_[i] && surfaces_[i].separation(in_body(i, p_)) > 0) inside_[i] = 0;
     }
+}
+
+std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
+                                               std::span<const dynamics::BodyState> bodies,
+                                               double h) noexcept {
+    met_count_ = 0;
+    for (size_t i = 0; i < surfaces_.size(); ++i) {
+        coming_[i].X_WB = bodies[i].X_WB;
+        if (bodies[i].awake) {
+            Pose& X_WB = coming_[i].X_WB;
+            X_WB.p += h * bodies[i].v_WB;
+            const double angle = h * bodies[i].w_WB.norm();
+            if (angle > 0) {
+                X_WB.R = Quat(Eigen::AngleAxisd(angle, bodies[i].w_WB.normalized())) * X_WB.R;
+            }
+        }
+        if (inside_[i]) continue;
+        const Vec3 p_B = in_body(i, p_);
+        if (p_B.norm() - kTouching > surfaces_[i].reach()) continue;
+        if (surfaces_[i].separation(p_B) <= kTouching) note(i, surfaces_[i].shallowest(p_B));
+    }
+    // the rest is found by going there, and coming back
+    const Vec3 p = p_;
+    push_out(p, coming_);
+    count_ = 0;
+    pull(p_W, false);
+    p_ = p;
+    count_ = 0;
+    for (size_t i = 0; i < surfaces_.size(); ++i) X_WB_[i] = bodies[i].X_WB;
+    size_t kept = 0;
+    for (size_t i = 0; i < met_count_; ++i) {
+        Obstacle out = met_[i];
+        const Vec3 p_B = in_body(out.body, p_);
+        out.n_W = X_WB_[out.body].R * surfaces_[out.body].normal(out.face, p_B);
+        out.gap = surfaces_[out.body].distance(out.face, p_B);
+        // behind it, the face is met on a way around: later
+        if (out.gap >= -kTouching) met_[kept++] = out;
+    }
+    met_count_ = kept;
+    return {met_.data(), met_count_};
+}
+
+void GodObject::move(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept {
+    const Vec3 start = p_;
+    p_ = p_W;
+    count_ = 0;
+    push_out(start, bodies);
+    leave_insides();
+}
+
+void GodObject::pop_through(size_t body, const Vec3& p_WH) noexcept {
+    inside_[body] = 1;
+    slide(p_WH);
+}
+
+void GodObject::slide(const Vec3& p_WH) noexcept {
+    count_ = 0;
+    pull(p_WH, false);
+    leave_insides();
+}
+
+void GodObject::note(size_t body, int face) noexcept {
+    if (met_count_ == met_.size()) return;
+    for (size_t i = 0; i < met_count_; ++i) {
+        if (met_[i].body == body) return;
+    }
+    met_[met_count_++] = {body, face, Vec3::UnitZ(), 0};
 }
 
 Vec3 GodObject::in_body(size_t body, const Vec3& p_W) const noexcept {
@@ -94,6 +168,7 @@ void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState>
             const Vec3 n_W = X_WB.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
             body_of[walls.count - 1] = i;
+            note(i, face);
             found = true;
             p_ = carried_to + walls.nearest(Vec3::Zero());
         }
@@ -114,6 +189,7 @@ void GodObject::gather(const Vec3& p_WH) noexcept {
 bool GodObject::touch(size_t body, int face) noexcept {
     if (count_ == contacts_.size()) return false;
     contacts_[count_++] = {body, face, Vec3::UnitZ(), 0};
+    note(body, face);
     return true;
 }
 
@@ -158,14 +234,14 @@ Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     return way + (1 / rest - 1) * bent;
 }
 
-void GodObject::pull(const Vec3& p_WH) noexcept {
+void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
     gather(p_WH);
     bool slides = false;
     for (int move = 0;; ++move) {
         const Vec3 left = way_to(p_WH);
         held_ = left;
         const double size = left.norm();
-        const double grip = friction_depth();
+        const double grip = rubs ? friction_depth() : 0;
         // it starts to slide beyond static friction, and goes on as far as dynamic friction lets it
         const double rest = (sliding_ ? sliding_ratio_ : 1.0) * grip;
         // out of moves, it still has to come down on what it was lifted off

@@ -42,6 +42,14 @@ struct PointContact {
     double depth = 0;          ///< the handle's share behind it, l [m]
 };
 
+/// A face that the point may come up against.
+struct Obstacle {
+    size_t body = 0;
+    int face = 0;
+    Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
+    double gap = 0;            ///< from the face, or its plane, to the point [m]
+};
+
 class GodObject {
   public:
     /// The scene's bodies by index, with the coefficient of static friction that each has with the
@@ -54,7 +62,25 @@ class GodObject {
     /// One tick: the bodies are where `bodies` says, the handle is at p_WH.
     void follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bodies) noexcept;
 
+    /// The body is not felt until the point, which goes on to the handle, has left it.
+    void pop_through(size_t body, const Vec3& p_WH) noexcept;
+
+    // Where something else decides where the point goes: friction, and bodies that give way.
+
+    /// What the point may come up against while it is pulled to `p_W` and bodies move on for h [s]:
+    /// the faces that it is on, and those that it would meet without friction. One face a body.
+    std::span<const Obstacle> obstacles(const Vec3& p_W,
+                                        std::span<const dynamics::BodyState> bodies,
+                                        double h) noexcept;
+    /// One tick: the bodies are where `bodies` says, and the point goes straight to `p_W` but for
+    /// what is in the way.
+    void move(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept;
+    /// Toward the handle, along surfaces without friction, among bodies that stay where they are.
+    void slide(const Vec3& p_WH) noexcept;
+
     const Vec3& position() const noexcept { return p_; }
+    /// The same in the frame of a body, where it was in the last tick.
+    Vec3 position_in(size_t body) const noexcept { return in_body(body, p_); }
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
     double friction(size_t body) const noexcept { return friction_[body]; }
     /// The way to the handle that is left along the surfaces: held by friction [m].
@@ -66,9 +92,11 @@ class GodObject {
   private:
     Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
     void push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
-    void pull(const Vec3& p_WH) noexcept;
+    void pull(const Vec3& p_WH, bool rubs) noexcept;
+    void leave_insides() noexcept;
     void gather(const Vec3& p_WH) noexcept;
     bool touch(size_t body, int face) noexcept;
+    void note(size_t body, int face) noexcept;
     void untouch(size_t i) noexcept;
     void refresh_normals() noexcept;
     Vec3 way_to(const Vec3& p_WH) noexcept;
@@ -82,6 +110,9 @@ class GodObject {
     std::vector<Pose> X_WB_;
     std::vector<char> inside_;
     std::vector<size_t> near_;
+    std::vector<dynamics::BodyState> coming_;    // scratch
+    std::array<Obstacle, kMostHalfSpaces> met_;  // since it was cleared, one face a body
+    size_t met_count_ = 0;
     Vec3 p_ = Vec3::Zero();
     Vec3 held_ = Vec3::Zero();
     std::array<PointContact, kMostHalfSpaces> contacts_;

@@ -1,5 +1,7 @@
 #include "haptics/point_proxy.h"
 
+#include <limits>
+
 namespace dihaptic::haptics {
 namespace {
 
@@ -17,6 +19,7 @@ std::vector<double> frictions(const scene::Scene& scene, const scene::Finger& fi
 PointProxy::PointProxy(const scene::Scene& scene, size_t finger, BodyIndex body,
                        const CouplingSettings& coupling, const ProxySettings& settings)
     : coupling_(coupling),
+      popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())),
       body_(body),
       point_(scene.bodies, frictions(scene, scene.fingers[finger]), settings.sliding_friction),
       onset_(coupling.onset) {}
@@ -42,6 +45,10 @@ Vec3 PointProxy::render(World& world, const Handle& handle, double h, double ste
         f_H_W += c.f_B_W;
         // over all ticks of a step of the world this makes their mean
         world.apply_at(c.a, -c.f_B_W * (h / step), p_WP);
+    }
+    for (const contact::Contact& c : contacts()) {
+        if (c.normal_force > popthrough_)
+            point_.pop_through(static_cast<size_t>(c.a.value), handle.p_WH);
     }
     return f_H_W;
 }

@@ -44,6 +44,7 @@ class PointProxy {
     void resolve(const Vec3& f_W) noexcept;
 
     CouplingSettings coupling_;
+    double popthrough_;  // [N]
     BodyIndex body_;
     GodObject point_;
     Onset onset_;

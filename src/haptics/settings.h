@@ -49,15 +49,28 @@ constexpr auto enum_names(ProxyKind) {
     return std::array{"rigid", "point"};
 }
 
+/// Where a point's friction is computed: in the step of the world, with all that it acts on, or
+/// outside of it, as OpenHaptics' HL did.
+enum class PointFriction { together, apart };
+constexpr auto enum_names(PointFriction) {
+    return std::array{"together", "apart"};
+}
+
 /// What a finger is in the world.
 struct ProxySettings {
     ProxyKind kind = ProxyKind::rigid;  ///< the finger's shape, or a point kept on surfaces
-    double sliding_friction = 1;        ///< point: dynamic friction, as a share of static friction
+    PointFriction friction = PointFriction::together;  ///< point
+    double sliding_friction = 1;  ///< point: dynamic friction, as a share of static friction
+    /// Point: a body that is pressed harder yields, and is not felt again until the point has left
+    /// it [N]. Unset: none does.
+    std::optional<double> popthrough;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind);
+        v("friction", friction);
         v("sliding_friction", sliding_friction, Field::number().within(0, 1));
+        v("popthrough", popthrough, Field::of(Quantity::force).positive());
     }
 };
 

@@ -52,6 +52,20 @@ double perfect_peak(const BenchSetup& setup, double speed) {
     return peak;
 }
 
+/// Mean of the normal forces along the grasp axis, by statics. Pads keep the block upright; between
+/// two points it turns until the line between the contacts lies along that between the targets.
+double closed_form_grip(const BenchSetup& setup) {
+    if (setup.settings.proxy.kind == haptics::ProxyKind::rigid) return press_force(setup);
+    const hand::HandSpec hand = grasp_hand(setup);
+    const Vec3 off = hand.fingers[1].offset - hand.fingers[0].offset;
+    const Vec3 contacts = off + Vec3(kBlockSize, 0, 0);
+    const Vec3 targets = off + Vec3(kBlockSize - 2 * setup.squeeze, 0, 0);
+    const double slant = kBlockSize / contacts.norm();  // cosine of axis to normal
+    BenchSetup along = setup;
+    along.squeeze = (contacts.norm() - targets.norm()) / 2;
+    return slant * slant * press_force(along);
+}
+
 }  // namespace
 
 HoldFigures measure_hold(const BenchSetup& setup) {
@@ -80,7 +94,7 @@ HoldFigures measure_hold(const BenchSetup& setup) {
     out.turn_deg = degrees(trace.turn(hold));
     out.hf_force_n = trace.force_above_5_hz(settled);
     out.weight_ratio = trace.weight_felt(settled) / (setup.mass * kGravity);
-    out.grip_ratio = trace.mean_grip(settled) / press_force(setup);
+    out.grip_ratio = trace.mean_grip(settled) / closed_form_grip(setup);
     return out;
 }
 
@@ -175,6 +189,54 @@ std::pair<double, double> measure_torque(const BenchSetup& setup) {
             degrees(std::abs(trace.turn_at(start, after)))};
 }
 
+double torsion_limit(const BenchSetup& setup) {
+    const double most = setup.friction * closed_form_grip(setup);
+    const double weight = setup.mass * kGravity / 2;
+    return 2 * setup.soft_radius * std::sqrt(most * most - weight * weight);
+}
+
+double measure_torsion_limit(const BenchSetup& base) {
+    BenchSetup setup = base;
+    setup.hold_time = 8;
+    Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
+    analysis::GraspTrace trace(1, setup.settings.tick());
+    const double begin = bench.driver().phases()[kHold].start + 1;
+    const double limit = torsion_limit(setup);
+    // from half the limit to 1.2 times it
+    const auto torque_at = [&](double now) { return limit * (0.5 + 0.1 * (now - begin)); };
+    double let_go = 0;
+    size_t start = 0;
+    bench.run(
+        [&](const servo::Frame& frame) {
+            trace.add(frame);
+            const double now = seconds(frame.time);
+            if (now < begin || let_go > 0) return;
+            const size_t last = trace.samples().size() - 1;
+            if (start == 0) start = last;
+            if (degrees(std::abs(trace.turn_at(start, last))) > 0.1) let_go = torque_at(now);
+        },
+        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+            const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
+            if (now < begin || let_go > 0) return;
+            commands.load({{1}, Vec3::Zero(), Vec3(torque_at(now), 0, 0)});
+        });
+    return let_go / limit;
+}
+
+double measure_soft_turn(const BenchSetup& setup, double share) {
+    Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
+    analysis::GraspTrace trace(1, setup.settings.tick());
+    const double begin = bench.driver().phases()[kHold].start + 1;
+    const Vec3 torque(share * torsion_limit(setup), 0, 0);
+    bench.run(
+        [&](const servo::Frame& frame) { trace.add(frame); },
+        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+            const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
+            if (now >= begin && now < begin + 1) commands.load({{1}, Vec3::Zero(), torque});
+        });
+    return degrees(trace.turn(trace.between(begin, begin + 1)));
+}
+
 double highest_calm(const std::function<bool(double k)>& calm) {
     double highest = 0;
     for (const int k : kCalmList) {
@@ -225,6 +287,13 @@ GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
     out.wall_k_premium = wall(Row::premium);
     say("torque");
     std::tie(out.torque_turn_deg, out.torque_turn_after_deg) = measure_torque(with(base, 1000));
+    const bool apart = base.settings.proxy.kind == haptics::ProxyKind::point &&
+                       base.settings.proxy.friction == haptics::PointFriction::apart;
+    if (!apart && base.settings.dynamics.solver != dynamics::Solver::sequential_impulse) {
+        BenchSetup soft = with(base, 1000);
+        soft.soft_radius = kSoftRadius;
+        out.torsion_limit_ratio = measure_torsion_limit(soft);
+    }
     for (const double k : {300.0, 1000.0, 2000.0}) {
         for (const double speed : {0.1, 0.3, 0.5}) {
             say(fmt::format("touch at {} m/s, K {}", speed, k));
@@ -268,7 +337,8 @@ std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
     out["wall_k_premium"] = figures.wall_k_premium;
     out["torque_turn_deg"] = figures.torque_turn_deg;
     out["torque_turn_after_deg"] = figures.torque_turn_after_deg;
-    out["torsion_limit_ratio"] = nullptr;  // rigid pads have no soft-finger torsion
+    out["torsion_limit_ratio"] = nullptr;
+    if (figures.torsion_limit_ratio) out["torsion_limit_ratio"] = *figures.torsion_limit_ratio;
     for (const KickFigures& kick : figures.kick) {
         out["kick"].push_back({{"k", kick.k},
                                {"speed_m_s", kick.speed},
@@ -282,7 +352,9 @@ std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
 
 std::string to_table(const std::vector<GraspResult>& results) {
     const auto coupling = [](const GraspResult& result) {
-        return enum_name(result.setup.settings.coupling.kind);
+        const servo::Settings& settings = result.setup.settings;
+        return settings.proxy.kind == haptics::ProxyKind::point ? enum_name(settings.proxy.friction)
+                                                                : enum_name(settings.coupling.kind);
     };
     const BenchSetup& setup = results.front().setup;
     std::string out = fmt::format(
@@ -335,6 +407,11 @@ std::string to_table(const std::vector<GraspResult>& results) {
         const GraspFigures& f = result.figures;
         out += fmt::format("{:12s} {:21.5f}   {:31.5f}   {:9.5f}\n", coupling(result), f.drag_n,
                            f.torque_turn_deg, f.torque_turn_after_deg);
+        if (f.torsion_limit_ratio) {
+            out += fmt::format(
+                "\nsoft fingers of {:g} mm let go at the closed form's torque times {:.4f}\n",
+                kSoftRadius * 1e3, *f.torsion_limit_ratio);
+        }
     }
     return out;
 }

@@ -48,6 +48,8 @@ struct GraspFigures {
     double wall_k = 0, wall_k_delay = 0, wall_k_premium = 0;
     double torque_turn_deg = 0;
     double torque_turn_after_deg = 0;
+    /// Of soft fingertips, where proxy and solver know torsion.
+    std::optional<double> torsion_limit_ratio;
     std::vector<KickFigures> kick;
     double drag_n = 0;
 };
@@ -64,6 +66,16 @@ KickFigures measure_kick(BenchSetup setup, double speed);
 double measure_drag(const BenchSetup& setup);
 /// Turn by a torque of 0.02 N*m for 0.2 s in the hold: at its end, and 1 s later [deg].
 std::pair<double, double> measure_torque(const BenchSetup& setup);
+
+/// Of fingers that hold the block at the closed form's grip: the moment about the grasp axis that
+/// soft contacts of radius r bear, sum of mu r N sqrt(1 - (T / (mu N))^2), T bearing half the
+/// weight [N*m].
+double torsion_limit(const BenchSetup& setup);
+/// The torque about the grasp axis, rising slowly in the hold, at which the block lets go, over
+/// that.
+double measure_torsion_limit(const BenchSetup& setup);
+/// Largest turn about the grasp axis in the hold under a torque of `share` times that [deg].
+double measure_soft_turn(const BenchSetup& setup, double share);
 
 /// Highest K of the list up to which every K is calm; 0 when none is.
 double highest_calm(const std::function<bool(double k)>& calm);

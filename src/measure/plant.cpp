@@ -83,6 +83,12 @@ scene::Scene grasp_scene(const BenchSetup& setup) {
     scene.bodies = {table, block};
     scene.object = "block";
     scene.fingers = {pad("thumb", setup.friction), pad("index", setup.friction)};
+    if (setup.soft_radius > 0) {
+        for (scene::Finger& finger : scene.fingers) {
+            finger.shape = scene::Shape::sphere(kPadThickness / 2);
+            finger.torsion_radius = setup.soft_radius;
+        }
+    }
     add_extra_blocks(scene, setup.extra_blocks, setup.friction);
     return scene;
 }

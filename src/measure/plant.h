@@ -41,10 +41,12 @@ struct BenchSetup {
     double lift = 0.1;       ///< the hand rises so far [m]
     double rise_time = 1;    ///< [s]
     double hold_time = 5;    ///< [s]
+    double soft_radius = 0;  ///< torsion radius, of spheres in place of pads; 0: pads [m]
     int extra_blocks = 0;    ///< on the table, behind the work
 };
 
 constexpr double kBlockSize = 0.04;      // [m]
+constexpr double kSoftRadius = 0.006;    // of a soft fingertip [m]
 constexpr double kPadThickness = 0.005;  // [m]
 /// From a finger's proxy to its face: half a pad, or nothing for a point [m].
 double reach(const BenchSetup& setup);

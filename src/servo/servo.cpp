@@ -64,8 +64,13 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             dead_man_ = static_cast<int>(i);
         if (settings.proxy.kind == haptics::ProxyKind::point) {
             const dynamics::BodyIndex proxy = world_.add_point(scene.fingers[i], Vec3::Zero());
-            fingers_.emplace_back(
-                haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
+            if (settings.proxy.friction == haptics::PointFriction::together) {
+                fingers_.emplace_back(
+                    haptics::SolvedPoint(scene, proxy, settings.coupling, settings.proxy), proxy);
+            } else {
+                fingers_.emplace_back(
+                    haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
+            }
         } else {
             const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
             fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling,
@@ -140,7 +145,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
         for (size_t i = 0; i < fingers_.size(); ++i)
             fingers_[i].before_step(world_, handles_[i], h);
         step = world_.step(h);
-        for (haptics::Finger& finger : fingers_) finger.after_step(world_);
+        for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].after_step(world_, handles_[i]);
     }
     make_forces(now);
     devices_->write(f_D_);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <numbers>
+
 #include "experiment/replay.h"
 #include "recording/raw_log.h"
 #include "testing/files.h"
@@ -70,6 +73,28 @@ TEST(Session, TheDemoKeepsEachFingerUnderThePremiumsContinuousForce) {
     EXPECT_GT(highest - 0.02, 0.095);
     EXPECT_LT(force, 1.4);
     EXPECT_GT(force, 1.0);
+}
+
+TEST(Session, SoftFingersHoldARodByItsEndAndLetItSwingWhenTheyEaseOff) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("experiments/swing-rod.yaml", folder.path());
+    recording::RawLogReader log(result.folder + "/raw.log");
+    // the rod's slope by phase: lift, hold, ease, swing, firm, carry, rest
+    std::array<double, 8> most{};
+    std::array<double, 8> last{};
+    double speed = 0;
+    while (const servo::Frame* frame = log.next()) {
+        const Vec3 along = frame->bodies[2].X_WB.R * Vec3::UnitY();
+        const auto phase = static_cast<size_t>(frame->phase);
+        last[phase] = std::asin(-along.z()) * 180 / std::numbers::pi;
+        most[phase] = std::max(most[phase], std::abs(last[phase]));
+        speed = frame->bodies[2].w_WB.norm();
+    }
+    EXPECT_LT(most[2], 1);   // held level
+    EXPECT_GT(most[4], 80);  // swings
+    EXPECT_GT(last[4], 62);  // until it hangs, as near to upright as friction lets it
+    EXPECT_NEAR(last[7], last[4], 2);
+    EXPECT_LT(speed, 0.05);
 }
 
 TEST(Session, ARealClockSessionReplaysToTheBit) {

@@ -6,12 +6,11 @@
 
 #include "base/random.h"
 #include "haptics/god_object.h"
+#include "haptics/test/shapes.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::haptics {
 namespace {
-
-constexpr double kMicron = 1e-6;
 
 /// Fixed or moved by the test, with one point among them.
 struct Room {
@@ -53,61 +52,7 @@ struct Room {
     }
 };
 
-scene::Shape round(scene::ShapeKind kind, double radius, double length) {
-    scene::Shape shape;
-    shape.kind = kind;
-    shape.radius = radius;
-    shape.length = length;
-    return shape;
-}
-
-scene::Shape mesh(const std::vector<Vec3>& points) {
-    scene::Shape shape;
-    shape.kind = scene::ShapeKind::mesh;
-    shape.hull = scene::convex_hull(points);
-    return shape;
-}
-
-/// 40 mm long along y, 30 mm wide at its foot x = 0, 2 mm thick there, sharp at x = 30 mm.
-scene::Shape thin_wedge() {
-    return mesh({{0, -0.02, 0.001},
-                 {0, 0.02, 0.001},
-                 {0, -0.02, -0.001},
-                 {0, 0.02, -0.001},
-                 {0.03, -0.02, 0},
-                 {0.03, 0.02, 0}});
-}
-
-Vec3 random_vector(Random& random) {
-    return {random.normal(), random.normal(), random.normal()};
-}
-
-class EveryShape : public ::testing::TestWithParam<int> {
-  public:
-    static scene::Shape shape(int i) {
-        Random random(77, "test");
-        switch (i) {
-            case 0:
-                return scene::Shape::box({0.04, 0.02, 0.06});
-            case 1:
-                return scene::Shape::sphere(0.015);
-            case 2:
-                return round(scene::ShapeKind::capsule, 0.01, 0.03);
-            case 3:
-                return round(scene::ShapeKind::cylinder, 0.02, 0.03);
-            case 4:
-                return round(scene::ShapeKind::plane, 0, 0);
-            case 5:
-                return thin_wedge();
-            default: {
-                std::vector<Vec3> points;
-                for (int k = 0; k < 40; ++k)
-                    points.push_back(0.03 * random_vector(random).normalized());
-                return mesh(points);
-            }
-        }
-    }
-};
+class EveryShape : public ::testing::TestWithParam<int> {};
 
 /// Ten thousand straight ways through a shape, from outside, in strides of up to 8 mm. The point
 /// stays outside; what holds it back points out of the shape; and while the handle's foot on the
@@ -173,10 +118,6 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     RecordProperty("kept", kept);
 }
 
-std::string shape_name(const ::testing::TestParamInfo<int>& instance) {
-    constexpr std::array kNames{"box", "sphere", "capsule", "cylinder", "plane", "wedge", "hull"};
-    return kNames[static_cast<size_t>(instance.param)];
-}
 INSTANTIATE_TEST_SUITE_P(Surfaces, EveryShape, ::testing::Range(0, 7), shape_name);
 
 TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
@@ -409,8 +350,8 @@ TEST(GodObject, RandomRoomsAreNeverEntered) {
         room.skin = kSkin;
         for (int i = 0; i < 7; ++i) {
             const double a = 2 * std::numbers::pi * i / 7;
-            room.add(EveryShape::shape(i == 4 ? 0 : i), {rotation_xyz(random_vector(random)),
-                                                         0.12 * Vec3(std::cos(a), std::sin(a), 0)});
+            room.add(shape(i == 4 ? 0 : i), {rotation_xyz(random_vector(random)),
+                                             0.12 * Vec3(std::cos(a), std::sin(a), 0)});
         }
         room.start(Vec3::Zero(), trial % 2 ? 0.5 : 0.0);
         Vec3 h = Vec3::Zero();
@@ -436,7 +377,7 @@ TEST(GodObject, RandomRoomsAreNeverEntered) {
 TEST(GodObject, AllocatesNothing) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Room room;
-    for (int i = 0; i < 7; ++i) room.add(EveryShape::shape(i));
+    for (int i = 0; i < 7; ++i) room.add(shape(i));
     room.start({0, 0, 0.1}, 0.4, 0.7);
     const testing::AllocationGuard guard;
     room.go({0, 0, 0.1}, {0.02, 0.01, -0.05});

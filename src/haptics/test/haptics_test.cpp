@@ -78,7 +78,7 @@ struct Scene {
         f.begin_tick(world, handle, kStep);
         f.before_step(world, handle, kStep);
         world.step(kStep);
-        f.after_step(world);
+        f.after_step(world, handle);
         return f.force(world, handle, kStep);
     }
 };

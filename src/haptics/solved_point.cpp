@@ -1,0 +1,121 @@
+#include "haptics/solved_point.h"
+
+#include <limits>
+
+namespace dihaptic::haptics {
+namespace {
+
+/// Slower than this along a surface, a point rests [m/s]. Solvers leave some nm/s.
+constexpr double kRest = 1e-6;
+
+}  // namespace
+
+SolvedPoint::SolvedPoint(const scene::Scene& scene, BodyIndex body,
+                         const CouplingSettings& coupling, const ProxySettings& settings)
+    : coupling_(coupling),
+      onset_(coupling.onset),
+      body_(body),
+      // where it goes is the step's to say: friction, too
+      point_(scene.bodies, std::vector<double>(scene.bodies.size(), 0), 1),
+      sliding_friction_(settings.sliding_friction),
+      popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())) {}
+
+void SolvedPoint::place(World& world, const Vec3& p_WP) noexcept {
+    point_.place(p_WP, world.states());
+    world.set_point(body_, p_WP, Vec3::Zero());
+}
+
+void SolvedPoint::before_step(World& world, const Handle& handle, double h) noexcept {
+    step_ = h;
+    just_stepped_ = true;
+    const double k = coupling_.stiffness;
+    const double c = damping(coupling_, h);
+    const double mass = h * c + h * h * k;
+    const Vec3& p_WP = point_.position();
+    const Vec3 v_WP = (h * k * (handle.p_WH - p_WP) + h * c * handle.v_WH) / mass;
+    world.set_mass(body_, onset_.share() * mass);
+    world.set_point(body_, p_WP, v_WP);
+    const double share = sliding_ ? sliding_friction_ : 1;
+    for (const Obstacle& o : point_.obstacles(p_WP + h * v_WP, world.states(), h)) {
+        world.meet(body_, {{static_cast<int>(o.body)}, o.face, o.n_W, o.gap, share});
+    }
+}
+
+void SolvedPoint::after_step(World& world, const Handle& handle) noexcept {
+    const dynamics::BodyState solved = world.state(body_);
+    v_WP_ = solved.v_WB;
+    press_count_ = 0;
+    f_P_W_.setZero();
+    sliding_ = false;
+    for (const contact::Contact& c : world.contacts()) {
+        if (c.b != body_ || c.normal_force <= 0) continue;
+        presses_[press_count_++] = {c.n_W, c.friction};
+        f_P_W_ += c.f_B_W;
+        const Vec3 slip_B = world.state(c.a).X_WB.inverse() * solved.X_WB.p -
+                            point_.position_in(static_cast<size_t>(c.a.value));
+        const Vec3 slip_W = world.state(c.a).X_WB.R * slip_B;
+        sliding_ = sliding_ || (slip_W - slip_W.dot(c.n_W) * c.n_W).norm() > kRest * step_;
+    }
+    point_.move(solved.X_WB.p, world.states());
+    if (press_count_ == 0) point_.slide(handle.p_WH);
+    for (const contact::Contact& c : world.contacts()) {
+        if (c.b != body_ || c.normal_force <= popthrough_) continue;
+        point_.pop_through(static_cast<size_t>(c.a.value), handle.p_WH);
+        press_count_ = 0;
+    }
+    world.set_point(body_, point_.position(), v_WP_);
+}
+
+Vec3 SolvedPoint::force(World& world, const Handle& handle, double h) noexcept {
+    if (just_stepped_) {
+        just_stepped_ = false;
+        acts_ = press_count_ > 0 ? Acts::fully : Acts::none;
+        return f_P_W_;
+    }
+    if (press_count_ == 0) {
+        acts_ = Acts::fully;
+        return meet_between_steps(world, handle, h);
+    }
+    acts_ = Acts::in_cones;
+    return in_cones(onset_.share() * (coupling_.stiffness * (point_.position() - handle.p_WH) +
+                                      damping(coupling_, step_) * (v_WP_ - handle.v_WH)));
+}
+
+double SolvedPoint::stored(const Handle& handle) const noexcept {
+    if (acts_ == Acts::none) return 0;
+    Vec3 stretch = point_.position() - handle.p_WH;
+    if (acts_ == Acts::in_cones) stretch = in_cones(stretch);
+    return onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
+}
+
+/// What the step's contacts can take of it.
+Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
+    HalfSpaces walls;
+    for (size_t i = 0; i < press_count_; ++i) walls.add(presses_[i].n_W);
+    Vec3 along = -walls.nearest(-spring);
+    const Vec3 pressing = spring - along;
+    double grip = 0;
+    for (size_t i = 0; i < press_count_; ++i) grip += presses_[i].friction * walls.multiplier[i];
+    if (const double size = along.norm(); size > grip) along *= grip / size;
+    return pressing + along;
+}
+
+/// A surface that is met between two steps does not rub until the next one.
+Vec3 SolvedPoint::meet_between_steps(World& world, const Handle& handle, double h) noexcept {
+    point_.slide(handle.p_WH);
+    world.set_point(body_, point_.position(), handle.v_WH);
+    HalfSpaces walls;
+    for (const PointContact& c : point_.contacts()) walls.add(c.n_W);
+    walls.nearest(-(coupling_.stiffness * (point_.position() - handle.p_WH) -
+                    damping(coupling_, h) * handle.v_WH));
+    Vec3 f_H_W = Vec3::Zero();
+    for (size_t i = 0; i < walls.count; ++i) {
+        const PointContact& c = point_.contacts()[i];
+        const Vec3 f_W = onset_.share() * walls.multiplier[i] * c.n_W;
+        world.apply_at({static_cast<int>(c.body)}, -f_W * (h / step_), point_.position());
+        f_H_W += f_W;
+    }
+    return f_H_W;
+}
+
+}  // namespace dihaptic::haptics
