@@ -60,13 +60,14 @@ TEST_P(SoftFinger, ATiltedHoldTurnsTheBlockUntilItsContactsAreInLineWithTheForce
 }
 
 TEST_P(SoftFinger, AnOffCentreHoldStaysLevelOrSwingsDownAsFarAsStaticsSays) {
-    // both fingers off along the face; the moment of the weight is below, then far above the limit
+    // both fingers off along the face; the moment of the weight is below, then far above the limit,
+    // and what slips while it swings down stays on the face
     struct Case {
         double mass;
         double off;
         bool level;
     };
-    for (const Case& c : {Case{0.1, 0.015, true}, Case{0.35, 0.015, false}}) {
+    for (const Case& c : {Case{0.1, 0.015, true}, Case{0.35, 0.012, false}}) {
         SCOPED_TRACE(c.mass);
         setup.mass = c.mass;
         setup.hold_time = 5;

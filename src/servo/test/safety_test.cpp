@@ -365,6 +365,7 @@ TEST(EnergyGuard, TamesACouplingThatWouldShakeTheHand) {
     // the hand has 3 N*s/m: with -5 the handle shakes ever more, until it leaves the wall
     Settings settings;
     settings.proxy.kind = haptics::ProxyKind::point;
+    settings.proxy.friction = haptics::PointFriction::apart;
     settings.coupling.damping = -5;
     const auto shaking = [&](haptics::EnergyGuardMode mode, uint32_t& status) {
         settings.safety.energy_guard = mode;
