@@ -25,17 +25,17 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     }
     item.X_BM = solid.X_BM;
     item.inertia = solid.inertia;
-    item.shape = bullet_shape(shape, item.X_BM);
-    item.polyhedron = polyhedron(shape, item.X_BM);
+    item.parts = collision_parts(shape, item.X_BM);
 
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, item.shape.get(),
+    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr,
+                                                  item.parts.front()->shape.get(),
                                                   to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
     item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() has it
     item.body->setLinearFactor(linear);
     item.body->setAngularFactor(angular);
-    item.body->setUserPointer(item.polyhedron.get());
+    for (const auto& part : item.parts) part->body = item.body.get();
     item.body->setUserIndex(static_cast<int>(items.size()));
     item.body->setUserIndex2(item.can_move ? kAwake : 0);
     if (item.can_move) item.body->setActivationState(DISABLE_DEACTIVATION);
@@ -77,11 +77,11 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP) {
 void World::activate() {
     Impl& w = *impl_;
     const size_t count = w.items.size();
-    const int max_contacts = w.settings.max_contacts > 0
-                                 ? w.settings.max_contacts
-                                 : std::max(256, 48 * static_cast<int>(count));
-    w.collision =
-        std::make_unique<Collision>(static_cast<int>(count), std::max(64, max_contacts / 2));
+    int parts = 0;
+    for (const Impl::Item& item : w.items) parts += static_cast<int>(item.parts.size());
+    const int max_contacts =
+        w.settings.max_contacts > 0 ? w.settings.max_contacts : std::max(256, 48 * parts);
+    w.collision = std::make_unique<Collision>(parts, std::max(64, max_contacts / 2));
     w.groups = std::make_unique<Groups>(count);
     w.sleep = std::make_unique<SleepKeeper>(count);
     w.sequential_impulse.reserve(static_cast<int>(count), max_contacts);
@@ -101,7 +101,9 @@ void World::activate() {
     w.friction.resize(count * count);
     for (size_t i = 0; i < count; ++i) {
         Impl::Item& item = w.items[i];
-        if (!item.is_point) w.collision->add(*item.body, item.can_move);
+        if (!item.is_point) {
+            for (const auto& part : item.parts) w.collision->add(*part, item.can_move);
+        }
         if (item.can_move) w.can_move.push_back(i);
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;

@@ -91,7 +91,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         item.torque.setZero();
         // what contacts are looked for ahead of
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
-        collision->update_bounds(body, h);
+        for (const auto& part : item.parts) collision->update_bounds(*part, h);
     }
 }
 

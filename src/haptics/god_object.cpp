@@ -17,10 +17,15 @@ constexpr int kMostMoves = 64;
 GodObject::GodObject(std::span<const scene::Body> bodies, std::vector<double> friction,
                      double sliding, double skin)
     : friction_(std::move(friction)), sliding_ratio_(sliding) {
-    for (const scene::Body& body : bodies) surfaces_.emplace_back(body.shape, skin);
-    X_WB_.resize(bodies.size());
-    inside_.resize(bodies.size(), 0);
-    near_.reserve(bodies.size());
+    for (size_t i = 0; i < bodies.size(); ++i) {
+        const std::vector<scene::ConvexPart> convex = scene::convex_parts(bodies[i].shape);
+        for (const scene::ConvexPart& part : convex) {
+            parts_.push_back({i, part.X_BS, Surface(part.shape, skin, convex.size() > 1)});
+        }
+    }
+    X_WS_.resize(parts_.size());
+    inside_.resize(parts_.size(), 0);
+    near_.reserve(parts_.size());
 }
 
 void GodObject::place(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept {
@@ -28,9 +33,9 @@ void GodObject::place(const Vec3& p_W, std::span<const dynamics::BodyState> bodi
     held_.setZero();
     count_ = 0;
     sliding_ = false;
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
-        X_WB_[i] = bodies[i].X_WB;
-        inside_[i] = surfaces_[i].separation(in_body(i, p_)) < -kOnSurface;
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        X_WS_[i] = pose(i, bodies);
+        inside_[i] = parts_[i].surface.separation(in_surface(i, p_)) < -kOnSurface;
     }
 }
 
@@ -40,13 +45,17 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     push_out(start, bodies);
     count_ = 0;
     pull(p_WH);
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
-        if (inside_[i] && surfaces_[i].separation(in_body(i, p_)) > 0) inside_[i] = 0;
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        if (inside_[i] && parts_[i].surface.separation(in_surface(i, p_)) > 0) inside_[i] = 0;
     }
 }
 
-Vec3 GodObject::in_body(size_t body, const Vec3& p_W) const noexcept {
-    return X_WB_[body].R.conjugate() * (p_W - X_WB_[body].p);
+Vec3 GodObject::in_surface(size_t surface, const Vec3& p_W) const noexcept {
+    return X_WS_[surface].R.conjugate() * (p_W - X_WS_[surface].p);
+}
+
+Pose GodObject::pose(size_t surface, std::span<const dynamics::BodyState> bodies) const noexcept {
+    return bodies[parts_[surface].body].X_WB * parts_[surface].X_BS;
 }
 
 Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexcept {
@@ -55,29 +64,29 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     for (const PointContact& c : contacts()) {
         // without friction a body takes nothing along; what it pushes away comes next
         const double w = friction_[c.body] * c.depth;
-        sum += w * (bodies[c.body].X_WB * in_body(c.body, p_) - p_);
+        sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
     }
     return weight > 0 ? Vec3(p_ + sum / weight) : p_;
 }
 
-/// X_WB_ goes from the last tick's poses to this one's.
+/// X_WS_ goes from the last tick's poses to this one's.
 void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
-    std::array<size_t, kMostHalfSpaces> body_of{};
-    // a body whose face the point already obeys cannot be entered again: each adds one at most
+    std::array<size_t, kMostHalfSpaces> surface_of{};
+    // a surface whose face the point already obeys cannot be entered again: each adds one at most
     for (bool found = true; found && walls.count < kMostHalfSpaces;) {
         found = false;
-        for (size_t i = 0; i < surfaces_.size() && walls.count < kMostHalfSpaces; ++i) {
+        for (size_t i = 0; i < parts_.size() && walls.count < kMostHalfSpaces; ++i) {
             if (inside_[i]) continue;
-            const auto end = body_of.begin() + static_cast<std::ptrdiff_t>(walls.count);
-            if (std::find(body_of.begin(), end, i) != end) continue;
-            const Pose& X_WB = bodies[i].X_WB;
-            const Vec3 before = in_body(i, start);
-            const Vec3 after = X_WB.R.conjugate() * (p_ - X_WB.p);
+            const auto end = surface_of.begin() + static_cast<std::ptrdiff_t>(walls.count);
+            if (std::find(surface_of.begin(), end, i) != end) continue;
+            const Pose X_WS = pose(i, bodies);
+            const Vec3 before = in_surface(i, start);
+            const Vec3 after = X_WS.R.conjugate() * (p_ - X_WS.p);
             const Vec3 path = after - before;
-            const Surface& surface = surfaces_[i];
+            const Surface& surface = parts_[i].surface;
             if (after.norm() - path.norm() > surface.reach()) continue;
             int face = -1;
             Vec3 at = after;
@@ -91,29 +100,29 @@ void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState>
             const Vec3 n = surface.normal(face, at);
             // the tangent plane at the entry, seen from where the point was carried
             const double below = surface.distance(face, at) + n.dot(after - at);
-            const Vec3 n_W = X_WB.R * n;
+            const Vec3 n_W = X_WS.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
-            body_of[walls.count - 1] = i;
+            surface_of[walls.count - 1] = i;
             found = true;
             p_ = carried_to + walls.nearest(Vec3::Zero());
         }
     }
-    for (size_t i = 0; i < surfaces_.size(); ++i) X_WB_[i] = bodies[i].X_WB;
+    for (size_t i = 0; i < parts_.size(); ++i) X_WS_[i] = pose(i, bodies);
 }
 
 /// No path goes further from the handle than it starts: bodies beyond play no part.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
+    for (size_t i = 0; i < parts_.size(); ++i) {
         if (inside_[i]) continue;
-        if ((X_WB_[i].p - p_WH).norm() <= surfaces_[i].reach() + radius) near_.push_back(i);
+        if ((X_WS_[i].p - p_WH).norm() <= parts_[i].surface.reach() + radius) near_.push_back(i);
     }
 }
 
-bool GodObject::touch(size_t body, int face) noexcept {
+bool GodObject::touch(const PointContact& contact) noexcept {
     if (count_ == contacts_.size()) return false;
-    contacts_[count_++] = {body, face, Vec3::UnitZ(), 0};
+    contacts_[count_++] = contact;
     return true;
 }
 
@@ -124,7 +133,8 @@ void GodObject::untouch(size_t i) noexcept {
 void GodObject::refresh_normals() noexcept {
     for (size_t i = 0; i < count_; ++i) {
         PointContact& c = contacts_[i];
-        c.n_W = X_WB_[c.body].R * surfaces_[c.body].normal(c.face, in_body(c.body, p_));
+        c.n_W = X_WS_[c.surface].R *
+                parts_[c.surface].surface.normal(c.face, in_surface(c.surface, p_));
     }
 }
 
@@ -150,9 +160,10 @@ double GodObject::friction_depth() const noexcept {
 Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     if (count_ != 1) return way;
     const PointContact& c = contacts_[0];
-    const Surface& surface = surfaces_[c.body];
-    const Quat& R_WB = X_WB_[c.body].R;
-    const Vec3 bent = R_WB * surface.bent_part(c.face, in_body(c.body, p_), R_WB.conjugate() * way);
+    const Surface& surface = parts_[c.surface].surface;
+    const Quat& R_WS = X_WS_[c.surface].R;
+    const Vec3 bent =
+        R_WS * surface.bent_part(c.face, in_surface(c.surface, p_), R_WS.conjugate() * way);
     if (bent.isZero(0)) return way;
     const double rest = std::max(0.5, 1 - c.depth / surface.bend_radius());
     return way + (1 / rest - 1) * bent;
@@ -185,29 +196,31 @@ void GodObject::pull(const Vec3& p_WH) noexcept {
         for (const size_t i : near_) {
             const auto rests = contacts();
             if (std::any_of(rests.begin(), rests.end(),
-                            [&](const PointContact& c) { return c.body == i; }))
+                            [&](const PointContact& c) { return c.surface == i; }))
                 continue;
-            const auto entry = surfaces_[i].enter(in_body(i, p_), X_WB_[i].R.conjugate() * way);
+            const auto entry =
+                parts_[i].surface.enter(in_surface(i, p_), X_WS_[i].R.conjugate() * way);
             if (!entry || (meets && entry->share >= share)) continue;
             share = entry->share;
-            meets = PointContact{i, entry->face, Vec3::UnitZ(), 0};
+            meets = PointContact{parts_[i].body, i, entry->face, Vec3::UnitZ(), 0};
         }
         for (size_t i = 0; i < count_; ++i) {
             const PointContact& c = contacts_[i];
             if (c.depth <= 0) continue;  // it does not guide the way
-            const auto crossing = surfaces_[c.body].cross(c.face, in_body(c.body, p_),
-                                                          X_WB_[c.body].R.conjugate() * way);
+            const auto crossing = parts_[c.surface].surface.cross(
+                c.face, in_surface(c.surface, p_), X_WS_[c.surface].R.conjugate() * way);
             if (crossing.face < 0 || crossing.share > share) continue;
             share = crossing.share;
-            crosses = PointContact{c.body, crossing.face, Vec3::UnitZ(), 0};
+            crosses = PointContact{c.body, c.surface, crossing.face, Vec3::UnitZ(), 0};
             meets.reset();
         }
         p_ += share * way;
         if (share > 0) {
             for (size_t i = count_; i-- > 0;) {
                 const PointContact& c = contacts_[i];
-                const bool crossed = crosses && crosses->body == c.body;
-                const double apart = surfaces_[c.body].separation(in_body(c.body, p_));
+                const bool crossed = crosses && crosses->surface == c.surface;
+                const double apart =
+                    parts_[c.surface].surface.separation(in_surface(c.surface, p_));
                 if (!crossed && (c.depth <= 0 || apart > kOnSurface)) untouch(i);
             }
         }
@@ -215,13 +228,14 @@ void GodObject::pull(const Vec3& p_WH) noexcept {
             // past the edge: over the next face, unless the handle is outside of it
             const auto c = std::find_if(
                 contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),
-                [&](const PointContact& x) { return x.body == crosses->body; });
+                [&](const PointContact& x) { return x.surface == crosses->surface; });
             c->face = crosses->face;
             const Vec3 n_W =
-                X_WB_[c->body].R * surfaces_[c->body].normal(c->face, in_body(c->body, p_));
+                X_WS_[c->surface].R *
+                             parts_[c->surface].surface.normal(c->face, in_surface(c->surface, p_));
             if (n_W.dot(p_WH - p_) >= 0) untouch(static_cast<size_t>(c - contacts_.begin()));
         }
-        if (meets && !touch(meets->body, meets->face)) break;
+        if (meets && !touch(*meets)) break;
     }
     if (!slides) sliding_ = false;
     for (size_t i = count_; i-- > 0;) {

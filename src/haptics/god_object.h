@@ -34,9 +34,10 @@ namespace dihaptic::haptics {
 /// would slip under a block that stands on it [m].
 constexpr double kSkin = 1e-5;
 
-/// What the point rests on. All of one body, which is convex: one face a body.
+/// What the point rests on: one face of a convex part of a body.
 struct PointContact {
     size_t body = 0;
+    size_t surface = 0;  ///< of all bodies' parts
     int face = 0;
     Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
     double depth = 0;          ///< the handle's share behind it, l [m]
@@ -68,18 +69,27 @@ class GodObject {
     void push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
     void pull(const Vec3& p_WH) noexcept;
     void gather(const Vec3& p_WH) noexcept;
-    bool touch(size_t body, int face) noexcept;
+    bool touch(const PointContact& contact) noexcept;
     void untouch(size_t i) noexcept;
     void refresh_normals() noexcept;
     Vec3 way_to(const Vec3& p_WH) noexcept;
     double friction_depth() const noexcept;
     Vec3 straightened(const Vec3& way) const noexcept;
-    Vec3 in_body(size_t body, const Vec3& p_W) const noexcept;
+    /// A point in the frame of a surface, where that was after the last push_out().
+    Vec3 in_surface(size_t surface, const Vec3& p_W) const noexcept;
+    /// Pose X_WS of a surface whose body is where `bodies` says.
+    Pose pose(size_t surface, std::span<const dynamics::BodyState> bodies) const noexcept;
 
-    std::vector<Surface> surfaces_;
-    std::vector<double> friction_;
+    /// The surface S of a convex part.
+    struct PartSurface {
+        size_t body;
+        Pose X_BS;
+        Surface surface;
+    };
+    std::vector<PartSurface> parts_;
+    std::vector<double> friction_;  // by body
     double sliding_ratio_;
-    std::vector<Pose> X_WB_;
+    std::vector<Pose> X_WS_;      // by surface; the same below
     std::vector<char> inside_;
     std::vector<size_t> near_;
     Vec3 p_ = Vec3::Zero();

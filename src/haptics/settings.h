@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/field.h"
+#include "scene/scene.h"
 
 namespace dihaptic::haptics {
 
@@ -44,14 +45,11 @@ struct CouplingSettings {
     }
 };
 
-enum class ProxyKind { rigid, point };
-constexpr auto enum_names(ProxyKind) {
-    return std::array{"rigid", "point"};
-}
+using scene::ProxyKind;
 
-/// What a finger is in the world.
+/// What fingers are in the world.
 struct ProxySettings {
-    ProxyKind kind = ProxyKind::rigid;  ///< the finger's shape, or a point kept on surfaces
+    ProxyKind kind = ProxyKind::rigid;  ///< of fingers that the scene gives none of their own
     double sliding_friction = 1;        ///< point: dynamic friction, as a share of static friction
 
     template <class Visitor>
@@ -59,6 +57,8 @@ struct ProxySettings {
         v("kind", kind);
         v("sliding_friction", sliding_friction, Field::number().within(0, 1));
     }
+
+    ProxyKind of(const scene::Finger& finger) const { return finger.proxy.value_or(kind); }
 };
 
 enum class EnergyGuardMode { off, warn, act };

@@ -12,18 +12,15 @@ namespace {
 /// far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
 
-std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull, const Pose& X_BM) {
-    const Pose X_MB = X_BM.inverse();
+std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull) {
     auto out = std::make_unique<btConvexHullShape>();
-    for (const Vec3& v : hull.vertices) out->addPoint(to_bullet(X_MB * v), false);
+    for (const Vec3& v : hull.vertices) out->addPoint(to_bullet(v), false);
     out->setMargin(kSkin);
     out->recalcLocalAabb();
     return out;
 }
 
-}  // namespace
-
-std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const Pose& X_BM) {
+std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
     using scene::ShapeKind;
     switch (shape.kind) {
         case ShapeKind::box:
@@ -41,24 +38,46 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const 
         case ShapeKind::plane:
             return std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0);
         case ShapeKind::mesh:
-            return bullet_hull(shape.hull, X_BM);
+            return bullet_hull(shape.hull);
+        case ShapeKind::compound:
+            break;  // its parts are what is looked at
     }
     return nullptr;
 }
 
-std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape, const Pose& X_BM) {
+std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape) {
     if (shape.kind == scene::ShapeKind::box)
         return std::make_unique<Polyhedron>(Polyhedron::box(shape.size));
     if (shape.kind != scene::ShapeKind::mesh) return nullptr;
-    scene::Hull hull = shape.hull;
-    for (Vec3& v : hull.vertices) v = X_BM.inverse() * v;
-    auto out = std::make_unique<Polyhedron>(Polyhedron::of(hull));
+    auto out = std::make_unique<Polyhedron>(Polyhedron::of(shape.hull));
     const bool small =
         out->edges.size() <= kMostEdges &&
         std::all_of(out->faces.begin(), out->faces.end(), [](const Polyhedron::Face& face) {
             return face.vertices.size() <= Polyhedron::kMostFaceVertices;
         });
     return small ? std::move(out) : nullptr;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& shape,
+                                                            const Pose& X_BM) {
+    std::vector<std::unique_ptr<CollisionPart>> out;
+    const Pose X_MB = X_BM.inverse();
+    for (scene::ConvexPart& convex : scene::convex_parts(shape)) {
+        Pose X_MS = X_MB * convex.X_BS;
+        // hulls are turned once, here, rather than in each step
+        for (Vec3& v : convex.shape.hull.vertices) v = X_MS * v;
+        if (!convex.shape.hull.vertices.empty()) X_MS = {};
+        auto part = std::make_unique<CollisionPart>();
+        part->shape = bullet_shape(convex.shape);
+        part->polyhedron = polyhedron(convex.shape);
+        part->shape->setUserPointer(part->polyhedron.get());
+        part->X_MS = to_bullet(X_MS);
+        part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);
+        out.push_back(std::move(part));
+    }
+    return out;
 }
 
 }  // namespace dihaptic::dynamics
