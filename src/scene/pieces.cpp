@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -72,6 +73,10 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
         for (Vec3& p : points) {
             if (!(in >> p.x() >> p.y() >> p.z())) return std::nullopt;
         }
+        // in one order, so that pieces that were kept are the new ones to the bit
+        std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+            return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+        });
         Hull hull = convex_hull(points);
         // slivers that rounding flattened hold no volume, and nothing touches them alone
         if (!hull.faces.empty()) hulls.push_back(std::move(hull));
@@ -155,6 +160,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
     }
     const std::optional<std::string> text = run(command, mesh);
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
+    if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
     if (!hulls) {
         throw Error(asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
                     "Look for faces that intersect or touch each other in a mesh editor, and repair them.");
