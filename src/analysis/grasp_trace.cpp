@@ -120,9 +120,7 @@ double GraspTrace::sag(Range range) const {
 
 double GraspTrace::axis_tilt_rms(Range range) const {
     if (range.size() == 0 || fingers() < 2) return 0;
-    const auto axis = [&](size_t i) {
-        return grasp_axis(samples_[i].p_WP);
-    };
+    const auto axis = [&](size_t i) { return grasp_axis(samples_[i].p_WP); };
     Vec3 mean = Vec3::Zero();
     for (size_t i = range.first; i < range.last; ++i) mean += axis(i);
     mean.normalize();

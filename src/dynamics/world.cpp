@@ -27,9 +27,8 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     item.inertia = solid.inertia;
     item.parts = collision_parts(shape, item.X_BM);
 
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr,
-                                                  item.parts.front()->shape.get(),
-                                                  to_bullet(item.inertia));
+    btRigidBody::btRigidBodyConstructionInfo info(
+        solid.mass, nullptr, item.parts.front()->shape.get(), to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
     item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() has it

@@ -89,8 +89,7 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
     }
     const double explicit_limit = coupling.body_mass / (h * h);
     if (coupling.kind == haptics::CouplingKind::dual_spring &&
-        any_finger(plan, haptics::ProxyKind::rigid) &&
-        coupling.stiffness > explicit_limit) {
+        any_finger(plan, haptics::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
         diagnostics.warning(
             place, "coupling.stiffness",
             fmt::format(

@@ -230,8 +230,7 @@ void GodObject::pull(const Vec3& p_WH) noexcept {
                 contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),
                 [&](const PointContact& x) { return x.surface == crosses->surface; });
             c->face = crosses->face;
-            const Vec3 n_W =
-                X_WS_[c->surface].R *
+            const Vec3 n_W = X_WS_[c->surface].R *
                              parts_[c->surface].surface.normal(c->face, in_surface(c->surface, p_));
             if (n_W.dot(p_WH - p_) >= 0) untouch(static_cast<size_t>(c - contacts_.begin()));
         }

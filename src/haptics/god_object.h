@@ -89,7 +89,7 @@ class GodObject {
     std::vector<PartSurface> parts_;
     std::vector<double> friction_;  // by body
     double sliding_ratio_;
-    std::vector<Pose> X_WS_;      // by surface; the same below
+    std::vector<Pose> X_WS_;  // by surface; the same below
     std::vector<char> inside_;
     std::vector<size_t> near_;
     Vec3 p_ = Vec3::Zero();

@@ -16,15 +16,15 @@ namespace dihaptic::haptics {
 /// 10 000 N/m makes 10 uN of it [m].
 constexpr double kOnSurface = 1e-9;
 
-/// Where two parts of a body share a plane, rounding leaves a step, at which a sliding point would stop.
-/// Who enters a part through a side face no deeper than this below another face of it enters through
-/// that one [m].
+/// Where two parts of a body share a plane, rounding leaves a step, at which a sliding point would
+/// stop. Who enters a part through a side face no deeper than this below another face of it enters
+/// through that one [m].
 constexpr double kSeam = 1e-7;
 
 class Surface {
   public:
-    /// The shape, with its faces moved outward by `skin` [m]. `has_seams`: it is a part of a body, whose
-    /// other parts continue its faces; see kSeam.
+    /// The shape, with its faces moved outward by `skin` [m]. `has_seams`: it is a part of a body,
+    /// whose other parts continue its faces; see kSeam.
     Surface(const scene::Shape& shape, double skin, bool has_seams = false);
 
     /// How far p is outside: negative inside, a lower bound of the distance outside [m].

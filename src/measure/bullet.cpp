@@ -16,7 +16,8 @@ using dynamics::to_bullet;
 
 struct Body {
     Pose X_MB;
-    std::vector<std::unique_ptr<dynamics::CollisionPart>> parts;  // one: the benches' bodies are convex
+    std::vector<std::unique_ptr<dynamics::CollisionPart>>
+        parts;  // one: the benches' bodies are convex
     std::unique_ptr<btRigidBody> body;
 };
 
@@ -26,8 +27,8 @@ Body make_body(const scene::Body& body) {
     Body out;
     out.X_MB = solid.X_BM.inverse();
     out.parts = dynamics::collision_parts(body.shape, solid.X_BM);
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, out.parts.front()->shape.get(),
-                                                  to_bullet(solid.inertia));
+    btRigidBody::btRigidBodyConstructionInfo info(
+        solid.mass, nullptr, out.parts.front()->shape.get(), to_bullet(solid.inertia));
     info.m_startWorldTransform = to_bullet(body.pose() * solid.X_BM);
     info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two of a pair
     out.body = std::make_unique<btRigidBody>(info);

@@ -52,7 +52,8 @@ uint64_t fingerprint(const std::string& text) {
     return out.value();
 }
 
-/// Vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then a vertex a line.
+/// Vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then a vertex a
+/// line.
 std::string text_of(const std::vector<Hull>& hulls) {
     std::string out;
     for (const Hull& hull : hulls) {
@@ -155,15 +156,17 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
     const std::string command = program();
     if (command.empty()) {
         throw Error(asked_at, "concave",
-                    fmt::format("the program {}, which cuts {} into convex pieces, is missing", kProgram, file),
+                    fmt::format("the program {}, which cuts {} into convex pieces, is missing",
+                                kProgram, file),
                     "Build all of Dihaptic: it lies beside the program dihaptic.");
     }
     const std::optional<std::string> text = run(command, mesh);
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
     if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
     if (!hulls) {
-        throw Error(asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
-                    "Look for faces that intersect or touch each other in a mesh editor, and repair them.");
+        throw Error(
+            asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
+            "Look for faces that intersect or touch each other in a mesh editor, and repair them.");
     }
     return *std::move(hulls);
 }
@@ -182,7 +185,8 @@ Mesh closed(Mesh mesh, const std::string& file, const Place& asked_at) {
     }
     std::map<std::pair<int, int>, int> edges;  // each is used once in either direction
     for (const std::vector<int>& f : mesh.faces) {
-        const std::array<int, 3> t{index[static_cast<size_t>(f[0])], index[static_cast<size_t>(f[1])],
+        const std::array<int, 3> t{index[static_cast<size_t>(f[0])],
+                                   index[static_cast<size_t>(f[1])],
                                    index[static_cast<size_t>(f[2])]};
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // without area
         out.faces.push_back({t[0], t[1], t[2]});
@@ -194,11 +198,12 @@ Mesh closed(Mesh mesh, const std::string& file, const Place& asked_at) {
         if (count != 1 || back == edges.end() || back->second != 1) ++open;
     }
     if (open > 0) {
-        throw Error(asked_at, "file",
-                    fmt::format("the mesh {} is not closed: {} of its edges do not join two faces of "
-                                "the same orientation",
-                                file, open),
-                    "Close its holes and orient its faces alike in a mesh editor, or leave out concave.");
+        throw Error(
+            asked_at, "file",
+            fmt::format("the mesh {} is not closed: {} of its edges do not join two faces of "
+                        "the same orientation",
+                        file, open),
+            "Close its holes and orient its faces alike in a mesh editor, or leave out concave.");
     }
     if (integrate(out.vertices, out.faces).volume < 0) {
         for (std::vector<int>& face : out.faces) std::swap(face[1], face[2]);

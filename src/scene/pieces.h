@@ -1,5 +1,5 @@
-// Concave meshes as convex pieces, for contact. The pieces fill the mesh exactly; a program of its own,
-// dihaptic-decompose, cuts them (docs/adr/0007), and a file beside the mesh keeps them.
+// Concave meshes as convex pieces, for contact. The pieces fill the mesh exactly; a program of its
+// own, dihaptic-decompose, cuts them (docs/adr/0007), and a file beside the mesh keeps them.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ struct Pieces {
     uint64_t mesh = 0;        ///< fingerprint of the mesh that they are of, unit included
 };
 
-/// The same surface with vertices at the same place made one, facing outward. Throws Error when it is
-/// not closed: then it has no inside. `asked_at` is where `file` was named, for messages.
+/// The same surface with vertices at the same place made one, facing outward. Throws Error when it
+/// is not closed: then it has no inside. `asked_at` is where `file` was named, for messages.
 Mesh closed(Mesh mesh, const std::string& file, const Place& asked_at);
 
-/// Convex pieces of a closed mesh that was read from `file`: those kept beside it when they are of this
-/// mesh and intact, else new ones, which are then kept. A folder that cannot be written to is warned
-/// of. Throws Error when the mesh cannot be cut, e.g. because it intersects itself.
+/// Convex pieces of a closed mesh that was read from `file`: those kept beside it when they are of
+/// this mesh and intact, else new ones, which are then kept. A folder that cannot be written to is
+/// warned of. Throws Error when the mesh cannot be cut, e.g. because it intersects itself.
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
                      Diagnostics& diagnostics);
 

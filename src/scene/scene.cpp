@@ -84,7 +84,8 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
 void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostics) {
     if (shape.kind != ShapeKind::compound) return;
     if (shape.parts.empty()) {
-        diagnostics.error(place, "parts", "there are none", "List one at least, each with a shape.");
+        diagnostics.error(place, "parts", "there are none",
+                          "List one at least, each with a shape.");
     }
     for (const Part& part : shape.parts) {
         if (part.shape.kind != ShapeKind::plane && part.shape.kind != ShapeKind::compound) continue;

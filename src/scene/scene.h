@@ -80,9 +80,9 @@ constexpr auto enum_names(ProxyKind) {
 struct Finger {
     std::string name;
     Shape shape;
-    double mass = 0.001;        ///< [kg]
-    double friction = 0.8;      ///< see pair_friction()
-    double torsion_radius = 0;  ///< of a soft finger; see Body [m]
+    double mass = 0.001;             ///< [kg]
+    double friction = 0.8;           ///< see pair_friction()
+    double torsion_radius = 0;       ///< of a soft finger; see Body [m]
     std::optional<ProxyKind> proxy;  ///< in place of the setting proxy.kind
     Vec3 rotation =
         Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]

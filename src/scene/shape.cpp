@@ -32,8 +32,8 @@ VolumeIntegrals sum(const std::vector<VolumeIntegrals>& parts) {
     out.centre /= out.volume;
     for (const VolumeIntegrals& part : parts) {
         const Vec3 d = part.centre - out.centre;
-        out.inertia += part.inertia +
-                       part.volume * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+        out.inertia +=
+            part.inertia + part.volume * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
     }
     return out;
 }
@@ -98,11 +98,11 @@ VolumeIntegrals integrate(const Shape& shape) {
         case ShapeKind::plane:
             return {};
         case ShapeKind::mesh:
-            return shape.concave ? shape.solid
-                                 : integrate(shape.hull.vertices, shape.hull.faces);
+            return shape.concave ? shape.solid : integrate(shape.hull.vertices, shape.hull.faces);
         case ShapeKind::compound: {
             std::vector<VolumeIntegrals> parts;
-            for (const Part& part : shape.parts) parts.push_back(moved(integrate(part.shape), part.pose()));
+            for (const Part& part : shape.parts)
+                parts.push_back(moved(integrate(part.shape), part.pose()));
             return sum(parts);
         }
     }

@@ -40,12 +40,12 @@ struct Shape {
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
     std::string file;          ///< mesh: OBJ, STL or PLY, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    bool concave = false;    ///< mesh: felt as it is, not as its convex hull
+    bool concave = false;     ///< mesh: felt as it is, not as its convex hull
     std::vector<Part> parts;  ///< compound: one at least, none of them a plane or a compound
     Hull hull;                ///< mesh: its convex hull, loaded [m]
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
     VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
-    Place file_place;  ///< mesh: where its file is named
+    Place file_place;         ///< mesh: where its file is named
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -113,8 +113,8 @@ struct ConvexPart {
     Pose X_BS;
 };
 
-/// The convex shapes that a shape consists of: itself, the pieces of a concave mesh, or those of all
-/// parts.
+/// The convex shapes that a shape consists of: itself, the pieces of a concave mesh, or those of
+/// all parts.
 std::vector<ConvexPart> convex_parts(const Shape& shape);
 
 /// Volume integrals of the shape, of unit density: of a concave mesh those of the mesh itself; of a

@@ -74,9 +74,9 @@ void Collision::add(CollisionPart& part, bool can_move) {
     btVector3 low;
     btVector3 high;
     part.shape->getAabb(part.X_WS(), low, high);
-    part.bounds = broadphase_.createProxy(low, high, part.shape->getShapeType(), &part,
-                                          can_move ? kMovable : kImmovable,
-                                          can_move ? kMovable | kImmovable : kMovable, &dispatcher_);
+    part.bounds = broadphase_.createProxy(
+        low, high, part.shape->getShapeType(), &part, can_move ? kMovable : kImmovable,
+        can_move ? kMovable | kImmovable : kMovable, &dispatcher_);
     several_parts_ = several_parts_ || (!parts_.empty() && parts_.back()->body == part.body);
     parts_.push_back(&part);
 }
@@ -117,10 +117,10 @@ void Collision::find_contacts(double h) {
 void Collision::sort_by_bodies() {
     sorting_.clear();
     for (btPersistentManifold* manifold : manifolds_) {
-        sorting_.push_back({{manifold->getBody0()->getUserIndex(),
-                             manifold->getBody1()->getUserIndex(),
-                             static_cast<int>(sorting_.size())},
-                            manifold});
+        sorting_.push_back(
+            {{manifold->getBody0()->getUserIndex(), manifold->getBody1()->getUserIndex(),
+              static_cast<int>(sorting_.size())},
+             manifold});
     }
     std::sort(sorting_.begin(), sorting_.end(),
               [](const OfBodies& a, const OfBodies& b) { return a.key < b.key; });

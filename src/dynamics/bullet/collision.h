@@ -23,8 +23,8 @@ class Collision {
     Collision(int max_parts, int max_pairs);
     ~Collision();
 
-    /// The part and its body must outlive this. The body's user index names it; its user index 2 is 1
-    /// when awake.
+    /// The part and its body must outlive this. The body's user index names it; its user index 2 is
+    /// 1 when awake.
     void add(CollisionPart& part, bool can_move);
     /// To be called of each part of a body that moved or is about to.
     void update_bounds(CollisionPart& part, double h);
@@ -35,8 +35,8 @@ class Collision {
     /// Tells that bodies fell asleep or woke: other pairs are to be looked at.
     void sleepers_changed() { live_is_stale_ = true; }
 
-    /// The manifolds with contacts of the last find_contacts(); those of the same two bodies follow each
-    /// other.
+    /// The manifolds with contacts of the last find_contacts(); those of the same two bodies follow
+    /// each other.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
     btDispatcher& dispatcher() { return dispatcher_; }
     bool overflowed() const { return overflowed_; }

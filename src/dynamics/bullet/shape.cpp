@@ -60,18 +60,62 @@ std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape) {
 
 }  // namespace
 
+namespace {
+
+/// Faces of part `of` that the others cover.
+std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
+                                const Polyhedron& polyhedron) {
+    constexpr double kOutward = 1e-6;  // [m]
+    constexpr double kInward = 0.01;   // toward the middle of the face
+    std::vector<Vec3> out;
+    const auto is_covered = [&](const Vec3& p_S) {
+        const Vec3 p_B = parts[of].X_BS * p_S;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            if (i == of) continue;
+            if (scene::depth(parts[i].shape, parts[i].X_BS.inverse() * p_B) > -kOutward)
+                return true;
+        }
+        return false;
+    };
+    for (const Polyhedron::Face& face : polyhedron.faces) {
+        Vec3 middle = Vec3::Zero();
+        for (const int v : face.vertices)
+            middle += polyhedron.vertices[static_cast<size_t>(v)] /
+                      static_cast<double>(face.vertices.size());
+        bool covered = is_covered(middle + kOutward * face.normal);
+        for (const int v : face.vertices) {
+            const Vec3& corner = polyhedron.vertices[static_cast<size_t>(v)];
+            covered = covered &&
+                      is_covered(corner + kInward * (middle - corner) + kOutward * face.normal);
+        }
+        if (covered) out.push_back(face.normal);
+    }
+    return out;
+}
+
+}  // namespace
+
 std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& shape,
                                                             const Pose& X_BM) {
     std::vector<std::unique_ptr<CollisionPart>> out;
     const Pose X_MB = X_BM.inverse();
-    for (scene::ConvexPart& convex : scene::convex_parts(shape)) {
-        Pose X_MS = X_MB * convex.X_BS;
+    std::vector<scene::ConvexPart> parts = scene::convex_parts(shape);
+    for (scene::ConvexPart& convex : parts) {
         // hulls are turned once, here, rather than in each step
+        if (convex.shape.kind != scene::ShapeKind::mesh) continue;
+        const Pose X_MS = X_MB * convex.X_BS;
         for (Vec3& v : convex.shape.hull.vertices) v = X_MS * v;
-        if (!convex.shape.hull.vertices.empty()) X_MS = {};
+        convex.X_BS = X_BM;
+    }
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const scene::ConvexPart& convex = parts[i];
+        const bool is_mesh = convex.shape.kind == scene::ShapeKind::mesh;
+        const Pose X_MS = is_mesh ? Pose{} : X_MB * convex.X_BS;
         auto part = std::make_unique<CollisionPart>();
         part->shape = bullet_shape(convex.shape);
         part->polyhedron = polyhedron(convex.shape);
+        if (part->polyhedron)
+            part->polyhedron->covered = covered_faces(parts, i, *part->polyhedron);
         part->shape->setUserPointer(part->polyhedron.get());
         part->X_MS = to_bullet(X_MS);
         part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);

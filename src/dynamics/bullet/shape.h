@@ -30,8 +30,8 @@ inline btVector3 factors(scene::Axes axes) {
             contains(axes, 2) ? 1.0 : 0.0};
 }
 
-/// A convex part of a body, as it is looked at for contacts. The frame that Bullet moves is M, centre
-/// of mass and principal axes of inertia; S is the part's own.
+/// A convex part of a body, as it is looked at for contacts. The frame that Bullet moves is M,
+/// centre of mass and principal axes of inertia; S is the part's own.
 struct CollisionPart {
     btCollisionObject* body = nullptr;
     std::unique_ptr<btCollisionShape> shape;  // its user pointer is the polyhedron, if it is one

@@ -21,7 +21,8 @@ constexpr const char* kBody =
 constexpr const char* kCompound =
     "bodies:\n  - name: l\n    shape: compound\n    mass_g: 10\n    parts:\n"
     "      - {shape: box, size_cm: [2, 1, 1], position_cm: [1, 0.5, 0.5]}\n"
-    "      - {shape: box, size_cm: [1, 1, 1], position_cm: [0.5, 1.5, 0.5], rotation_deg: [0, 90, 0]}\n";
+    "      - {shape: box, size_cm: [1, 1, 1], position_cm: [0.5, 1.5, 0.5], rotation_deg: [0, 90, "
+    "0]}\n";
 
 struct Files {
     testing::TemporaryFolder folder;
@@ -140,7 +141,8 @@ TEST(Concave, AMeshWithAHoleIsRefused) {
     Files files(std::string(kL).substr(0, std::string(kL).rfind("f ")));
     files.read(kBody);
     EXPECT_TRUE(files.diagnostics.has_errors());
-    EXPECT_NE(files.said().find("is not closed: 4 of its edges"), std::string::npos) << files.said();
+    EXPECT_NE(files.said().find("is not closed: 4 of its edges"), std::string::npos)
+        << files.said();
     EXPECT_NE(files.said().find("scene.yaml:2"), std::string::npos) << files.said();
 }
 
