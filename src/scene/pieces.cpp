@@ -16,8 +16,6 @@
 #include <set>
 #include <sstream>
 
-extern char** environ;
-
 namespace dihaptic::scene {
 namespace {
 
@@ -173,7 +171,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
 
 }  // namespace
 
-Mesh closed(Mesh mesh, const std::string& file, const Place& asked_at) {
+Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
     Mesh out;
     std::map<std::array<double, 3>, int> known;
     std::vector<int> index;

@@ -19,7 +19,7 @@ struct Pieces {
 
 /// The same surface with vertices at the same place made one, facing outward. Throws Error when it
 /// is not closed: then it has no inside. `asked_at` is where `file` was named, for messages.
-Mesh closed(Mesh mesh, const std::string& file, const Place& asked_at);
+Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at);
 
 /// Convex pieces of a closed mesh that was read from `file`: those kept beside it when they are of
 /// this mesh and intact, else new ones, which are then kept. A folder that cannot be written to is
