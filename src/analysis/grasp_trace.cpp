@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "model/butterworth.h"
+#include "model/grasp.h"
 
 namespace dihaptic::analysis {
+
+using model::grasp_axis;
 
 void GraspTrace::add(const servo::Frame& frame) {
     const size_t n = frame.fingers.size();
@@ -143,9 +146,7 @@ double GraspTrace::sag(Range range) const {
 
 double GraspTrace::axis_tilt_rms(Range range) const {
     if (range.size() == 0 || fingers() < 2) return 0;
-    const auto axis = [&](size_t i) {
-        return Vec3((samples_[i].p_WP[1] - samples_[i].p_WP[0]).normalized());
-    };
+    const auto axis = [&](size_t i) { return grasp_axis(samples_[i].p_WP); };
     Vec3 mean = Vec3::Zero();
     for (size_t i = range.first; i < range.last; ++i) mean += axis(i);
     mean.normalize();
@@ -157,10 +158,10 @@ double GraspTrace::axis_tilt_rms(Range range) const {
 }
 
 double GraspTrace::turn_at(size_t reference, size_t sample) const {
-    // the twist about the line between the fingers (swing-twist decomposition)
+    // the twist about the grasp axis (swing-twist decomposition)
     const Sample& a = samples_[reference];
     const Sample& b = samples_[sample];
-    const Vec3 axis = (a.p_WP[1] - a.p_WP[0]).normalized();
+    const Vec3 axis = grasp_axis(a.p_WP);
     const Quat turned = b.X_WB.R * a.X_WB.R.conjugate();
     return 2 * std::atan2(turned.vec().dot(axis), turned.w());
 }

@@ -62,9 +62,9 @@ class GraspTrace {
     double height_range(Range range) const;
     /// Lowest height over the range, relative to that at its start [m].
     double sag(Range range) const;
-    /// RMS angle of the line between the first two proxies about its mean direction [rad].
+    /// RMS angle of the grasp axis (model/grasp.h) about its mean direction [rad].
     double axis_tilt_rms(Range range) const;
-    /// Largest turn of the object about that line, since the range's start [rad]; at a sample.
+    /// Largest turn of the object about that axis, since the range's start [rad]; at a sample.
     double turn(Range range) const;
     double turn_at(size_t reference, size_t sample) const;
     /// RMS of the force on a handle above 5 Hz (zero-phase Butterworth), of the worst finger [N].

@@ -42,6 +42,14 @@ class FieldReader {
         if (index >= 0) value = static_cast<E>(index);
     }
 
+    template <NamedEnum E>
+    void operator()(std::string_view name, std::optional<E>& value, Field field = {}) {
+        E given{};
+        const auto names = enum_names(given);
+        const int index = read_choice(name, {names.begin(), names.end()}, field);
+        if (index >= 0) value = static_cast<E>(index);
+    }
+
     template <class Struct>
     requires Described<Struct, FieldReader>
     void operator()(std::string_view name, Struct& value, Field field = {}) {

@@ -28,6 +28,11 @@ class FieldWriter {
         mapping_.set(std::string(name), Node::of(std::string(enum_name(value))));
     }
 
+    template <NamedEnum E>
+    void operator()(std::string_view name, const std::optional<E>& value, Field field = {}) {
+        if (value) (*this)(name, *value, field);
+    }
+
     template <class Struct>
     requires Described<Struct, FieldWriter>
     void operator()(std::string_view name, Struct& value, Field = {}) {

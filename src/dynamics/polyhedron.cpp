@@ -275,6 +275,17 @@ Polyhedron Polyhedron::box(const Vec3& size) {
     return of(hull);
 }
 
+namespace {
+
+bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W) {
+    constexpr double kAlike = 1 - 1e-6;
+    return std::any_of(
+        polyhedron.covered.begin(), polyhedron.covered.end(),
+        [&](const Vec3& normal) { return (X_WP.R * normal).dot(outward_W) > kAlike; });
+}
+
+}  // namespace
+
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                      double margin) noexcept {
     ContactPatch patch;
@@ -298,6 +309,7 @@ ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b,
             std::swap(point.p_WA, point.p_WB);
         }
     }
+    if (is_covered(a, X_WA, patch.n_W) || is_covered(b, X_WB, -patch.n_W)) patch.count = 0;
     return patch;
 }
 

@@ -39,6 +39,9 @@ struct Polyhedron {
     std::vector<Face> faces;
     std::vector<Edge> edges;
     std::vector<Vec3> directions;  ///< of edges, unit, without parallel ones
+    /// Outward normals of faces that other parts of the same body cover: nothing touches them. What
+    /// slides over the seam would else run into the face behind it.
+    std::vector<Vec3> covered;
 
     static Polyhedron of(const scene::Hull& hull);
     static Polyhedron box(const Vec3& size);

@@ -25,17 +25,16 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     }
     item.X_BM = solid.X_BM;
     item.inertia = solid.inertia;
-    item.shape = bullet_shape(shape, item.X_BM);
-    item.polyhedron = polyhedron(shape, item.X_BM);
+    item.parts = collision_parts(shape, item.X_BM);
 
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, item.shape.get(),
-                                                  to_bullet(item.inertia));
+    btRigidBody::btRigidBodyConstructionInfo info(
+        solid.mass, nullptr, item.parts.front()->shape.get(), to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
     item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() has it
     item.body->setLinearFactor(linear);
     item.body->setAngularFactor(angular);
-    item.body->setUserPointer(item.polyhedron.get());
+    for (const auto& part : item.parts) part->body = item.body.get();
     item.body->setUserIndex(static_cast<int>(items.size()));
     item.body->setUserIndex2(item.can_move ? kAwake : 0);
     if (item.can_move) item.body->setActivationState(DISABLE_DEACTIVATION);
@@ -79,11 +78,11 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP) {
 void World::activate() {
     Impl& w = *impl_;
     const size_t count = w.items.size();
-    const int max_contacts = w.settings.max_contacts > 0
-                                 ? w.settings.max_contacts
-                                 : std::max(256, 48 * static_cast<int>(count));
-    w.collision =
-        std::make_unique<Collision>(static_cast<int>(count), std::max(64, max_contacts / 2));
+    int parts = 0;
+    for (const Impl::Item& item : w.items) parts += static_cast<int>(item.parts.size());
+    const int max_contacts =
+        w.settings.max_contacts > 0 ? w.settings.max_contacts : std::max(256, 48 * parts);
+    w.collision = std::make_unique<Collision>(parts, std::max(64, max_contacts / 2));
     w.groups = std::make_unique<Groups>(count);
     w.sleep = std::make_unique<SleepKeeper>(count);
     w.sequential_impulse.reserve(static_cast<int>(count), max_contacts);
@@ -109,7 +108,9 @@ void World::activate() {
     w.friction.resize(count * count);
     for (size_t i = 0; i < count; ++i) {
         Impl::Item& item = w.items[i];
-        if (!item.is_point) w.collision->add(*item.body, item.can_move);
+        if (!item.is_point) {
+            for (const auto& part : item.parts) w.collision->add(*part, item.can_move);
+        }
         if (item.can_move) w.can_move.push_back(i);
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;
@@ -214,8 +215,8 @@ void World::meet(BodyIndex point, const PointContact& contact) noexcept {
     const double torsion = impl_->settings.solver == Solver::sequential_impulse
                                ? 0  // it knows none
                                : std::max(body.torsion_radius, impl_->items[p].torsion_radius);
-    impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.face,
-                               contact.n_W, contact.gap,
+    impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.part,
+                               contact.face, contact.n_W, contact.gap,
                                contact.friction_share * friction(contact.body, point), torsion});
 }
 

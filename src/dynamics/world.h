@@ -91,6 +91,7 @@ class World {
     /// point, which is `gap` [m] off. Of the pair's friction only a share acts.
     struct PointContact {
         BodyIndex body;
+        int part = 0;  ///< with the face: the same goes on from its last impulse
         int face = 0;
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;

@@ -37,8 +37,7 @@ struct World::Impl {
         bool can_move = false;
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
-        std::unique_ptr<btCollisionShape> shape;
-        std::unique_ptr<Polyhedron> polyhedron;
+        std::vector<std::unique_ptr<CollisionPart>> parts;
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
         Vec3 torque = Vec3::Zero();

@@ -93,7 +93,8 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         // what contacts are looked for ahead of
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
-        if (!item.is_point) collision->update_bounds(body, h);
+        if (item.is_point) continue;
+        for (const auto& part : item.parts) collision->update_bounds(*part, h);
     }
 }
 

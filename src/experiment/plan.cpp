@@ -55,6 +55,16 @@ Place place_of(const Plan& plan, const std::string& setting) {
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
 
+bool is_point(const Plan& plan, const scene::Finger& finger) {
+    return plan.settings.proxy.of(finger) == haptics::ProxyKind::point;
+}
+
+bool any_finger(const Plan& plan, haptics::ProxyKind kind) {
+    return std::any_of(
+        plan.scene.fingers.begin(), plan.scene.fingers.end(),
+        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger) == kind; });
+}
+
 /// Stiffness that the loop need not hold calmly. The limit is passivity's: below it no hand makes
 /// the loop shake; above it, some do (bench grasp measures how far one gets).
 void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
@@ -79,8 +89,7 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
     }
     const double explicit_limit = coupling.body_mass / (h * h);
     if (coupling.kind == haptics::CouplingKind::dual_spring &&
-        plan.settings.proxy.kind == haptics::ProxyKind::rigid &&
-        coupling.stiffness > explicit_limit) {
+        any_finger(plan, haptics::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
         diagnostics.warning(
             place, "coupling.stiffness",
             fmt::format(
@@ -112,8 +121,9 @@ void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
 
 /// Settings that a point has no use for.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
-    if (plan.settings.proxy.kind != haptics::ProxyKind::point) return;
-    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit) {
+    if (!any_finger(plan, haptics::ProxyKind::point)) return;
+    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit &&
+        !any_finger(plan, haptics::ProxyKind::rigid)) {
         diagnostics.warning(
             place_of(plan, "coupling.kind"), "coupling.kind",
             fmt::format("{} ties handles to rigid proxies; these proxies are points",
@@ -122,7 +132,7 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     }
     if (plan.settings.proxy.friction == haptics::PointFriction::together) return;
     for (const scene::Finger& finger : plan.scene.fingers) {
-        if (finger.torsion_radius <= 0) continue;
+        if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
         diagnostics.warning(finger.place, "torsion_radius",
                             "where its friction is apart from the dynamics, a point carries no "
                             "moment about a contact's normal",
@@ -160,16 +170,15 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
 /// Soft fingers that are hard to this solver.
 void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
     if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
-    const bool apart = plan.settings.proxy.kind == haptics::ProxyKind::point &&
-                       plan.settings.proxy.friction == haptics::PointFriction::apart;
+    const bool apart = plan.settings.proxy.friction == haptics::PointFriction::apart;
     std::string soft;
-    const auto look = [&](const auto& items) {
-        for (const auto& item : items) {
-            if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
-        }
+    const auto look = [&](const auto& item) {
+        if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
     };
-    look(plan.scene.bodies);
-    if (!apart) look(plan.scene.fingers);
+    for (const scene::Body& body : plan.scene.bodies) look(body);
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (!(apart && is_point(plan, finger))) look(finger);
+    }
     if (soft.empty()) return;
     diagnostics.warning(
         place_of(plan, "dynamics.solver"), "dynamics.solver",

@@ -33,13 +33,19 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
 std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
                                        const recording::SessionFolder& folder) {
     std::vector<std::string> names;
-    const auto freeze = [&](scene::Shape& shape) {
+    int count = 0;
+    const std::function<void(scene::Shape&)> freeze = [&](scene::Shape& shape) {
+        for (scene::Part& part : shape.parts) freeze(part.shape);
         if (shape.kind != scene::ShapeKind::mesh) return;
         const std::string name =
-            fmt::format("mesh-{}-{}", names.size() + 1, fs::path(shape.file).filename().string());
+            fmt::format("mesh-{}-{}", ++count, fs::path(shape.file).filename().string());
         fs::copy_file(fs::path(from) / shape.file, folder.file(name));
         shape.file = name;
         names.push_back(name);
+        if (!shape.concave) return;
+        // a replay is of these pieces, whatever another version would cut
+        names.push_back(scene::pieces_file(name));
+        scene::write_pieces(shape.pieces, folder.file(names.back()));
     };
     for (scene::Body& body : scene.bodies) freeze(body.shape);
     for (scene::Finger& finger : scene.fingers) freeze(finger.shape);

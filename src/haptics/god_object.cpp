@@ -19,10 +19,15 @@ constexpr int kMostMoves = 64;
 GodObject::GodObject(std::span<const scene::Body> bodies, std::vector<double> friction,
                      double sliding, double skin)
     : friction_(std::move(friction)), sliding_ratio_(sliding) {
-    for (const scene::Body& body : bodies) surfaces_.emplace_back(body.shape, skin);
-    X_WB_.resize(bodies.size());
+    for (size_t i = 0; i < bodies.size(); ++i) {
+        const std::vector<scene::ConvexPart> convex = scene::convex_parts(bodies[i].shape);
+        for (const scene::ConvexPart& part : convex) {
+            parts_.push_back({i, part.X_BS, Surface(part.shape, skin, convex.size() > 1)});
+        }
+    }
+    X_WS_.resize(parts_.size());
     inside_.resize(bodies.size(), 0);
-    near_.reserve(bodies.size());
+    near_.reserve(parts_.size());
     coming_.resize(bodies.size());
 }
 
@@ -31,9 +36,11 @@ void GodObject::place(const Vec3& p_W, std::span<const dynamics::BodyState> bodi
     held_.setZero();
     count_ = 0;
     sliding_ = false;
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
-        X_WB_[i] = bodies[i].X_WB;
-        inside_[i] = surfaces_[i].separation(in_body(i, p_)) < -kOnSurface;
+    std::fill(inside_.begin(), inside_.end(), 0);
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        X_WS_[i] = pose(i, bodies);
+        if (parts_[i].surface.separation(in_surface(i, p_)) < -kOnSurface)
+            inside_[parts_[i].body] = 1;
     }
 }
 
@@ -46,9 +53,15 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     leave_insides();
 }
 
+/// A body is left when all of its parts are.
 void GodObject::leave_insides() noexcept {
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
-        if (inside_[i] && surfaces_[i].separation(in_body(i, p_)) > 0) inside_[i] = 0;
+    for (size_t i = 0; i < parts_.size();) {
+        const size_t body = parts_[i].body;
+        bool left = true;
+        for (; i < parts_.size() && parts_[i].body == body; ++i) {
+            left = left && (!inside_[body] || parts_[i].surface.separation(in_surface(i, p_)) > 0);
+        }
+        if (left) inside_[body] = 0;
     }
 }
 
@@ -56,20 +69,21 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
                                                std::span<const dynamics::BodyState> bodies,
                                                double h) noexcept {
     met_count_ = 0;
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
+    for (size_t i = 0; i < bodies.size() && i < coming_.size(); ++i) {
         coming_[i].X_WB = bodies[i].X_WB;
-        if (bodies[i].awake) {
-            Pose& X_WB = coming_[i].X_WB;
-            X_WB.p += h * bodies[i].v_WB;
-            const double angle = h * bodies[i].w_WB.norm();
-            if (angle > 0) {
-                X_WB.R = Quat(Eigen::AngleAxisd(angle, bodies[i].w_WB.normalized())) * X_WB.R;
-            }
-        }
-        if (inside_[i]) continue;
-        const Vec3 p_B = in_body(i, p_);
-        if (p_B.norm() - kTouching > surfaces_[i].reach()) continue;
-        if (surfaces_[i].separation(p_B) <= kTouching) note(i, surfaces_[i].shallowest(p_B));
+        if (!bodies[i].awake) continue;
+        Pose& X_WB = coming_[i].X_WB;
+        X_WB.p += h * bodies[i].v_WB;
+        const double angle = h * bodies[i].w_WB.norm();
+        if (angle > 0)
+            X_WB.R = Quat(Eigen::AngleAxisd(angle, bodies[i].w_WB.normalized())) * X_WB.R;
+    }
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        if (inside_[parts_[i].body]) continue;
+        const Surface& surface = parts_[i].surface;
+        const Vec3 p_S = in_surface(i, p_);
+        if (p_S.norm() - kTouching > surface.reach()) continue;
+        if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
     // the rest is found by going there, and coming back
     const Vec3 p = p_;
@@ -78,13 +92,14 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
     pull(p_W, false);
     p_ = p;
     count_ = 0;
-    for (size_t i = 0; i < surfaces_.size(); ++i) X_WB_[i] = bodies[i].X_WB;
+    for (size_t i = 0; i < parts_.size(); ++i) X_WS_[i] = pose(i, bodies);
     size_t kept = 0;
     for (size_t i = 0; i < met_count_; ++i) {
         Obstacle out = met_[i];
-        const Vec3 p_B = in_body(out.body, p_);
-        out.n_W = X_WB_[out.body].R * surfaces_[out.body].normal(out.face, p_B);
-        out.gap = surfaces_[out.body].distance(out.face, p_B);
+        const Surface& surface = parts_[out.surface].surface;
+        const Vec3 p_S = in_surface(out.surface, p_);
+        out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
+        out.gap = surface.distance(out.face, p_S);
         // behind it, the face is met on a way around: later
         if (out.gap >= -kTouching) met_[kept++] = out;
     }
@@ -111,16 +126,26 @@ void GodObject::slide(const Vec3& p_WH) noexcept {
     leave_insides();
 }
 
-void GodObject::note(size_t body, int face) noexcept {
+void GodObject::note(size_t surface, int face) noexcept {
     if (met_count_ == met_.size()) return;
     for (size_t i = 0; i < met_count_; ++i) {
-        if (met_[i].body == body) return;
+        if (met_[i].surface == surface) return;
     }
-    met_[met_count_++] = {body, face, Vec3::UnitZ(), 0};
+    met_[met_count_++] = {parts_[surface].body, surface, face, Vec3::UnitZ(), 0};
 }
 
-Vec3 GodObject::in_body(size_t body, const Vec3& p_W) const noexcept {
-    return X_WB_[body].R.conjugate() * (p_W - X_WB_[body].p);
+Vec3 GodObject::position_in(size_t body) const noexcept {
+    size_t i = 0;
+    while (parts_[i].body != body) ++i;
+    return parts_[i].X_BS * in_surface(i, p_);
+}
+
+Vec3 GodObject::in_surface(size_t surface, const Vec3& p_W) const noexcept {
+    return X_WS_[surface].R.conjugate() * (p_W - X_WS_[surface].p);
+}
+
+Pose GodObject::pose(size_t surface, std::span<const dynamics::BodyState> bodies) const noexcept {
+    return bodies[parts_[surface].body].X_WB * parts_[surface].X_BS;
 }
 
 Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexcept {
@@ -129,29 +154,29 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     for (const PointContact& c : contacts()) {
         // without friction a body takes nothing along; what it pushes away comes next
         const double w = friction_[c.body] * c.depth;
-        sum += w * (bodies[c.body].X_WB * in_body(c.body, p_) - p_);
+        sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
     }
     return weight > 0 ? Vec3(p_ + sum / weight) : p_;
 }
 
-/// X_WB_ goes from the last tick's poses to this one's.
+/// X_WS_ goes from the last tick's poses to this one's.
 void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
-    std::array<size_t, kMostHalfSpaces> body_of{};
-    // a body whose face the point already obeys cannot be entered again: each adds one at most
+    std::array<size_t, kMostHalfSpaces> surface_of{};
+    // a surface whose face the point already obeys cannot be entered again: each adds one at most
     for (bool found = true; found && walls.count < kMostHalfSpaces;) {
         found = false;
-        for (size_t i = 0; i < surfaces_.size() && walls.count < kMostHalfSpaces; ++i) {
-            if (inside_[i]) continue;
-            const auto end = body_of.begin() + static_cast<std::ptrdiff_t>(walls.count);
-            if (std::find(body_of.begin(), end, i) != end) continue;
-            const Pose& X_WB = bodies[i].X_WB;
-            const Vec3 before = in_body(i, start);
-            const Vec3 after = X_WB.R.conjugate() * (p_ - X_WB.p);
+        for (size_t i = 0; i < parts_.size() && walls.count < kMostHalfSpaces; ++i) {
+            if (inside_[parts_[i].body]) continue;
+            const auto end = surface_of.begin() + static_cast<std::ptrdiff_t>(walls.count);
+            if (std::find(surface_of.begin(), end, i) != end) continue;
+            const Pose X_WS = pose(i, bodies);
+            const Vec3 before = in_surface(i, start);
+            const Vec3 after = X_WS.R.conjugate() * (p_ - X_WS.p);
             const Vec3 path = after - before;
-            const Surface& surface = surfaces_[i];
+            const Surface& surface = parts_[i].surface;
             if (after.norm() - path.norm() > surface.reach()) continue;
             int face = -1;
             Vec3 at = after;
@@ -165,31 +190,31 @@ void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState>
             const Vec3 n = surface.normal(face, at);
             // the tangent plane at the entry, seen from where the point was carried
             const double below = surface.distance(face, at) + n.dot(after - at);
-            const Vec3 n_W = X_WB.R * n;
+            const Vec3 n_W = X_WS.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
-            body_of[walls.count - 1] = i;
+            surface_of[walls.count - 1] = i;
             note(i, face);
             found = true;
             p_ = carried_to + walls.nearest(Vec3::Zero());
         }
     }
-    for (size_t i = 0; i < surfaces_.size(); ++i) X_WB_[i] = bodies[i].X_WB;
+    for (size_t i = 0; i < parts_.size(); ++i) X_WS_[i] = pose(i, bodies);
 }
 
 /// No path goes further from the handle than it starts: bodies beyond play no part.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
-    for (size_t i = 0; i < surfaces_.size(); ++i) {
-        if (inside_[i]) continue;
-        if ((X_WB_[i].p - p_WH).norm() <= surfaces_[i].reach() + radius) near_.push_back(i);
+    for (size_t i = 0; i < parts_.size(); ++i) {
+        if (inside_[parts_[i].body]) continue;
+        if ((X_WS_[i].p - p_WH).norm() <= parts_[i].surface.reach() + radius) near_.push_back(i);
     }
 }
 
-bool GodObject::touch(size_t body, int face) noexcept {
+bool GodObject::touch(const PointContact& contact) noexcept {
     if (count_ == contacts_.size()) return false;
-    contacts_[count_++] = {body, face, Vec3::UnitZ(), 0};
-    note(body, face);
+    contacts_[count_++] = contact;
+    note(contact.surface, contact.face);
     return true;
 }
 
@@ -200,7 +225,8 @@ void GodObject::untouch(size_t i) noexcept {
 void GodObject::refresh_normals() noexcept {
     for (size_t i = 0; i < count_; ++i) {
         PointContact& c = contacts_[i];
-        c.n_W = X_WB_[c.body].R * surfaces_[c.body].normal(c.face, in_body(c.body, p_));
+        c.n_W = X_WS_[c.surface].R *
+                parts_[c.surface].surface.normal(c.face, in_surface(c.surface, p_));
     }
 }
 
@@ -226,9 +252,10 @@ double GodObject::friction_depth() const noexcept {
 Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     if (count_ != 1) return way;
     const PointContact& c = contacts_[0];
-    const Surface& surface = surfaces_[c.body];
-    const Quat& R_WB = X_WB_[c.body].R;
-    const Vec3 bent = R_WB * surface.bent_part(c.face, in_body(c.body, p_), R_WB.conjugate() * way);
+    const Surface& surface = parts_[c.surface].surface;
+    const Quat& R_WS = X_WS_[c.surface].R;
+    const Vec3 bent =
+        R_WS * surface.bent_part(c.face, in_surface(c.surface, p_), R_WS.conjugate() * way);
     if (bent.isZero(0)) return way;
     const double rest = std::max(0.5, 1 - c.depth / surface.bend_radius());
     return way + (1 / rest - 1) * bent;
@@ -261,29 +288,31 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
         for (const size_t i : near_) {
             const auto rests = contacts();
             if (std::any_of(rests.begin(), rests.end(),
-                            [&](const PointContact& c) { return c.body == i; }))
+                            [&](const PointContact& c) { return c.surface == i; }))
                 continue;
-            const auto entry = surfaces_[i].enter(in_body(i, p_), X_WB_[i].R.conjugate() * way);
+            const auto entry =
+                parts_[i].surface.enter(in_surface(i, p_), X_WS_[i].R.conjugate() * way);
             if (!entry || (meets && entry->share >= share)) continue;
             share = entry->share;
-            meets = PointContact{i, entry->face, Vec3::UnitZ(), 0};
+            meets = PointContact{parts_[i].body, i, entry->face, Vec3::UnitZ(), 0};
         }
         for (size_t i = 0; i < count_; ++i) {
             const PointContact& c = contacts_[i];
             if (c.depth <= 0) continue;  // it does not guide the way
-            const auto crossing = surfaces_[c.body].cross(c.face, in_body(c.body, p_),
-                                                          X_WB_[c.body].R.conjugate() * way);
+            const auto crossing = parts_[c.surface].surface.cross(
+                c.face, in_surface(c.surface, p_), X_WS_[c.surface].R.conjugate() * way);
             if (crossing.face < 0 || crossing.share > share) continue;
             share = crossing.share;
-            crosses = PointContact{c.body, crossing.face, Vec3::UnitZ(), 0};
+            crosses = PointContact{c.body, c.surface, crossing.face, Vec3::UnitZ(), 0};
             meets.reset();
         }
         p_ += share * way;
         if (share > 0) {
             for (size_t i = count_; i-- > 0;) {
                 const PointContact& c = contacts_[i];
-                const bool crossed = crosses && crosses->body == c.body;
-                const double apart = surfaces_[c.body].separation(in_body(c.body, p_));
+                const bool crossed = crosses && crosses->surface == c.surface;
+                const double apart =
+                    parts_[c.surface].surface.separation(in_surface(c.surface, p_));
                 if (!crossed && (c.depth <= 0 || apart > kOnSurface)) untouch(i);
             }
         }
@@ -291,13 +320,13 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
             // past the edge: over the next face, unless the handle is outside of it
             const auto c = std::find_if(
                 contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),
-                [&](const PointContact& x) { return x.body == crosses->body; });
+                [&](const PointContact& x) { return x.surface == crosses->surface; });
             c->face = crosses->face;
-            const Vec3 n_W =
-                X_WB_[c->body].R * surfaces_[c->body].normal(c->face, in_body(c->body, p_));
+            const Vec3 n_W = X_WS_[c->surface].R *
+                             parts_[c->surface].surface.normal(c->face, in_surface(c->surface, p_));
             if (n_W.dot(p_WH - p_) >= 0) untouch(static_cast<size_t>(c - contacts_.begin()));
         }
-        if (meets && !touch(meets->body, meets->face)) break;
+        if (meets && !touch(*meets)) break;
     }
     if (!slides) sliding_ = false;
     for (size_t i = count_; i-- > 0;) {

@@ -34,9 +34,10 @@ namespace dihaptic::haptics {
 /// would slip under a block that stands on it [m].
 constexpr double kSkin = 1e-5;
 
-/// What the point rests on. All of one body, which is convex: one face a body.
+/// What the point rests on: one face of a convex part of a body.
 struct PointContact {
     size_t body = 0;
+    size_t surface = 0;  ///< of all bodies' parts
     int face = 0;
     Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
     double depth = 0;          ///< the handle's share behind it, l [m]
@@ -45,6 +46,7 @@ struct PointContact {
 /// A face that the point may come up against.
 struct Obstacle {
     size_t body = 0;
+    size_t surface = 0;  ///< of all bodies' parts
     int face = 0;
     Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
     double gap = 0;            ///< from the face, or its plane, to the point [m]
@@ -68,7 +70,7 @@ class GodObject {
     // Where something else decides where the point goes: friction, and bodies that give way.
 
     /// What the point may come up against while it is pulled to `p_W` and bodies move on for h [s]:
-    /// the faces that it is on, and those that it would meet without friction. One face a body.
+    /// the faces that it is on, and those that it would meet without friction. One face a part.
     std::span<const Obstacle> obstacles(const Vec3& p_W,
                                         std::span<const dynamics::BodyState> bodies,
                                         double h) noexcept;
@@ -80,7 +82,7 @@ class GodObject {
 
     const Vec3& position() const noexcept { return p_; }
     /// The same in the frame of a body, where it was in the last tick.
-    Vec3 position_in(size_t body) const noexcept { return in_body(body, p_); }
+    Vec3 position_in(size_t body) const noexcept;
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
     double friction(size_t body) const noexcept { return friction_[body]; }
     /// The way to the handle that is left along the surfaces: held by friction [m].
@@ -95,23 +97,32 @@ class GodObject {
     void pull(const Vec3& p_WH, bool rubs) noexcept;
     void leave_insides() noexcept;
     void gather(const Vec3& p_WH) noexcept;
-    bool touch(size_t body, int face) noexcept;
-    void note(size_t body, int face) noexcept;
+    bool touch(const PointContact& contact) noexcept;
+    void note(size_t surface, int face) noexcept;
     void untouch(size_t i) noexcept;
     void refresh_normals() noexcept;
     Vec3 way_to(const Vec3& p_WH) noexcept;
     double friction_depth() const noexcept;
     Vec3 straightened(const Vec3& way) const noexcept;
-    Vec3 in_body(size_t body, const Vec3& p_W) const noexcept;
+    /// A point in the frame of a surface, where that was after the last push_out().
+    Vec3 in_surface(size_t surface, const Vec3& p_W) const noexcept;
+    /// Pose X_WS of a surface whose body is where `bodies` says.
+    Pose pose(size_t surface, std::span<const dynamics::BodyState> bodies) const noexcept;
 
-    std::vector<Surface> surfaces_;
-    std::vector<double> friction_;
+    /// The surface S of a convex part.
+    struct PartSurface {
+        size_t body;
+        Pose X_BS;
+        Surface surface;
+    };
+    std::vector<PartSurface> parts_;
+    std::vector<double> friction_;  // by body
     double sliding_ratio_;
-    std::vector<Pose> X_WB_;
-    std::vector<char> inside_;
-    std::vector<size_t> near_;
+    std::vector<Pose> X_WS_;                     // by surface
+    std::vector<char> inside_;                   // by body
+    std::vector<size_t> near_;                   // surfaces
     std::vector<dynamics::BodyState> coming_;    // scratch
-    std::array<Obstacle, kMostHalfSpaces> met_;  // since it was cleared, one face a body
+    std::array<Obstacle, kMostHalfSpaces> met_;  // since it was cleared, one face a surface
     size_t met_count_ = 0;
     Vec3 p_ = Vec3::Zero();
     Vec3 held_ = Vec3::Zero();

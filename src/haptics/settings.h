@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/field.h"
+#include "scene/scene.h"
 
 namespace dihaptic::haptics {
 
@@ -44,10 +45,7 @@ struct CouplingSettings {
     }
 };
 
-enum class ProxyKind { rigid, point };
-constexpr auto enum_names(ProxyKind) {
-    return std::array{"rigid", "point"};
-}
+using scene::ProxyKind;
 
 /// Where a point's friction is computed: in the step of the world, with all that it acts on, or
 /// outside of it, as OpenHaptics' HL did.
@@ -56,9 +54,9 @@ constexpr auto enum_names(PointFriction) {
     return std::array{"together", "apart"};
 }
 
-/// What a finger is in the world.
+/// What fingers are in the world.
 struct ProxySettings {
-    ProxyKind kind = ProxyKind::rigid;  ///< the finger's shape, or a point kept on surfaces
+    ProxyKind kind = ProxyKind::rigid;  ///< of fingers that the scene gives none of their own
     PointFriction friction = PointFriction::together;  ///< point
     double sliding_friction = 1;  ///< point: dynamic friction, as a share of static friction
     /// Point: a body that is pressed harder yields, and is not felt again until the point has left
@@ -72,6 +70,8 @@ struct ProxySettings {
         v("sliding_friction", sliding_friction, Field::number().within(0, 1));
         v("popthrough", popthrough, Field::of(Quantity::force).positive());
     }
+
+    ProxyKind of(const scene::Finger& finger) const { return finger.proxy.value_or(kind); }
 };
 
 enum class EnergyGuardMode { off, warn, act };

@@ -37,7 +37,9 @@ void SolvedPoint::before_step(World& world, const Handle& handle, double h) noex
     world.set_point(body_, p_WP, v_WP);
     const double share = sliding_ ? sliding_friction_ : 1;
     for (const Obstacle& o : point_.obstacles(p_WP + h * v_WP, world.states(), h)) {
-        world.meet(body_, {{static_cast<int>(o.body)}, o.face, o.n_W, o.gap, share});
+        world.meet(
+            body_,
+            {{static_cast<int>(o.body)}, static_cast<int>(o.surface), o.face, o.n_W, o.gap, share});
     }
 }
 

@@ -33,7 +33,8 @@ Roots ball_roots(const Vector& p, const Vector& d, double r) {
 
 }  // namespace
 
-Surface::Surface(const scene::Shape& shape, double skin) : kind_(shape.kind) {
+Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
+    : kind_(shape.kind), has_seams_(has_seams) {
     switch (kind_) {
         case ShapeKind::box:
         case ShapeKind::mesh: {
@@ -73,6 +74,8 @@ Surface::Surface(const scene::Shape& shape, double skin) : kind_(shape.kind) {
             flats_.push_back({Vec3::UnitZ(), half_});
             flats_.push_back({-Vec3::UnitZ(), half_});
             break;
+        case ShapeKind::compound:
+            break;  // its parts have surfaces
     }
 }
 
@@ -121,7 +124,8 @@ int Surface::shallowest(const Vec3& p) const noexcept {
 std::optional<Surface::Entry> Surface::enter(const Vec3& p, const Vec3& d) const noexcept {
     const double apart = separation(p);
     if (apart > d.norm() + kOnSurface) return {};
-    if (apart > kOnSurface) return flats_.empty() ? enter_ball(p, d) : enter_faces(p, d);
+    if (apart > kOnSurface && flats_.empty()) return enter_ball(p, d);
+    if (apart > kOnSurface) return over_seams(enter_faces(p, d), p, d);
     // Faces through p: a convex solid lies below each of them, so a path that one of them does not
     // block never enters. The one that blocks least is the one that p slides along first.
     Entry least{0, -1};
@@ -187,6 +191,21 @@ std::optional<Surface::Entry> Surface::enter_faces(const Vec3& p, const Vec3& d)
         }
     }
     if (entry.face < 0 || entry.share > exit || entry.share < 0 || entry.share > 1) return {};
+    return entry;
+}
+
+std::optional<Surface::Entry> Surface::over_seams(std::optional<Entry> entry, const Vec3& p,
+                                                  const Vec3& d) const noexcept {
+    if (!has_seams_ || !entry || !is_flat(entry->face)) return entry;
+    const Vec3 at = p + entry->share * d;
+    for (int face = 0; face < static_cast<int>(flats_.size()); ++face) {
+        const Flat& flat = flats_[static_cast<size_t>(face)];
+        if (face == entry->face || flat.n.dot(at) - flat.offset < -kSeam) continue;
+        // along that face, or away from it: the part is not entered at all
+        if (flat.n.dot(p + d) - flat.offset >= -kSeam) return {};
+        entry->face = face;
+        return entry;
+    }
     return entry;
 }
 

@@ -16,10 +16,16 @@ namespace dihaptic::haptics {
 /// 10 000 N/m makes 10 uN of it [m].
 constexpr double kOnSurface = 1e-9;
 
+/// Where two parts of a body share a plane, rounding leaves a step, at which a sliding point would
+/// stop. Who enters a part through a side face no deeper than this below another face of it enters
+/// through that one [m].
+constexpr double kSeam = 1e-7;
+
 class Surface {
   public:
-    /// The shape, with its faces moved outward by `skin` [m].
-    Surface(const scene::Shape& shape, double skin);
+    /// The shape, with its faces moved outward by `skin` [m]. `has_seams`: it is a part of a body,
+    /// whose other parts continue its faces; see kSeam.
+    Surface(const scene::Shape& shape, double skin, bool has_seams = false);
 
     /// How far p is outside: negative inside, a lower bound of the distance outside [m].
     double separation(const Vec3& p_B) const noexcept;
@@ -65,7 +71,11 @@ class Surface {
     std::optional<Entry> enter_ball(const Vec3& p_B, const Vec3& d_B) const noexcept;
     std::optional<Entry> enter_faces(const Vec3& p_B, const Vec3& d_B) const noexcept;
 
+    std::optional<Entry> over_seams(std::optional<Entry> entry, const Vec3& p_B,
+                                    const Vec3& d_B) const noexcept;
+
     scene::ShapeKind kind_;
+    bool has_seams_;
     std::vector<Flat> flats_;  // of polyhedra, ends of a cylinder, the plane
     double radius_ = 0;        // sphere, capsule, cylinder
     double half_ = 0;          // half the length of capsule and cylinder

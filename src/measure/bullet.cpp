@@ -16,7 +16,8 @@ using dynamics::to_bullet;
 
 struct Body {
     Pose X_MB;
-    std::unique_ptr<btCollisionShape> shape;
+    std::vector<std::unique_ptr<dynamics::CollisionPart>>
+        parts;  // one: the benches' bodies are convex
     std::unique_ptr<btRigidBody> body;
 };
 
@@ -25,9 +26,9 @@ Body make_body(const scene::Body& body) {
     const scene::Solid solid = scene::solid_of(body.shape, moves ? scene::mass(body) : 0);
     Body out;
     out.X_MB = solid.X_BM.inverse();
-    out.shape = dynamics::bullet_shape(body.shape, solid.X_BM);
-    btRigidBody::btRigidBodyConstructionInfo info(solid.mass, nullptr, out.shape.get(),
-                                                  to_bullet(solid.inertia));
+    out.parts = dynamics::collision_parts(body.shape, solid.X_BM);
+    btRigidBody::btRigidBodyConstructionInfo info(
+        solid.mass, nullptr, out.parts.front()->shape.get(), to_bullet(solid.inertia));
     info.m_startWorldTransform = to_bullet(body.pose() * solid.X_BM);
     info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two of a pair
     out.body = std::make_unique<btRigidBody>(info);

@@ -1,6 +1,10 @@
 // Closed forms of a two-finger grasp and of pressing a surface, for checks and predictions.
 #pragma once
 
+#include <span>
+
+#include "base/geometry.h"
+
 namespace dihaptic::model {
 
 /// Force of two springs in series stretched together by `x` [m]: the hand's k_hand and the
@@ -13,6 +17,13 @@ constexpr double series_spring_force(double x, double k_hand, double k) {
 /// How far the hand's spring and the coupling's in series give under a force [m].
 constexpr double series_spring_stretch(double force, double k_hand, double k) {
     return force * (k_hand + k) / (k_hand * k);
+}
+
+/// Direction of the pinch of two fingers or more: from the first to the middle of the others; unit.
+inline Vec3 grasp_axis(std::span<const Vec3> p_WP) {
+    Vec3 others = Vec3::Zero();
+    for (size_t i = 1; i < p_WP.size(); ++i) others += p_WP[i];
+    return (others / static_cast<double>(p_WP.size() - 1) - p_WP[0]).normalized();
 }
 
 /// Smallest grip force that holds a load with two digits: load / (2 mu) [N].

@@ -39,7 +39,8 @@ std::vector<Finger> default_fingers() {
     return {thumb, index};
 }
 
-void load_mesh(Shape& shape, const std::string& folder, Diagnostics& diagnostics) {
+void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnostics) {
+    for (Part& part : shape.parts) load_meshes(part.shape, folder, diagnostics);
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
     const std::string file =
         (std::filesystem::path(folder) / shape.file).lexically_normal().string();
@@ -59,6 +60,12 @@ void load_mesh(Shape& shape, const std::string& folder, Diagnostics& diagnostics
                               "Give the unit of its coordinates: m, cm or mm.");
             return;
         }
+        if (shape.concave) {
+            const Mesh surface = closed(mesh, file, place);
+            shape.solid = integrate(surface.vertices, surface.faces);
+            shape.pieces = convex_pieces(surface, file, place, diagnostics);
+            return;
+        }
         const double solid = integrate(mesh.vertices, mesh.faces).volume;
         const double hull = integrate(shape.hull.vertices, shape.hull.faces).volume;
         if (solid > 0 && solid < 0.98 * hull) {
@@ -67,11 +74,30 @@ void load_mesh(Shape& shape, const std::string& folder, Diagnostics& diagnostics
                 fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
                             "stands in for it",
                             file, 100 * (hull / solid - 1)),
-                "Fingers will feel the hull.");
+                "Add concave: yes to feel the mesh itself.");
         }
     } catch (const Error& e) {
         diagnostics.add(e.problems());
     }
+}
+
+void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostics) {
+    if (shape.kind != ShapeKind::compound) return;
+    if (shape.parts.empty()) {
+        diagnostics.error(place, "parts", "there are none",
+                          "List one at least, each with a shape.");
+    }
+    for (const Part& part : shape.parts) {
+        if (part.shape.kind != ShapeKind::plane && part.shape.kind != ShapeKind::compound) continue;
+        diagnostics.error(part.place, "shape",
+                          fmt::format("a part cannot be a {}", enum_name(part.shape.kind)),
+                          "Use a box, sphere, capsule, cylinder or mesh.");
+    }
+}
+
+/// Whether the integrals over it are known: a mesh may not have been loaded.
+bool has_volume(const Shape& shape) {
+    return shape.kind != ShapeKind::plane && integrate(shape).volume > 0;
 }
 
 void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagnostics) {
@@ -98,8 +124,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
                           "Add mass_g or density_g_cm3, or fixed: yes.");
         return;
     }
-    const bool has_volume = body.shape.kind != ShapeKind::mesh || !body.shape.hull.faces.empty();
-    if (has_volume && (mass(body) < kLightest || mass(body) > kHeaviest)) {
+    if (has_volume(body.shape) && (mass(body) < kLightest || mass(body) > kHeaviest)) {
         diagnostics.error(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
                           "Check the units of its size and its density.");
         return;
@@ -259,11 +284,13 @@ double mass(const Body& body) {
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
     if (scene.fingers.empty()) scene.fingers = default_fingers();
     for (Body& body : scene.bodies) {
-        load_mesh(body.shape, folder, diagnostics);
+        load_meshes(body.shape, folder, diagnostics);
+        check_parts(body.shape, body.place, diagnostics);
         check_body(body, diagnostics);
     }
     for (Finger& finger : scene.fingers) {
-        load_mesh(finger.shape, folder, diagnostics);
+        load_meshes(finger.shape, folder, diagnostics);
+        check_parts(finger.shape, finger.place, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {
             diagnostics.error(finger.place, "shape", "a finger cannot be a plane",

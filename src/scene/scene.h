@@ -69,14 +69,21 @@ struct Body {
     bool moves_at_all() const { return !fixed && (moves != Axes::none || turns != Axes::none); }
 };
 
-/// The rigid body that stands for a finger in the world: no gravity acts on it, and it keeps its
-/// canonical orientation.
+/// What a finger is in the world: its shape, or a point kept on surfaces.
+enum class ProxyKind { rigid, point };
+constexpr auto enum_names(ProxyKind) {
+    return std::array{"rigid", "point"};
+}
+
+/// What stands for a finger in the world: no gravity acts on it, and it keeps its canonical
+/// orientation.
 struct Finger {
     std::string name;
     Shape shape;
-    double mass = 0.001;        ///< [kg]
-    double friction = 0.8;      ///< see pair_friction()
-    double torsion_radius = 0;  ///< of a soft finger; see Body [m]
+    double mass = 0.001;             ///< [kg]
+    double friction = 0.8;           ///< see pair_friction()
+    double torsion_radius = 0;       ///< of a soft finger; see Body [m]
+    std::optional<ProxyKind> proxy;  ///< in place of the setting proxy.kind
     Vec3 rotation =
         Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
     Place place;
@@ -88,6 +95,7 @@ struct Finger {
         v("mass", mass, Field::of(Quantity::mass).within(kLightest, kHeaviest));
         v("friction", friction, Field::number().within(0, kMostFriction));
         v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
+        v("proxy", proxy);
         v("rotation", rotation, Field::of(Quantity::angle));
         if constexpr (requires { v.place(); }) place = v.place();
     }

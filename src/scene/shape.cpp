@@ -16,6 +16,40 @@ VolumeIntegrals symmetric(double volume, const Vec3& inertia) {
     return out;
 }
 
+VolumeIntegrals moved(const VolumeIntegrals& in, const Pose& X) {
+    const Mat3 R = X.R.toRotationMatrix();
+    return {in.volume, X * in.centre, R * in.inertia * R.transpose()};
+}
+
+/// Steiner's theorem moves each part's moments to the centre of all.
+VolumeIntegrals sum(const std::vector<VolumeIntegrals>& parts) {
+    VolumeIntegrals out;
+    for (const VolumeIntegrals& part : parts) {
+        out.volume += part.volume;
+        out.centre += part.volume * part.centre;
+    }
+    if (out.volume <= 0) return {};
+    out.centre /= out.volume;
+    for (const VolumeIntegrals& part : parts) {
+        const Vec3 d = part.centre - out.centre;
+        out.inertia +=
+            part.inertia + part.volume * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+    }
+    return out;
+}
+
+double hull_depth(const Hull& hull, const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::vector<int>& face : hull.faces) {
+        const auto at = [&](size_t i) -> const Vec3& {
+            return hull.vertices[static_cast<size_t>(face[i])];
+        };
+        const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+        least = std::min(least, normal.dot(at(0) - p));
+    }
+    return hull.faces.empty() ? -1 : least;
+}
+
 }  // namespace
 
 Shape Shape::box(const Vec3& size) {
@@ -64,7 +98,13 @@ VolumeIntegrals integrate(const Shape& shape) {
         case ShapeKind::plane:
             return {};
         case ShapeKind::mesh:
-            return integrate(shape.hull.vertices, shape.hull.faces);
+            return shape.concave ? shape.solid : integrate(shape.hull.vertices, shape.hull.faces);
+        case ShapeKind::compound: {
+            std::vector<VolumeIntegrals> parts;
+            for (const Part& part : shape.parts)
+                parts.push_back(moved(integrate(part.shape), part.pose()));
+            return sum(parts);
+        }
     }
     return {};
 }
@@ -84,15 +124,17 @@ double depth(const Shape& shape, const Vec3& p_B) {
         case ShapeKind::plane:
             return -p_B.z();
         case ShapeKind::mesh: {
-            double least = std::numeric_limits<double>::infinity();
-            for (const std::vector<int>& face : shape.hull.faces) {
-                const auto at = [&](size_t i) -> const Vec3& {
-                    return shape.hull.vertices[static_cast<size_t>(face[i])];
-                };
-                const Vec3 normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-                least = std::min(least, normal.dot(at(0) - p_B));
-            }
-            return shape.hull.faces.empty() ? -1 : least;
+            if (!shape.concave) return hull_depth(shape.hull, p_B);
+            double deepest = -std::numeric_limits<double>::infinity();
+            for (const Hull& piece : shape.pieces.hulls)
+                deepest = std::max(deepest, hull_depth(piece, p_B));
+            return deepest;
+        }
+        case ShapeKind::compound: {
+            double deepest = -std::numeric_limits<double>::infinity();
+            for (const Part& part : shape.parts)
+                deepest = std::max(deepest, depth(part.shape, part.pose().inverse() * p_B));
+            return deepest;
         }
     }
     return -1;
@@ -103,7 +145,14 @@ std::vector<Vec3> marks(const Shape& shape) {
     if (shape.kind == ShapeKind::plane) return out;
     if (shape.kind == ShapeKind::mesh) {
         out = shape.hull.vertices;
-        if (!out.empty()) out.push_back(integrate(shape).centre);
+        // a concave mesh's centre may lie outside of it
+        if (!out.empty() && !shape.concave) out.push_back(integrate(shape).centre);
+        return out;
+    }
+    if (shape.kind == ShapeKind::compound) {
+        for (const Part& part : shape.parts) {
+            for (const Vec3& p : marks(part.shape)) out.push_back(part.pose() * p);
+        }
         return out;
     }
     out.emplace_back(Vec3::Zero());
@@ -137,11 +186,14 @@ double extent(const Shape& shape) {
             return 2 * shape.radius + shape.length;
         case ShapeKind::plane:
             return 0;
-        case ShapeKind::mesh: {
-            if (shape.hull.vertices.empty()) return 0;
-            Vec3 low = shape.hull.vertices.front();
+        case ShapeKind::mesh:
+        case ShapeKind::compound: {
+            const std::vector<Vec3> points =
+                shape.kind == ShapeKind::mesh ? shape.hull.vertices : marks(shape);
+            if (points.empty()) return 0;
+            Vec3 low = points.front();
             Vec3 high = low;
-            for (const Vec3& v : shape.hull.vertices) {
+            for (const Vec3& v : points) {
                 low = low.cwiseMin(v);
                 high = high.cwiseMax(v);
             }
@@ -149,6 +201,28 @@ double extent(const Shape& shape) {
         }
     }
     return 0;
+}
+
+std::vector<ConvexPart> convex_parts(const Shape& shape) {
+    std::vector<ConvexPart> out;
+    if (shape.kind == ShapeKind::compound) {
+        for (const Part& part : shape.parts) {
+            for (ConvexPart& convex : convex_parts(part.shape)) {
+                convex.X_BS = part.pose() * convex.X_BS;
+                out.push_back(std::move(convex));
+            }
+        }
+    } else if (shape.kind == ShapeKind::mesh && shape.concave) {
+        for (const Hull& piece : shape.pieces.hulls) {
+            ConvexPart convex;
+            convex.shape.kind = ShapeKind::mesh;
+            convex.shape.hull = piece;
+            out.push_back(std::move(convex));
+        }
+    } else {
+        out.push_back({shape, Pose{}});
+    }
+    return out;
 }
 
 }  // namespace dihaptic::scene

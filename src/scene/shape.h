@@ -9,12 +9,13 @@
 #include "base/field.h"
 #include "base/geometry.h"
 #include "scene/hull.h"
+#include "scene/pieces.h"
 
 namespace dihaptic::scene {
 
-enum class ShapeKind { box, sphere, capsule, cylinder, plane, mesh };
+enum class ShapeKind { box, sphere, capsule, cylinder, plane, mesh, compound };
 constexpr auto enum_names(ShapeKind) {
-    return std::array{"box", "sphere", "capsule", "cylinder", "plane", "mesh"};
+    return std::array{"box", "sphere", "capsule", "cylinder", "plane", "mesh", "compound"};
 }
 
 /// The unit of a mesh file's coordinates, which the file itself does not tell.
@@ -27,9 +28,11 @@ constexpr auto enum_names(MeshUnit) {
 constexpr double kSmallest = 1e-4;
 constexpr double kLargest = 100;
 
+struct Part;
+
 /// A shape in the frame of its body B. Boxes, spheres, capsules and cylinders are centred on B's
 /// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is where its
-/// file puts it.
+/// file puts it; a compound is all of its parts.
 struct Shape {
     ShapeKind kind = ShapeKind::box;
     Vec3 size = Vec3::Zero();  ///< box: lengths of the edges [m]
@@ -37,8 +40,12 @@ struct Shape {
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
     std::string file;          ///< mesh: OBJ, STL or PLY, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    Hull hull;         ///< mesh: its convex hull, loaded [m]
-    Place file_place;  ///< mesh: where its file is named
+    bool concave = false;     ///< mesh: felt as it is, not as its convex hull
+    std::vector<Part> parts;  ///< compound: one at least, none of them a plane or a compound
+    Hull hull;                ///< mesh: its convex hull, loaded [m]
+    Pieces pieces;            ///< concave mesh: convex pieces that fill it
+    VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
+    Place file_place;         ///< mesh: where its file is named
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -60,16 +67,59 @@ struct Shape {
             case ShapeKind::mesh:
                 v("file", file, Field::text().required());
                 v("unit", unit, Field::text().required());
+                v("concave", concave);
                 if constexpr (requires { v.place(); }) file_place = v.place_of("file");
+                break;
+            case ShapeKind::compound:
+                visit_parts(v);
                 break;
         }
     }
 
     static Shape box(const Vec3& size);
     static Shape sphere(double radius);
+
+  private:
+    template <class Visitor>
+    void visit_parts(Visitor& v);
 };
 
-/// Volume integrals of the shape, of unit density. A plane has none (zero volume).
+/// A shape in a compound.
+struct Part {
+    Shape shape;
+    Vec3 position = Vec3::Zero();  ///< of the shape's own origin in the body's frame [m]
+    Vec3 rotation = Vec3::Zero();  ///< about the body's axes x, then y, then z [rad]
+    Place place;                   ///< in the scene file
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        shape.visit(v);
+        v("position", position, Field::length().within(-kLargest, kLargest));
+        v("rotation", rotation, Field::of(Quantity::angle));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+    Pose pose() const { return {rotation_xyz(rotation), position}; }
+};
+
+template <class Visitor>
+void Shape::visit_parts(Visitor& v) {
+    v("parts", parts, Field::text().required());
+}
+
+/// A convex shape and where it is in the body B that it is of.
+struct ConvexPart {
+    Shape shape;
+    Pose X_BS;
+};
+
+/// The convex shapes that a shape consists of: itself, the pieces of a concave mesh, or those of
+/// all parts.
+std::vector<ConvexPart> convex_parts(const Shape& shape);
+
+/// Volume integrals of the shape, of unit density: of a concave mesh those of the mesh itself; of a
+/// compound the sum over its parts, so that what two of them share counts twice. A plane has none
+/// (zero volume).
 VolumeIntegrals integrate(const Shape& shape);
 
 /// How deep a point of B lies below the surface; negative outside [m].

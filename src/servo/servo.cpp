@@ -62,7 +62,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             settings.tick(), X_WD_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
-        if (settings.proxy.kind == haptics::ProxyKind::point) {
+        if (settings.proxy.of(scene.fingers[i]) == haptics::ProxyKind::point) {
             const dynamics::BodyIndex proxy = world_.add_point(scene.fingers[i], Vec3::Zero());
             if (settings.proxy.friction == haptics::PointFriction::together) {
                 fingers_.emplace_back(

@@ -1,5 +1,6 @@
 #include "dynamics/bullet/collision.h"
 
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -16,14 +17,20 @@ constexpr double kApproach = 3e-3;  // [m]
 constexpr double kRoundMargin = 2e-3;      // [m]
 constexpr double kMostRoundMargin = 5e-2;  // [m]
 
-/// Largest speed of a point of the body by its turning; its centre lies anywhere inside [m/s].
-double turning(const btCollisionObject& object) {
-    const btScalar speed = object.getInterpolationAngularVelocity().length();
+/// Largest speed of a point of a body's part by its turning; the body's centre lies anywhere [m/s].
+double turning(const btCollisionObject& body, const btCollisionShape& shape,
+               const btTransform& X_WS) {
+    const btScalar speed = body.getInterpolationAngularVelocity().length();
     if (speed == 0) return 0;
     btVector3 centre;
     btScalar radius = 0;
-    object.getCollisionShape()->getBoundingSphere(centre, radius);
-    return speed * (centre.length() + radius);
+    shape.getBoundingSphere(centre, radius);
+    const btVector3 off = X_WS * centre - body.getWorldTransform().getOrigin();
+    return speed * (off.length() + radius);
+}
+
+double turning(const btCollisionObjectWrapper& part) {
+    return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
 enum Group { kMovable = 1, kImmovable = 2 };
@@ -38,19 +45,19 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
 
 }  // namespace
 
-double approach(const btCollisionObject& a, const btCollisionObject& b, double h) {
-    const btVector3 closing =
-        a.getInterpolationLinearVelocity() - b.getInterpolationLinearVelocity();
+double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
+    const btVector3 closing = a.getCollisionObject()->getInterpolationLinearVelocity() -
+                              b.getCollisionObject()->getInterpolationLinearVelocity();
     return h * (closing.length() + turning(a) + turning(b));
 }
 
-Collision::Collision(int max_bodies, int max_pairs)
+Collision::Collision(int max_parts, int max_pairs)
     : configuration_(pools(max_pairs)),
       dispatcher_(&configuration_, max_pairs),
       polyhedra_(dispatcher_, step_),
       broadphase_(btVector3(-kWorldHalfExtent, -kWorldHalfExtent, -kWorldHalfExtent),
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
-                  static_cast<unsigned>(max_bodies + 2), &pairs_, true),
+                  static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
     // the distance at which contacts are found is ours, whatever the shapes' size
     dispatcher_.setDispatcherFlags(
@@ -59,15 +66,17 @@ Collision::Collision(int max_bodies, int max_pairs)
     manifolds_.reserve(static_cast<size_t>(max_pairs));
     looked_at_.reserve(static_cast<size_t>(max_pairs));
     live_.reserve(static_cast<size_t>(max_pairs));
+    sorting_.reserve(static_cast<size_t>(max_pairs));
     scratch_.reserve(8);
-    objects_.reserve(static_cast<size_t>(max_bodies));
+    parts_.reserve(static_cast<size_t>(max_parts));
     reserve_pairs(max_pairs);
+    pairs_.setOverlapFilterCallback(&other_bodies_);
 }
 
 Collision::~Collision() {
-    for (btCollisionObject* object : objects_) {
-        pairs_.cleanProxyFromPairs(object->getBroadphaseHandle(), &dispatcher_);
-        broadphase_.destroyProxy(object->getBroadphaseHandle(), &dispatcher_);
+    for (const CollisionPart* part : parts_) {
+        pairs_.cleanProxyFromPairs(part->bounds, &dispatcher_);
+        broadphase_.destroyProxy(part->bounds, &dispatcher_);
     }
 }
 
@@ -84,25 +93,26 @@ void Collision::reserve_pairs(int pairs) {
         pairs_.removeOverlappingPair(&dummies[0], &dummies[i], &dispatcher_);
 }
 
-void Collision::add(btCollisionObject& object, bool can_move) {
+void Collision::add(CollisionPart& part, bool can_move) {
     btVector3 low;
     btVector3 high;
-    object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
-    object.setBroadphaseHandle(
-        broadphase_.createProxy(low, high, object.getCollisionShape()->getShapeType(), &object,
-                                can_move ? kMovable : kImmovable,
-                                can_move ? kMovable | kImmovable : kMovable, &dispatcher_));
-    objects_.push_back(&object);
+    part.shape->getAabb(part.X_WS(), low, high);
+    part.bounds = broadphase_.createProxy(
+        low, high, part.shape->getShapeType(), &part, can_move ? kMovable : kImmovable,
+        can_move ? kMovable | kImmovable : kMovable, &dispatcher_);
+    several_parts_ = several_parts_ || (!parts_.empty() && parts_.back()->body == part.body);
+    parts_.push_back(&part);
 }
 
-void Collision::update_bounds(btCollisionObject& object, double h) {
+void Collision::update_bounds(CollisionPart& part, double h) {
     btVector3 low;
     btVector3 high;
-    object.getCollisionShape()->getAabb(object.getWorldTransform(), low, high);
-    const btVector3 travel = h * object.getInterpolationLinearVelocity();
-    const double most = kApproach + h * turning(object);
+    const btTransform X_WS = part.X_WS();
+    part.shape->getAabb(X_WS, low, high);
+    const btVector3 travel = h * part.body->getInterpolationLinearVelocity();
+    const double most = kApproach + h * turning(*part.body, *part.shape, X_WS);
     const btVector3 margin = travel.absolute() + btVector3(most, most, most);
-    broadphase_.setAabb(object.getBroadphaseHandle(), low - margin, high + margin, &dispatcher_);
+    broadphase_.setAabb(part.bounds, low - margin, high + margin, &dispatcher_);
 }
 
 void Collision::find_contacts(double h) {
@@ -126,12 +136,25 @@ void Collision::find_contacts(double h) {
         }
         live_is_stale_ = woke;
     }
+    if (several_parts_) sort_by_bodies();
+}
+
+void Collision::sort_by_bodies() {
+    sorting_.clear();
+    for (btPersistentManifold* manifold : manifolds_) {
+        sorting_.push_back(
+            {{manifold->getBody0()->getUserIndex(), manifold->getBody1()->getUserIndex(),
+              static_cast<int>(sorting_.size())},
+             manifold});
+    }
+    std::sort(sorting_.begin(), sorting_.end(),
+              [](const OfBodies& a, const OfBodies& b) { return a.key < b.key; });
+    for (size_t i = 0; i < sorting_.size(); ++i) manifolds_[i] = sorting_[i].manifold;
 }
 
 void Collision::list_live_pairs() {
     const auto awake = [](const btBroadphaseProxy* proxy) {
-        return static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserIndex2() ==
-               kAwake;
+        return part(proxy).body->getUserIndex2() == kAwake;
     };
     live_.clear();
     btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
@@ -143,37 +166,36 @@ void Collision::list_live_pairs() {
 }
 
 bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
-    auto& object0 = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-    auto& object1 = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-    if (!dispatcher_.needsCollision(&object0, &object1)) return false;
-    const btCollisionObjectWrapper wrap0(nullptr, object0.getCollisionShape(), &object0,
-                                         object0.getWorldTransform(), -1, -1);
-    const btCollisionObjectWrapper wrap1(nullptr, object1.getCollisionShape(), &object1,
-                                         object1.getWorldTransform(), -1, -1);
+    const CollisionPart& part_a = part(pair.m_pProxy0);
+    const CollisionPart& part_b = part(pair.m_pProxy1);
+    btCollisionObject& a = *part_a.body;
+    btCollisionObject& b = *part_b.body;
+    const btTransform X_WA = part_a.X_WS();
+    const btTransform X_WB = part_b.X_WS();
+    const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
+    const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     // round shapes are met ahead of touch: Bullet asks for the distance in three places
     const double margin =
-        std::min(kMostRoundMargin, kRoundMargin + approach(object0, object1, step_));
+        std::min(kMostRoundMargin, kRoundMargin + approach(a_wrap, b_wrap, step_));
     gContactBreakingThreshold = margin;  // of manifolds to come
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm == nullptr) {
         pair.m_algorithm =
-            dispatcher_.findAlgorithm(&wrap0, &wrap1, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+            dispatcher_.findAlgorithm(&a_wrap, &b_wrap, nullptr, BT_CONTACT_POINT_ALGORITHMS);
         if (pair.m_algorithm == nullptr) return false;
     } else {
         pair.m_algorithm->getAllContactManifolds(scratch_);
         for (int m = 0; m < scratch_.size(); ++m) scratch_[m]->setContactBreakingThreshold(margin);
         scratch_.resizeNoInitialize(0);
     }
-    btManifoldResult result(&wrap0, &wrap1);
+    btManifoldResult result(&a_wrap, &b_wrap);
     result.m_closestPointDistanceThreshold = margin;
-    pair.m_algorithm->processCollision(&wrap0, &wrap1, info, &result);
+    pair.m_algorithm->processCollision(&a_wrap, &b_wrap, info, &result);
     pair.m_algorithm->getAllContactManifolds(scratch_);
     bool woke = false;
     for (int m = 0; m < scratch_.size(); ++m) {
         if (scratch_[m]->getNumContacts() == 0) continue;
         manifolds_.push_back(scratch_[m]);
-        auto& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-        auto& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
         if (a.isStaticObject() || b.isStaticObject()) continue;
         for (btCollisionObject* object : {&a, &b}) {
             if (object->getUserIndex2() == kAwake) continue;

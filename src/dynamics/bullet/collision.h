@@ -7,24 +7,27 @@
 
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "dynamics/bullet/polyhedron_algorithm.h"
+#include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
 
 class Collision {
   public:
-    /// Room for so many bodies and so many touching pairs.
-    Collision(int max_bodies, int max_pairs);
+    /// Room for so many parts of bodies and so many touching pairs of them.
+    Collision(int max_parts, int max_pairs);
     ~Collision();
 
-    /// The object must outlive this. Its user index names the body; its user index 2 is 1 when
-    /// awake.
-    void add(btCollisionObject& object, bool can_move);
-    void update_bounds(btCollisionObject& object, double h);
+    /// The part and its body must outlive this. The body's user index names it; its user index 2 is
+    /// 1 when awake.
+    void add(CollisionPart& part, bool can_move);
+    /// To be called of each part of a body that moved or is about to.
+    void update_bounds(CollisionPart& part, double h);
 
     /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
     /// touches wake: their user index 2 becomes 1, and their pairs are looked at too.
@@ -32,7 +35,8 @@ class Collision {
     /// Tells that bodies fell asleep or woke: other pairs are to be looked at.
     void sleepers_changed() { live_is_stale_ = true; }
 
-    /// The manifolds with contacts of the last find_contacts().
+    /// The manifolds with contacts of the last find_contacts(); those of the same two bodies follow
+    /// each other.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
     btDispatcher& dispatcher() { return dispatcher_; }
     bool overflowed() const { return overflowed_; }
@@ -53,7 +57,20 @@ class Collision {
         int64_t version = 0;
     };
 
+    /// Parts of one body do not meet.
+    struct OtherBodies final : btOverlapFilterCallback {
+        bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+            return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
+                   (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0 &&
+                   part(a).body != part(b).body;
+        }
+    };
+
+    static CollisionPart& part(const btBroadphaseProxy* bounds) {
+        return *static_cast<CollisionPart*>(bounds->m_clientObject);
+    }
     void reserve_pairs(int pairs);
+    void sort_by_bodies();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
 
@@ -69,7 +86,14 @@ class Collision {
     Pairs pairs_;
     bt32BitAxisSweep3 broadphase_;
     int max_pairs_;
-    std::vector<btCollisionObject*> objects_;
+    OtherBodies other_bodies_;
+    std::vector<CollisionPart*> parts_;
+    bool several_parts_ = false;  // of one body, somewhere
+    struct OfBodies {
+        std::array<int, 3> key;  // both bodies, and the order in which they were found
+        btPersistentManifold* manifold;
+    };
+    std::vector<OfBodies> sorting_;
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
     std::vector<int> live_;      // pairs with an awake body, by index into the cache
@@ -81,8 +105,8 @@ class Collision {
 
 constexpr int kAwake = 1;
 
-/// How far the surfaces of two bodies may come closer in a step, by their velocities before
+/// How far the surfaces of two bodies' parts may come closer in a step, by their velocities before
 /// contacts act: nothing that could touch in the step is further apart [m].
-double approach(const btCollisionObject& a, const btCollisionObject& b, double h);
+double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h);
 
 }  // namespace dihaptic::dynamics

@@ -22,7 +22,7 @@ void PointContacts::add(const Contact& contact) noexcept {
     Slot* to = nullptr;
     for (Slot& slot : slots_) {
         const bool in_use = slot.manifold->getNumContacts() > 0;
-        const bool same = in_use && slot.face == contact.face &&
+        const bool same = in_use && slot.part == contact.part && slot.face == contact.face &&
                           slot.manifold->getBody0() == contact.body &&
                           slot.manifold->getBody1() == contact.point;
         if (same) {
@@ -39,6 +39,7 @@ void PointContacts::add(const Contact& contact) noexcept {
         const btVector3 zero(0, 0, 0);
         manifold.addManifoldPoint(btManifoldPoint(zero, zero, zero, 0));
     }
+    to->part = contact.part;
     to->face = contact.face;
     to->fresh = true;
     // Bullet's normal points from its body 1 to its body 0

@@ -21,7 +21,8 @@ class PointContacts {
     struct Contact {
         const btCollisionObject* body = nullptr;
         const btCollisionObject* point = nullptr;
-        int face = 0;  ///< of the body: the same face goes on from its last impulse
+        int part = 0;  ///< of the body
+        int face = 0;  ///< of the part: the same face goes on from its last impulse
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction = 0;
@@ -39,6 +40,7 @@ class PointContacts {
   private:
     struct Slot {
         std::unique_ptr<btPersistentManifold> manifold;
+        int part = 0;
         int face = 0;
         bool fresh = false;
     };

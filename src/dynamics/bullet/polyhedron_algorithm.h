@@ -17,8 +17,8 @@ namespace dihaptic::dynamics {
 /// grows with the square.
 constexpr size_t kMostEdges = 64;
 
-/// Registers the algorithm. Bodies show that they are polyhedra by their user pointer: a
-/// `const Polyhedron*` in Bullet's frame of the body.
+/// Registers the algorithm. Shapes show that they are polyhedra by their user pointer: a
+/// `const Polyhedron*` in the shape's frame.
 class PolyhedronAlgorithms {
   public:
     /// `step` is read at each use: the coming step [s].

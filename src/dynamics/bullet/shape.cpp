@@ -13,18 +13,15 @@ namespace {
 /// hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
 
-std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull, const Pose& X_BM) {
-    const Pose X_MB = X_BM.inverse();
+std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull) {
     auto out = std::make_unique<btConvexHullShape>();
-    for (const Vec3& v : hull.vertices) out->addPoint(to_bullet(X_MB * v), false);
+    for (const Vec3& v : hull.vertices) out->addPoint(to_bullet(v), false);
     out->setMargin(kSkin);
     out->recalcLocalAabb();
     return out;
 }
 
-}  // namespace
-
-std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const Pose& X_BM) {
+std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
     using scene::ShapeKind;
     switch (shape.kind) {
         case ShapeKind::box: {
@@ -45,24 +42,90 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const 
         case ShapeKind::plane:
             return std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0);
         case ShapeKind::mesh:
-            return bullet_hull(shape.hull, X_BM);
+            return bullet_hull(shape.hull);
+        case ShapeKind::compound:
+            break;  // its parts are what is looked at
     }
     return nullptr;
 }
 
-std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape, const Pose& X_BM) {
+std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape) {
     if (shape.kind == scene::ShapeKind::box)
         return std::make_unique<Polyhedron>(Polyhedron::box(shape.size));
     if (shape.kind != scene::ShapeKind::mesh) return nullptr;
-    scene::Hull hull = shape.hull;
-    for (Vec3& v : hull.vertices) v = X_BM.inverse() * v;
-    auto out = std::make_unique<Polyhedron>(Polyhedron::of(hull));
+    auto out = std::make_unique<Polyhedron>(Polyhedron::of(shape.hull));
     const bool small =
         out->edges.size() <= kMostEdges &&
         std::all_of(out->faces.begin(), out->faces.end(), [](const Polyhedron::Face& face) {
             return face.vertices.size() <= Polyhedron::kMostFaceVertices;
         });
     return small ? std::move(out) : nullptr;
+}
+
+}  // namespace
+
+namespace {
+
+/// Faces of part `of` that the others cover.
+std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
+                                const Polyhedron& polyhedron) {
+    constexpr double kOutward = 1e-6;  // [m]
+    constexpr double kInward = 0.01;   // toward the middle of the face
+    std::vector<Vec3> out;
+    const auto is_covered = [&](const Vec3& p_S) {
+        const Vec3 p_B = parts[of].X_BS * p_S;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            if (i == of) continue;
+            if (scene::depth(parts[i].shape, parts[i].X_BS.inverse() * p_B) > -kOutward)
+                return true;
+        }
+        return false;
+    };
+    for (const Polyhedron::Face& face : polyhedron.faces) {
+        Vec3 middle = Vec3::Zero();
+        for (const int v : face.vertices)
+            middle += polyhedron.vertices[static_cast<size_t>(v)] /
+                      static_cast<double>(face.vertices.size());
+        bool covered = is_covered(middle + kOutward * face.normal);
+        for (const int v : face.vertices) {
+            const Vec3& corner = polyhedron.vertices[static_cast<size_t>(v)];
+            covered = covered &&
+                      is_covered(corner + kInward * (middle - corner) + kOutward * face.normal);
+        }
+        if (covered) out.push_back(face.normal);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& shape,
+                                                            const Pose& X_BM) {
+    std::vector<std::unique_ptr<CollisionPart>> out;
+    const Pose X_MB = X_BM.inverse();
+    std::vector<scene::ConvexPart> parts = scene::convex_parts(shape);
+    for (scene::ConvexPart& convex : parts) {
+        // hulls are turned once, here, rather than in each step
+        if (convex.shape.kind != scene::ShapeKind::mesh) continue;
+        const Pose X_MS = X_MB * convex.X_BS;
+        for (Vec3& v : convex.shape.hull.vertices) v = X_MS * v;
+        convex.X_BS = X_BM;
+    }
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const scene::ConvexPart& convex = parts[i];
+        const bool is_mesh = convex.shape.kind == scene::ShapeKind::mesh;
+        const Pose X_MS = is_mesh ? Pose{} : X_MB * convex.X_BS;
+        auto part = std::make_unique<CollisionPart>();
+        part->shape = bullet_shape(convex.shape);
+        part->polyhedron = polyhedron(convex.shape);
+        if (part->polyhedron)
+            part->polyhedron->covered = covered_faces(parts, i, *part->polyhedron);
+        part->shape->setUserPointer(part->polyhedron.get());
+        part->X_MS = to_bullet(X_MS);
+        part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);
+        out.push_back(std::move(part));
+    }
+    return out;
 }
 
 }  // namespace dihaptic::dynamics

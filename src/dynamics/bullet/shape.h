@@ -30,11 +30,23 @@ inline btVector3 factors(scene::Axes axes) {
             contains(axes, 2) ? 1.0 : 0.0};
 }
 
-/// The shape, in the frame that Bullet moves: centre of mass and principal axes of inertia. `X_BM`
-/// is the pose of that frame in the body's.
-std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape, const Pose& X_BM);
+/// A convex part of a body, as it is looked at for contacts. The frame that Bullet moves is M,
+/// centre of mass and principal axes of inertia; S is the part's own.
+struct CollisionPart {
+    btCollisionObject* body = nullptr;
+    std::unique_ptr<btCollisionShape> shape;  // its user pointer is the polyhedron, if it is one
+    std::unique_ptr<Polyhedron> polyhedron;   // null when it is round, flat, or has too many edges
+    btTransform X_MS;
+    bool moved = false;                   // X_MS is not the identity
+    btBroadphaseProxy* bounds = nullptr;  // once it is looked at
 
-/// The shape as a polyhedron in the same frame; null when it is round, flat, or has too many edges.
-std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape, const Pose& X_BM);
+    btTransform X_WS() const {
+        return moved ? body->getWorldTransform() * X_MS : body->getWorldTransform();
+    }
+};
+
+/// The convex parts of a shape. `X_BM` is the pose of M in the body's frame.
+std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& shape,
+                                                            const Pose& X_BM);
 
 }  // namespace dihaptic::dynamics

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "experiment/replay.h"
+#include "model/grasp.h"
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
@@ -307,6 +308,77 @@ TEST(Session, AFaultEndsItAfterASecond) {
     });
     ASSERT_NE(first, frames.end());
     EXPECT_EQ(frames.back().time - first->time, servo::kGrace);
+}
+
+TEST(Session, AnyNumberOfFingersRunsAndReplaysToTheBit) {
+    const testing::TemporaryFolder folder;
+    for (const auto& [file, fingers] :
+         {std::pair{"scenes/bead-on-string.yaml", 1}, std::pair{"scenes/three-fingers.yaml", 3},
+          std::pair{"scenes/tools.yaml", 4}}) {
+        const RunResult result = run(file, folder.path());
+        EXPECT_EQ(result.info.state, recording::SessionState::complete) << file;
+        recording::RawLogReader log(result.folder + "/raw.log");
+        EXPECT_EQ(log.head().fingers.size(), static_cast<size_t>(fingers));
+        EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good()) << file;
+    }
+}
+
+TEST(Session, ThreeFingersLiftABlockAndGripItAsEachSideDoes) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/three-fingers.yaml", folder.path());
+    recording::RawLogReader log(result.folder + "/raw.log");
+    constexpr double kWeight = 0.15 * 9.81;
+    int held = 0;
+    while (const servo::Frame* frame = log.next()) {
+        if (frame->phase != 2) continue;
+        ++held;
+        // the hand's springs and the couplings' give way to the weight
+        const double spring = model::series_spring_force(1, 300, 1000);
+        EXPECT_NEAR(frame->bodies[1].X_WB.p.z(), 0.08 - kWeight / (3 * spring), 5e-4);
+        // in the hold the thumb's side presses as hard as the other two together
+        const auto& f = frame->fingers;
+        EXPECT_NEAR(f[0].normal_force, f[1].normal_force + f[2].normal_force, 0.02);
+        EXPECT_NEAR(frame->grip_force, f[0].normal_force, 0.02);
+        EXPECT_NEAR(frame->load_force, kWeight, 0.02);
+        // one by one they are pressed as by springs in series: 300 and 1000 N/m, 7.5 mm beyond
+        // touch
+        EXPECT_NEAR(f[1].normal_force, f[2].normal_force, 0.02);
+        EXPECT_NEAR(f[1].normal_force, model::series_spring_force(0.0075, 300, 1000), 0.02);
+    }
+    EXPECT_EQ(held, 1000);
+}
+
+TEST(Session, AConcaveMeshIsFrozenWithItsPieces) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/tools.yaml", folder.path());
+    EXPECT_TRUE(fs::exists(result.folder + "/mesh-1-cup.obj.pieces"));
+    EXPECT_TRUE(fs::exists(result.folder + "/mesh-2-cup.obj.pieces"));
+    EXPECT_FALSE(fs::exists(result.folder + "/mesh-3-fingertip.obj.pieces"));
+    // they are inputs of the session as its meshes are
+    std::ofstream(result.folder + "/mesh-1-cup.obj.pieces") << "other pieces";
+    EXPECT_THROW(replay_session(result.folder, kGoOn, {}), Error);
+}
+
+TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
+    const testing::TemporaryFolder folder;
+    const RunResult result = run("scenes/tools.yaml", folder.path());
+    recording::RawLogReader log(result.folder + "/raw.log");
+    double stirred = 0;
+    double mug = 0;
+    while (const servo::Frame* frame = log.next()) {
+        const auto n = static_cast<int>(frame->bodies.size());
+        for (const servo::ContactFrame& c : frame->contacts) {
+            if (c.a == n + 1 || c.b == n + 1) {
+                // a point touches where it is; it moved on by a tick
+                EXPECT_LT((c.p_WC - frame->fingers[1].p_WP).norm(), 1e-3);
+                EXPECT_EQ(c.points, 1);
+                stirred = std::max(stirred, c.normal_force);
+            }
+        }
+        mug = frame->bodies[3].X_WB.p.z();
+    }
+    EXPECT_GT(stirred, 0.05);
+    EXPECT_GT(mug, 0.02);  // it hangs on the hook
 }
 
 /// Largest change of any sent force from tick to tick, over the largest allowed.

@@ -384,5 +384,100 @@ TEST(GodObject, AllocatesNothing) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
+/// Two boxes of 40 x 40 x 20 mm side by side along x, their tops at z = 0, turned by `angle` about
+/// z; the second one's top is off by `step`, as rounding leaves it.
+scene::Shape two_boards(double angle, double step) {
+    scene::Shape shape;
+    shape.kind = scene::ShapeKind::compound;
+    for (const double side : {-1.0, 1.0}) {
+        scene::Part part;
+        part.shape = scene::Shape::box({0.04, 0.04, 0.02});
+        part.rotation.z() = angle;
+        part.position = rotation_xyz(part.rotation) * Vec3(side * 0.02, 0, -0.01);
+        if (side > 0) part.position.z() += step;
+        shape.parts.push_back(part);
+    }
+    return shape;
+}
+
+TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
+    for (const double angle : {0.0, 0.3, 1.0, 2.5}) {
+        for (const double step : {0.0, 4e-9, -4e-9, 5e-8}) {
+            {
+                Room room;
+                room.skin = kSkin;  // without, the seam is a crack that a point falls into
+                room.add(two_boards(angle, step), {rotation_xyz({0.2, 0.1, 0}), {0.1, 0.2, 0.3}});
+                const auto at = [&](double x, double z) {
+                    return Vec3(room.states[0].X_WB *
+                                (rotation_xyz({0, 0, angle}) * Vec3(x, 0.003, z)));
+                };
+                room.start(at(-0.03, 0.01));
+                room.go(at(-0.03, 0.01), at(-0.03, -0.004));
+                for (const double end : {0.03, -0.03, 0.03}) {
+                    room.go(at(-end, -0.004), at(end, -0.004));
+                    EXPECT_LT((room.point->position() - at(end, kSkin)).norm(), 1e-6)
+                        << angle << " " << step;
+                }
+                EXPECT_LE(room.depth(), kMicron);
+            }
+        }
+    }
+}
+
+/// A cup as parts: a floor and four walls, open at the top.
+scene::Shape tray() {
+    scene::Shape shape;
+    shape.kind = scene::ShapeKind::compound;
+    const auto add = [&](const Vec3& size, const Vec3& position) {
+        scene::Part part;
+        part.shape = scene::Shape::box(size);
+        part.position = position;
+        shape.parts.push_back(part);
+    };
+    add({0.06, 0.06, 0.004}, {0, 0, 0.002});
+    for (const double side : {-1.0, 1.0}) {
+        add({0.004, 0.06, 0.04}, {side * 0.032, 0, 0.02});
+        add({0.068, 0.004, 0.04}, {0, side * 0.032, 0.02});
+    }
+    return shape;
+}
+
+TEST(GodObject, RestsInTheCornerOfATrayAndNeverEntersIt) {
+    Room room;
+    room.skin = kSkin;
+    room.add(tray(), {rotation_xyz({0.3, 0, 0.4}), Vec3::Zero()});
+    const Pose& X = room.states[0].X_WB;
+    room.start(X * Vec3(0, 0, 0.06));
+    room.go(X * Vec3(0, 0, 0.06), X * Vec3(0, 0, 0.01));
+    room.go(X * Vec3(0, 0, 0.01), X * Vec3(0.036, 0.037, -0.003));
+    EXPECT_LT((room.point->position() - X * Vec3(0.03 - kSkin, 0.03 - kSkin, 0.004 + kSkin)).norm(),
+              kMicron);
+    EXPECT_EQ(room.point->contacts().size(), 3u);
+    for (const PointContact& c : room.point->contacts()) EXPECT_EQ(c.body, 0u);
+    // anywhere within the wall's reach, from inside
+    Random random(5, "test");
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 h(random.uniform(-0.033, 0.033), random.uniform(-0.033, 0.033),
+                     random.uniform(0.001, 0.03));
+        room.go(room.point->position(), X * h);
+        ASSERT_LE(room.depth(), kMicron) << i;
+        const double wall = 0.03 - kSkin;
+        const Vec3 nearest(std::clamp(h.x(), -wall, wall), std::clamp(h.y(), -wall, wall),
+                           std::max(h.z(), 0.004 + kSkin));
+        ASSERT_LT((room.point->position() - X * nearest).norm(), 2 * kMicron) << i;
+    }
+}
+
+TEST(GodObject, FollowsACompoundAllocatingNothing) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Room room;
+    room.add(tray());
+    room.start({0, 0, 0.06}, 0.5);
+    const testing::AllocationGuard guard;
+    room.go({0, 0, 0.06}, {0.036, 0.037, -0.003});
+    room.go({0.036, 0.037, -0.003}, {-0.036, 0.01, -0.003});
+    EXPECT_EQ(guard.count(), 0u);
+}
+
 }  // namespace
 }  // namespace dihaptic::haptics

@@ -1,0 +1,251 @@
+#include "scene/pieces.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+namespace dihaptic::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFirstLine = "dihaptic pieces 1";
+constexpr const char* kProgram = "dihaptic-decompose";
+
+/// FNV-1a.
+class Fingerprint {
+  public:
+    void add(const void* data, size_t size) {
+        const auto* bytes = static_cast<const unsigned char*>(data);
+        for (size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3U;
+    }
+    uint64_t value() const { return value_; }
+
+  private:
+    uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+uint64_t fingerprint(const Mesh& mesh) {
+    Fingerprint out;
+    for (const Vec3& v : mesh.vertices) out.add(v.data(), sizeof(double) * 3);
+    for (const std::vector<int>& face : mesh.faces) out.add(face.data(), sizeof(int) * face.size());
+    return out.value();
+}
+
+uint64_t fingerprint(const std::string& text) {
+    Fingerprint out;
+    out.add(text.data(), text.size());
+    return out.value();
+}
+
+/// Vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then a vertex a
+/// line.
+std::string text_of(const std::vector<Hull>& hulls) {
+    std::string out;
+    for (const Hull& hull : hulls) {
+        out += fmt::format("piece {}\n", hull.vertices.size());
+        for (const Vec3& v : hull.vertices) out += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+    }
+    return out;
+}
+
+std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
+    std::vector<Hull> hulls;
+    std::istringstream in(text);
+    std::string word;
+    size_t count = 0;
+    while (in >> word) {
+        if (word != "piece" || !(in >> count) || count > text.size()) return std::nullopt;
+        std::vector<Vec3> points(count);
+        for (Vec3& p : points) {
+            if (!(in >> p.x() >> p.y() >> p.z())) return std::nullopt;
+        }
+        // in one order, so that pieces that were kept are the new ones to the bit
+        std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
+            return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+        });
+        Hull hull = convex_hull(points);
+        // slivers that rounding flattened hold no volume, and nothing touches them alone
+        if (!hull.faces.empty()) hulls.push_back(std::move(hull));
+    }
+    if (hulls.empty()) return std::nullopt;
+    return hulls;
+}
+
+std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream all;
+    all << in.rdbuf();
+    const std::string text = all.str();
+    const std::string head = fmt::format("{}\nmesh {:016x}\n", kFirstLine, mesh);
+    const size_t end = text.rfind("end ");
+    if (!text.starts_with(head) || end == std::string::npos) return std::nullopt;
+    const std::string body = text.substr(0, end);
+    if (text.substr(end) != fmt::format("end {:016x}\n", fingerprint(body))) return std::nullopt;
+    std::optional<std::vector<Hull>> hulls = hulls_of(body.substr(head.size()));
+    if (!hulls) return std::nullopt;
+    return Pieces{*std::move(hulls), mesh};
+}
+
+/// dihaptic-decompose is built beside dihaptic; tests run from folders below.
+std::string program() {
+    std::error_code ignored;
+    fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    for (; !folder.empty(); folder = folder.parent_path()) {
+        if (fs::is_regular_file(folder / kProgram, ignored)) return (folder / kProgram).string();
+        if (folder == folder.root_path()) break;
+    }
+    return "";
+}
+
+struct TemporaryFolder {
+    std::string path = (fs::temp_directory_path() / "dihaptic-XXXXXX").string();
+    TemporaryFolder() {
+        if (mkdtemp(path.data()) == nullptr) {
+            throw Error("no temporary folder can be made: " + std::string(std::strerror(errno)),
+                        "Free some disk space, or set TMPDIR to a folder that can be written to.");
+        }
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+/// What the program wrote; nothing when it failed.
+std::optional<std::string> run(const std::string& command, const Mesh& mesh) {
+    const TemporaryFolder folder;
+    std::string in = folder.path + "/mesh.off";
+    std::string out = folder.path + "/pieces";
+    {
+        std::ofstream off(in);
+        off << fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.faces.size());
+        for (const Vec3& v : mesh.vertices) off << fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+        for (const std::vector<int>& f : mesh.faces)
+            off << fmt::format("3 {} {} {}\n", f[0], f[1], f[2]);
+    }
+    std::string name = command;
+    std::array<char*, 4> arguments{name.data(), in.data(), out.data(), nullptr};
+    pid_t child = 0;
+    int status = 0;
+    if (posix_spawn(&child, command.c_str(), nullptr, nullptr, arguments.data(), environ) != 0 ||
+        waitpid(child, &status, 0) != child || status != 0)
+        return std::nullopt;
+    std::ostringstream text;
+    text << std::ifstream(out).rdbuf();
+    return text.str();
+}
+
+std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at) {
+    const std::string command = program();
+    if (command.empty()) {
+        throw Error(asked_at, "concave",
+                    fmt::format("the program {}, which cuts {} into convex pieces, is missing",
+                                kProgram, file),
+                    "Build all of Dihaptic: it lies beside the program dihaptic.");
+    }
+    const std::optional<std::string> text = run(command, mesh);
+    std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
+    if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
+    if (!hulls) {
+        throw Error(
+            asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
+            "Look for faces that intersect or touch each other in a mesh editor, and repair them.");
+    }
+    return *std::move(hulls);
+}
+
+}  // namespace
+
+Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
+    Mesh out;
+    std::map<std::array<double, 3>, int> known;
+    std::vector<int> index;
+    for (const Vec3& v : mesh.vertices) {
+        const auto [at, is_new] =
+            known.try_emplace({v.x(), v.y(), v.z()}, static_cast<int>(out.vertices.size()));
+        if (is_new) out.vertices.push_back(v);
+        index.push_back(at->second);
+    }
+    std::map<std::pair<int, int>, int> edges;  // each is used once in either direction
+    for (const std::vector<int>& f : mesh.faces) {
+        const std::array<int, 3> t{index[static_cast<size_t>(f[0])],
+                                   index[static_cast<size_t>(f[1])],
+                                   index[static_cast<size_t>(f[2])]};
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // without area
+        out.faces.push_back({t[0], t[1], t[2]});
+        for (size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+    }
+    size_t open = 0;
+    for (const auto& [edge, count] : edges) {
+        const auto back = edges.find({edge.second, edge.first});
+        if (count != 1 || back == edges.end() || back->second != 1) ++open;
+    }
+    if (open > 0) {
+        throw Error(
+            asked_at, "file",
+            fmt::format("the mesh {} is not closed: {} of its edges do not join two faces of "
+                        "the same orientation",
+                        file, open),
+            "Close its holes and orient its faces alike in a mesh editor, or leave out concave.");
+    }
+    if (integrate(out.vertices, out.faces).volume < 0) {
+        for (std::vector<int>& face : out.faces) std::swap(face[1], face[2]);
+    }
+    return out;
+}
+
+std::string pieces_file(const std::string& mesh_file) {
+    return mesh_file + ".pieces";
+}
+
+void write_pieces(const Pieces& pieces, const std::string& file) {
+    const std::string body =
+        fmt::format("{}\nmesh {:016x}\n", kFirstLine, pieces.mesh) + text_of(pieces.hulls);
+    // renamed when whole: another run may be reading
+    const std::string part = fmt::format("{}.{}", file, getpid());
+    errno = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << body << fmt::format("end {:016x}\n", fingerprint(body));
+    out.close();
+    const bool written = !out.fail() && std::rename(part.c_str(), file.c_str()) == 0;
+    if (written) return;
+    const std::string why = std::strerror(errno);
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw Error({file, 0}, "", "cannot be written: " + why,
+                "Free some disk space, or allow writing to its folder.");
+}
+
+Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
+                     Diagnostics& diagnostics) {
+    const uint64_t print = fingerprint(mesh);
+    const std::string kept = pieces_file(file);
+    if (std::optional<Pieces> pieces = read_pieces(kept, print)) return *std::move(pieces);
+    Pieces pieces{decompose(mesh, file, asked_at), print};
+    try {
+        write_pieces(pieces, kept);
+    } catch (const Error& e) {
+        diagnostics.warning(asked_at, "file",
+                            fmt::format("the convex pieces of {} cannot be kept: {} {}", file, kept,
+                                        e.problems().front().what),
+                            "They are cut anew in each run, unless its folder can be written to.");
+    }
+    return pieces;
+}
+
+}  // namespace dihaptic::scene

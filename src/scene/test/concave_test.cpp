@@ -1,0 +1,168 @@
+// Concave meshes and compounds: what they weigh, and how they are cut into convex pieces and kept.
+#include <gtest/gtest.h>
+
+#include "scene/mesh.h"
+#include "scene/scene.h"
+#include "testing/files.h"
+
+namespace dihaptic::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An L of 2 x 1 x 1 and 1 x 1 x 1, the second on the first along y.
+constexpr const char* kL =
+    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+    "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
+    "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\n"
+    "f 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+constexpr const char* kBody =
+    "bodies:\n  - {name: l, shape: mesh, file: l.obj, unit: cm, concave: yes, mass_g: 10}\n";
+constexpr const char* kCompound =
+    "bodies:\n  - name: l\n    shape: compound\n    mass_g: 10\n    parts:\n"
+    "      - {shape: box, size_cm: [2, 1, 1], position_cm: [1, 0.5, 0.5]}\n"
+    "      - {shape: box, size_cm: [1, 1, 1], position_cm: [0.5, 1.5, 0.5], rotation_deg: [0, 90, "
+    "0]}\n";
+
+struct Files {
+    testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+
+    explicit Files(const std::string& mesh) { folder.write("l.obj", mesh); }
+    Shape read(const std::string& text) {
+        diagnostics = {};
+        const Scene scene = read_scene(folder.write("scene.yaml", text), diagnostics);
+        return scene.bodies.empty() ? Shape{} : scene.bodies[0].shape;
+    }
+    std::string said() const {
+        std::string out;
+        for (const Problem& problem : diagnostics.problems()) out += problem.text() + "\n";
+        return out;
+    }
+    std::string kept() const { return folder.file("l.obj.pieces"); }
+};
+
+/// By hand: the two boxes and Steiner's theorem, in cm.
+void expect_l(const VolumeIntegrals& l) {
+    constexpr double cm = 1e-2;
+    EXPECT_NEAR(l.volume, 3 * std::pow(cm, 3), 1e-14);
+    EXPECT_LT((l.centre - cm * Vec3(5.0 / 6, 5.0 / 6, 0.5)).norm(), 1e-10);
+    Mat3 inertia;
+    inertia << 7.0 / 6, 1.0 / 3, 0, 1.0 / 3, 7.0 / 6, 0, 0, 0, 11.0 / 6;
+    EXPECT_LT((l.inertia - std::pow(cm, 5) * inertia).norm(), 1e-17);
+}
+
+double volume(const std::vector<Hull>& hulls) {
+    double sum = 0;
+    for (const Hull& hull : hulls) sum += integrate(hull.vertices, hull.faces).volume;
+    return sum;
+}
+
+TEST(Concave, AnLWeighsWhatItsTwoBoxesDo) {
+    Files files(kL);
+    const Shape mesh = files.read(kBody);
+    EXPECT_EQ(files.said(), "");
+    expect_l(integrate(mesh));
+    expect_l(integrate(files.read(kCompound)));
+    EXPECT_EQ(files.said(), "");
+}
+
+TEST(Concave, ThePiecesFillTheMeshAndNoMore) {
+    Files files(kL);
+    const Shape shape = files.read(kBody);
+    EXPECT_EQ(shape.pieces.hulls.size(), 2u);
+    EXPECT_NEAR(volume(shape.pieces.hulls), 3e-6, 1e-12);
+    EXPECT_GT(depth(shape, {0.005, 0.015, 0.005}), 0.0049);
+    EXPECT_LT(depth(shape, {0.015, 0.015, 0.005}), -0.0049);  // in the hull, outside of the L
+    const Shape boxes = files.read(kCompound);
+    EXPECT_NEAR(depth(boxes, {0.005, 0.015, 0.005}), 0.005, 1e-12);
+    EXPECT_NEAR(depth(boxes, {0.015, 0.015, 0.005}), -0.005, 1e-12);
+    EXPECT_EQ(convex_parts(boxes).size(), 2u);
+    EXPECT_NEAR(extent(boxes), 0.02, 1e-12);
+}
+
+TEST(Concave, TheShippedMeshesAreFilledByTheirPieces) {
+    for (const char* name : {"cup", "hook", "spatula"}) {
+        const std::string file = std::string("meshes/") + name + ".obj";
+        const Mesh mesh = closed(read_mesh(file, 1e-3, {}), file, {});
+        Diagnostics diagnostics;
+        const Pieces pieces = convex_pieces(mesh, file, {}, diagnostics);
+        const double solid = integrate(mesh.vertices, mesh.faces).volume;
+        EXPECT_NEAR(volume(pieces.hulls) / solid, 1, 1e-6) << name;
+        EXPECT_LE(pieces.hulls.size(), 40u) << name;
+    }
+}
+
+TEST(Concave, PiecesAreKeptAndReadAgain) {
+    Files files(kL);
+    const Shape first = files.read(kBody);
+    const std::string kept = testing::read_file(files.kept());
+    ASSERT_FALSE(kept.empty());
+    const auto written = fs::last_write_time(files.kept());
+    const Shape second = files.read(kBody);
+    EXPECT_EQ(fs::last_write_time(files.kept()), written);
+    ASSERT_EQ(second.pieces.hulls.size(), first.pieces.hulls.size());
+    for (size_t i = 0; i < first.pieces.hulls.size(); ++i)
+        EXPECT_EQ(first.pieces.hulls[i].vertices, second.pieces.hulls[i].vertices);
+
+    // another mesh, or another unit, makes others
+    files.read(std::string(kBody).replace(std::string(kBody).find("cm,"), 2, "mm"));
+    EXPECT_NE(testing::read_file(files.kept()), kept);
+    files.read(kBody);
+    EXPECT_EQ(testing::read_file(files.kept()), kept);
+}
+
+TEST(Concave, DamagedPiecesAreCutAnew) {
+    Files files(kL);
+    files.read(kBody);
+    const std::string kept = testing::read_file(files.kept());
+    std::string changed = kept;
+    changed[kept.find("0.01", kept.find("piece "))] = '7';
+    for (const std::string& damage :
+         {std::string(), std::string("nonsense"), kept.substr(0, kept.size() / 2), changed}) {
+        std::ofstream(files.kept(), std::ios::binary) << damage;
+        EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
+        EXPECT_EQ(files.said(), "");
+        EXPECT_EQ(testing::read_file(files.kept()), kept);
+    }
+}
+
+TEST(Concave, WorksWherePiecesCannotBeKeptAndSaysSo) {
+    Files files(kL);
+    fs::create_directories(files.kept() + "/occupied");
+    EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
+    EXPECT_FALSE(files.diagnostics.has_errors());
+    EXPECT_NE(files.said().find("cannot be kept"), std::string::npos) << files.said();
+    EXPECT_NE(files.said().find("cut anew in each run"), std::string::npos);
+    EXPECT_TRUE(fs::is_directory(files.kept()));
+}
+
+TEST(Concave, AMeshWithAHoleIsRefused) {
+    Files files(std::string(kL).substr(0, std::string(kL).rfind("f ")));
+    files.read(kBody);
+    EXPECT_TRUE(files.diagnostics.has_errors());
+    EXPECT_NE(files.said().find("is not closed: 4 of its edges"), std::string::npos)
+        << files.said();
+    EXPECT_NE(files.said().find("scene.yaml:2"), std::string::npos) << files.said();
+}
+
+TEST(Concave, AMeshTurnedInsideOutIsTurnedBack) {
+    Mesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    const Mesh out = closed(mesh, "", {});
+    EXPECT_NEAR(integrate(out.vertices, out.faces).volume, 1.0 / 6, 1e-12);
+}
+
+TEST(Compound, PartsThatCannotBeAreRefused) {
+    Files files(kL);
+    files.read("bodies:\n  - {name: a, shape: compound, mass_g: 1}\n");
+    EXPECT_NE(files.said().find("parts: is missing"), std::string::npos) << files.said();
+    files.read("bodies:\n  - {name: a, shape: compound, mass_g: 1, parts: []}\n");
+    EXPECT_NE(files.said().find("parts: there are none"), std::string::npos) << files.said();
+    files.read("bodies:\n  - {name: a, shape: compound, fixed: yes, parts: [{shape: plane}]}\n");
+    EXPECT_NE(files.said().find("a part cannot be a plane"), std::string::npos) << files.said();
+}
+
+}  // namespace
+}  // namespace dihaptic::scene
