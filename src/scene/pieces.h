@@ -1,5 +1,5 @@
 // Concave meshes as convex pieces, for contact. The pieces fill the mesh exactly; a program of its
-// own, dihaptic-decompose, cuts them (docs/adr/0007), and a file beside the mesh keeps them.
+// own, dihaptic-decompose, cuts them (docs/adr/0008), and a file beside the mesh keeps them.
 #pragma once
 
 #include <cstdint>
