@@ -295,6 +295,7 @@ struct Rendering {
     haptics::ProxyKind proxy;
     double stiffness;
     const char* options;
+    haptics::PointFriction friction = haptics::PointFriction::together;
 };
 void PrintTo(const Rendering& rendering, std::ostream* out) {
     *out << rendering.name;
@@ -304,6 +305,7 @@ class SoundCoupling : public ::testing::TestWithParam<Rendering> {
     Settings settings() const {
         Settings out;
         out.proxy.kind = GetParam().proxy;
+        out.proxy.friction = GetParam().friction;
         out.coupling.stiffness = GetParam().stiffness;
         return out;
     }
@@ -320,6 +322,8 @@ TEST_P(SoundCoupling, GivesNobodyEnergyInGraspLiftTossPushAndSlap) {
 TEST_P(SoundCoupling, IsSeenWhenItsDampingTurnsNegative) {
     Settings active = settings();
     active.coupling.damping = -5;
+    // in the step a point has no mass but h c + h^2 k: there is none with a negative damper
+    active.proxy.friction = haptics::PointFriction::apart;
     // fingers heavy enough for the implicit coupling: m + h c + h^2 k stays positive
     scene::Scene scene = block_on_table();
     for (scene::Finger& finger : scene.fingers) finger.mass = 0.06;
@@ -337,7 +341,13 @@ INSTANTIATE_TEST_SUITE_P(
                       Rendering{"rigid 1000, premium", haptics::ProxyKind::rigid, 1000, kPremium},
                       Rendering{"point 300", haptics::ProxyKind::point, 300, ""},
                       Rendering{"point 1000", haptics::ProxyKind::point, 1000, ""},
-                      Rendering{"point 1000, premium", haptics::ProxyKind::point, 1000, kPremium}));
+                      Rendering{"point 1000, premium", haptics::ProxyKind::point, 1000, kPremium},
+                      Rendering{"point apart 300", haptics::ProxyKind::point, 300, "",
+                                haptics::PointFriction::apart},
+                      Rendering{"point apart 1000", haptics::ProxyKind::point, 1000, "",
+                                haptics::PointFriction::apart},
+                      Rendering{"point apart 1000, premium", haptics::ProxyKind::point, 1000,
+                                kPremium, haptics::PointFriction::apart}));
 
 TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
     // a step in 10 ms: calm in a grasp; at 0.6 m/s a wall is found up to 6 mm late, which is then
