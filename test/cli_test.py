@@ -22,6 +22,8 @@ import time
 import unittest
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+# a busy machine that leaves the hands without an answer shall not end the session
+REAL_CLOCK = ["--clock", "real", "--set", "safety.max_pause_ms=1000"]
 
 
 def dihaptic(*arguments, **options):
@@ -450,7 +452,7 @@ class Interruptions(unittest.TestCase):
     def test_a_closed_terminal_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
             master, slave = pty.openpty()
-            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, "--clock", "real"],
+            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
                                        stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
                                        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
             os.close(slave)
@@ -465,7 +467,7 @@ class Interruptions(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             master, slave = pty.openpty()
             before = termios.tcgetattr(slave)
-            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, "--clock", "real"],
+            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
                                        stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                        start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
             self.wait_for_log(out, 300000)
@@ -487,7 +489,7 @@ class Interruptions(unittest.TestCase):
 
     def test_a_running_session_is_not_recovered(self):
         with tempfile.TemporaryDirectory() as out:
-            process = self.start(out, "--clock", "real")
+            process = self.start(out, *REAL_CLOCK)
             self.wait_for_log(out, 100000)
             folder = session_of(out)
             before = set(os.listdir(folder))
@@ -501,7 +503,7 @@ class Interruptions(unittest.TestCase):
 
     def test_ticks_that_overruns_left_out_are_told(self):
         with tempfile.TemporaryDirectory() as out:
-            process = self.start(out, "--clock", "real")
+            process = self.start(out, *REAL_CLOCK)
             self.wait_for_log(out, 100000)
             process.send_signal(signal.SIGSTOP)
             time.sleep(0.3)
@@ -521,7 +523,7 @@ class Interruptions(unittest.TestCase):
 
     def test_ctrl_c_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
-            process = self.start(out, "--clock", "real")
+            process = self.start(out, *REAL_CLOCK)
             self.wait_for_log(out, 300000)
             process.send_signal(signal.SIGINT)
             stdout, stderr = process.communicate(timeout=60)
@@ -535,7 +537,7 @@ class Interruptions(unittest.TestCase):
 
     def test_kill_loses_at_most_a_tenth_of_a_second(self):
         with tempfile.TemporaryDirectory() as out:
-            process = self.start(out, "--clock", "real")
+            process = self.start(out, *REAL_CLOCK)
             # the log as it stands, and when: from there on real time counts the frames
             self.wait_for_log(out, 100000)
             folder = session_of(out)
