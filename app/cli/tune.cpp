@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 
+#include "base/text_file.h"
 #include "command.h"
 #include "experiment/plan.h"
 
@@ -17,13 +19,17 @@ struct Options {
     bool json = false;
 };
 
-void write_map(const std::string& svg, const std::string& file) {
-    std::ofstream out(file, std::ios::binary);
-    out << svg;
-    out.close();
-    if (!out)
-        throw Error({file, 0}, "", "cannot be written",
-                    "Name another file by --map, in a folder that there is and with room left.");
+/// Before a minute of somebody's time, not after it; a map that is there stays until it is
+/// replaced.
+void check_writable(const std::string& file) {
+    std::error_code ignored;
+    const bool is_new = !std::filesystem::exists(file, ignored);
+    if (std::ofstream(file, std::ios::app)) {
+        if (is_new) std::filesystem::remove(file, ignored);
+        return;
+    }
+    throw Error({file, 0}, "", "cannot be written",
+                "Name another file by --map, in a folder that there is and with room left.");
 }
 
 void run(Options options) {
@@ -32,7 +38,7 @@ void run(Options options) {
     const experiment::Plan plan = experiment::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
-    write_map("", options.map);  // before a minute of somebody's time, not after it
+    check_writable(options.map);
     measure::TuneResult result;
     {
         ProgressLine line("tune");
@@ -45,7 +51,7 @@ void run(Options options) {
         exit_code = kFailed;
         return;
     }
-    write_map(measure::tune_map(result, setup, plan.rig.title), options.map);
+    write_file(measure::tune_map(result, setup, plan.rig.title), options.map);
     if (options.json) {
         fmt::print("{}", to_json(result, setup));
     } else {

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "base/diagnostics.h"
+#include "base/text_file.h"
 
 namespace dihaptic {
 
@@ -79,22 +77,6 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
         rows.push_back(std::move(row));
     }
     return rows;
-}
-
-void write_file(const std::string& text, const std::string& file) {
-    const std::string part = file + ".part";
-    errno = 0;
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code failed;
-    if (out) std::filesystem::rename(part, file, failed);
-    if (!out || failed) {
-        const std::string why = failed ? failed.message() : std::strerror(errno);
-        std::filesystem::remove(part, failed);
-        throw Error({file, 0}, "", "cannot be written: " + why,
-                    "Check the folder's permissions and the disk's space.");
-    }
 }
 
 }  // namespace dihaptic

@@ -28,8 +28,4 @@ void write_csv(const Table& table, const std::string& file);
 /// Rows of cells, the header first. Throws Error when the file cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
 
-/// Replaces a file's content so that a reader sees either the old or the new. Throws Error when it
-/// cannot.
-void write_file(const std::string& text, const std::string& file);
-
 }  // namespace dihaptic

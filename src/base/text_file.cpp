@@ -1,6 +1,7 @@
 #include "base/text_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -84,6 +85,22 @@ std::string read_text_file(const std::string& file) {
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
     check_encoding(text, file);
     return text;
+}
+
+void write_file(const std::string& text, const std::string& file) {
+    namespace fs = std::filesystem;
+    const std::string part = fmt::format("{}.{}.part", file, getpid());
+    errno = 0;
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    std::error_code failed;
+    if (out) fs::rename(part, file, failed);
+    if (out && !failed) return;
+    const std::string why = failed ? failed.message() : std::strerror(errno);
+    fs::remove(part, failed);
+    throw Error({file, 0}, "", "cannot be written: " + why,
+                "Check the folder's permissions and the disk's space.");
 }
 
 std::string shortened(const std::string& text) {

@@ -10,6 +10,7 @@
 
 #include "base/field_table.h"
 #include "base/plural.h"
+#include "base/text_file.h"
 #include "experiment/phase_director.h"
 
 namespace dihaptic::experiment {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/temporary_folder.h"
 #include "recording/recorder.h"
 #include "scene/scene.h"
 #include "servo/settings.h"
@@ -12,17 +13,14 @@ namespace dihaptic::measure {
 class BenchLog {
   public:
     BenchLog(const scene::Scene& scene, const servo::Settings& settings);
-    ~BenchLog();
-    BenchLog(const BenchLog&) = delete;
-    BenchLog& operator=(const BenchLog&) = delete;
 
     /// A recorder of this log, from its beginning; the one before must be finished.
     recording::Recorder record(recording::Writing writing) const;
     /// A file beside it.
-    std::string file(const std::string& name) const { return folder_ + "/" + name; }
+    std::string file(const std::string& name) const { return folder_.file(name); }
 
   private:
-    std::string folder_;
+    TemporaryFolder folder_;
     recording::LogHead head_;
 };
 

@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "base/field_writer.h"
-#include "base/table.h"
+#include "base/text_file.h"
 
 namespace dihaptic::recording {
 namespace fs = std::filesystem;

@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
+
+#include "base/temporary_folder.h"
+#include "base/text_file.h"
 
 namespace dihaptic::scene {
 namespace {
@@ -84,11 +84,15 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
     return hulls;
 }
 
+/// The whole file; nothing when it cannot be read.
+std::string content(const std::string& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
 std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream all;
-    all << in.rdbuf();
-    const std::string text = all.str();
+    const std::string text = content(file);
     const std::string head = fmt::format("{}\nmesh {:016x}\n", kFirstLine, mesh);
     const size_t end = text.rfind("end ");
     if (!text.starts_with(head) || end == std::string::npos) return std::nullopt;
@@ -110,34 +114,20 @@ std::string program() {
     return "";
 }
 
-struct TemporaryFolder {
-    std::string path = (fs::temp_directory_path() / "dihaptic-XXXXXX").string();
-    TemporaryFolder() {
-        if (mkdtemp(path.data()) == nullptr) {
-            throw Error("no temporary folder can be made: " + std::string(std::strerror(errno)),
-                        "Free some disk space, or set TMPDIR to a folder that can be written to.");
-        }
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
+std::string off_of(const Mesh& mesh) {
+    std::string off = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.faces.size());
+    for (const Vec3& v : mesh.vertices) off += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+    for (const std::vector<int>& f : mesh.faces)
+        off += fmt::format("3 {} {} {}\n", f[0], f[1], f[2]);
+    return off;
+}
 
 /// What the program wrote; nothing when it failed.
 std::optional<std::string> run(const std::string& command, const Mesh& mesh) {
     const TemporaryFolder folder;
-    std::string in = folder.path + "/mesh.off";
-    std::string out = folder.path + "/pieces";
-    {
-        std::ofstream off(in);
-        off << fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.faces.size());
-        for (const Vec3& v : mesh.vertices) off << fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
-        for (const std::vector<int>& f : mesh.faces)
-            off << fmt::format("3 {} {} {}\n", f[0], f[1], f[2]);
-    }
+    std::string in = folder.file("mesh.off");
+    std::string out = folder.file("pieces");
+    write_file(off_of(mesh), in);
     std::string name = command;
     std::array<char*, 4> arguments{name.data(), in.data(), out.data(), nullptr};
     pid_t child = 0;
@@ -145,9 +135,7 @@ std::optional<std::string> run(const std::string& command, const Mesh& mesh) {
     if (posix_spawn(&child, command.c_str(), nullptr, nullptr, arguments.data(), environ) != 0 ||
         waitpid(child, &status, 0) != child || status != 0)
         return std::nullopt;
-    std::ostringstream text;
-    text << std::ifstream(out).rdbuf();
-    return text.str();
+    return content(out);
 }
 
 std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at) {
@@ -216,19 +204,7 @@ std::string pieces_file(const std::string& mesh_file) {
 void write_pieces(const Pieces& pieces, const std::string& file) {
     const std::string body =
         fmt::format("{}\nmesh {:016x}\n", kFirstLine, pieces.mesh) + text_of(pieces.hulls);
-    // renamed when whole: another run may be reading
-    const std::string part = fmt::format("{}.{}", file, getpid());
-    errno = 0;
-    std::ofstream out(part, std::ios::binary);
-    out << body << fmt::format("end {:016x}\n", fingerprint(body));
-    out.close();
-    const bool written = !out.fail() && std::rename(part.c_str(), file.c_str()) == 0;
-    if (written) return;
-    const std::string why = std::strerror(errno);
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw Error({file, 0}, "", "cannot be written: " + why,
-                "Free some disk space, or allow writing to its folder.");
+    write_file(body + fmt::format("end {:016x}\n", fingerprint(body)), file);
 }
 
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,

@@ -66,11 +66,8 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     const Surface surface(room.bodies[0].shape, kSkin);
     double deepest = -1, worst_angle = 0, furthest_from_foot = 0;
     int pressed = 0, kept = 0;
-    for (int press = 0; press < 10000; ++press) {
-        Vec3 from = 0.08 * random_vector(random).normalized();
-        if (room.bodies[0].shape.kind == scene::ShapeKind::plane) from.z() = std::abs(from.z());
-        const Vec3 way = (0.01 * random_vector(random) - from).normalized() * 0.14;
-        const Vec3 stride = way * random.uniform(0.005, 0.06);
+    for (int i = 0; i < 10000; ++i) {
+        const auto [from, way, stride] = random_press(random, room.bodies[0].shape.kind);
         room.start(X_WB * from);
         int entered = -1;
         bool left = false;

@@ -43,6 +43,19 @@ inline Vec3 random_vector(Random& random) {
     return {random.normal(), random.normal(), random.normal()};
 }
 
+/// A straight way of a handle through a shape, in strides of up to 8 mm.
+struct Press {
+    Vec3 from, way, stride;  ///< [m]
+};
+inline Press random_press(Random& random, scene::ShapeKind kind) {
+    Press press;
+    press.from = 0.08 * random_vector(random).normalized();
+    if (kind == scene::ShapeKind::plane) press.from.z() = std::abs(press.from.z());
+    press.way = (0.01 * random_vector(random) - press.from).normalized() * 0.14;
+    press.stride = press.way * random.uniform(0.005, 0.06);
+    return press;
+}
+
 /// One of kShapes.
 constexpr int kShapes = 7;
 inline scene::Shape shape(int i) {

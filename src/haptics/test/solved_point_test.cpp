@@ -115,11 +115,8 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     const Surface surface(solid, kSkin);
     double deepest = -1, furthest_from_foot = 0;
     int pressed = 0, kept = 0, inward = 0, other_face = 0, free_force = 0;
-    for (int press = 0; press < 10000; ++press) {
-        Vec3 from = 0.08 * random_vector(random).normalized();
-        if (solid.kind == scene::ShapeKind::plane) from.z() = std::abs(from.z());
-        const Vec3 way = (0.01 * random_vector(random) - from).normalized() * 0.14;
-        const Vec3 stride = way * random.uniform(0.005, 0.06);
+    for (int i = 0; i < 10000; ++i) {
+        const auto [from, way, stride] = random_press(random, solid.kind);
         room.start(X_WB * from);
         room.follow(X_WB * from);
         int entered = -1;

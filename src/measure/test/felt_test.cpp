@@ -117,6 +117,21 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     });
 }
 
+/// Touching, leaving and moving freely, at every stiffness and speed.
+void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffnesses) {
+    for (const double k : stiffnesses) {
+        for (const double speed : {0.1, 0.3, 0.5}) {
+            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
+            setup.settings.coupling.stiffness = k;
+            const KickFigures kick = measure_kick(setup, speed);
+            EXPECT_LE(kick.kick_ratio, 1.02);
+            EXPECT_LE(kick.touch_step_n, 0.02);
+            EXPECT_LE(kick.leave_pull_n, 0.005);
+        }
+    }
+    EXPECT_EQ(measure_drag(setup), 0);
+}
+
 /// A slow ramp takes the peak of a fast touch down, and adds no step and no pull.
 TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
     setup.settings.coupling.onset = 0.1;
@@ -133,17 +148,7 @@ TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
 TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
     BenchSetup setup;
     setup.settings.coupling.kind = haptics::CouplingKind::velocity_impulse;
-    for (const double k : {300.0, 2000.0}) {
-        for (const double speed : {0.1, 0.3, 0.5}) {
-            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
-            setup.settings.coupling.stiffness = k;
-            const KickFigures kick = measure_kick(setup, speed);
-            EXPECT_LE(kick.kick_ratio, 1.02);
-            EXPECT_LE(kick.touch_step_n, 0.02);
-            EXPECT_LE(kick.leave_pull_n, 0.005);
-        }
-    }
-    EXPECT_EQ(measure_drag(setup), 0);
+    expect_clean_touches(setup, {300, 2000});
     setup.fingering = Fingering::offset;
     for (const double k : {300.0, 6000.0}) {
         setup.settings.coupling.stiffness = k;
@@ -165,17 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Friction, FeltByAPoint,
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
-    for (const double k : {300.0, 1000.0, 2000.0}) {
-        for (const double speed : {0.1, 0.3, 0.5}) {
-            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
-            setup.settings.coupling.stiffness = k;
-            const KickFigures kick = measure_kick(setup, speed);
-            EXPECT_LE(kick.kick_ratio, 1.02);
-            EXPECT_LE(kick.touch_step_n, 0.02);
-            EXPECT_LE(kick.leave_pull_n, 0.005);
-        }
-    }
-    EXPECT_EQ(measure_drag(setup), 0);
+    expect_clean_touches(setup, {300, 1000, 2000});
 }
 
 TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
