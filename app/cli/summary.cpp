@@ -80,21 +80,24 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
 
 void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
                    const experiment::RunResult& result) {
-    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n",
+    const bool turns = !figures.phases.empty() && !std::isnan(figures.phases.front().peak_torque);
+    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
                "phase", "from s", "to s", "grip N", "peak N", "load N", "finger N", "peak N",
-               "slip mm", "weight");
+               "slip mm", "weight", turns ? "  torque mN m" : "");
     for (const analysis::PhaseFigures& p : figures.phases) {
         fmt::print(
-            "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}\n",
+            "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
             p.name, p.start, p.end, number(p.mean_grip, 3), number(p.peak_grip, 3),
             number(p.mean_load, 3), number(p.mean_force, 3), number(p.peak_force, 3),
-            number(p.slip * 1e3, 4), number(p.weight_felt, 4));
+            number(p.slip * 1e3, 4), number(p.weight_felt, 4),
+            turns ? fmt::format("  {:11.2f}", p.mean_torque * 1e3) : "");
     }
     fmt::print(
         "\ngrip: pinch force, mean of the digits; load: tangential force along gravity, both "
         "digits; finger: force on\n"
         "the busiest handle; slip: of a finger on the object; weight: vertical handle forces over "
-        "the object's weight\n\n");
+        "the object's weight{}\n\n",
+        turns ? "; torque: largest on any handle, mean" : "");
     print_episodes(figures);
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];

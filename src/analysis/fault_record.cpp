@@ -1,5 +1,8 @@
 #include "analysis/fault_record.h"
 
+#include <initializer_list>
+#include <numbers>
+
 namespace dihaptic::analysis {
 namespace {
 
@@ -28,6 +31,7 @@ void FaultRecord::add(const servo::Frame& frame) {
     kept.lateness = frame.lateness;
     kept.tick_duration = frame.tick_duration;
     kept.fingers = frame.fingers;
+    kept.turns = frame.turns;
     while (last_.front().time < frame.time - kBefore) last_.pop_front();
     if ((frame.status & servo::kForceOff) == 0) return;
     ended_ = true;
@@ -40,15 +44,23 @@ Table FaultRecord::table() const {
                      {"status", "what the tick could not do as asked"},
                      {"lateness_ms", "of its wake-up; empty on the virtual clock"},
                      {"last_tick_ms", "how long the one before took"}};
-    for (const std::string& finger : fingers_) {
-        for (const char* what : {"device_position_%_mm", "device_velocity_%_m_s", "force_asked_%_N",
-                                 "force_sent_%_N"}) {
+    const auto add_columns = [&](const std::string& finger,
+                                 std::initializer_list<const char*> fields) {
+        for (const char* what : fields) {
             for (const char axis : {'x', 'y', 'z'}) {
                 std::string name = finger + "_" + what;
                 name[name.find('%')] = axis;
                 table.columns.push_back({name, ""});
             }
         }
+    };
+    for (const std::string& finger : fingers_) {
+        add_columns(finger, {"device_position_%_mm", "device_velocity_%_m_s", "force_asked_%_N",
+                             "force_sent_%_N"});
+    }
+    for (const std::string& finger : turning_) {
+        add_columns(finger, {"device_rotation_%_deg", "device_angular_velocity_%_rad_s",
+                             "torque_asked_%_Nm", "torque_sent_%_Nm"});
     }
     if (!faulted_) return table;
     for (const servo::Frame& frame : last_) {
@@ -59,6 +71,13 @@ Table FaultRecord::table() const {
             add_vector(row, finger.v_DH, 1);
             add_vector(row, finger.f_asked_W, 1);
             add_vector(row, finger.f_sent_W, 1);
+        }
+        for (const servo::TurnFrame& turn : frame.turns) {
+            constexpr double kDegrees = 180 / std::numbers::pi;
+            add_vector(row, rotation_vector(turn.R_DH), kDegrees);
+            add_vector(row, turn.w_DH, 1);
+            add_vector(row, turn.t_asked_W, 1);
+            add_vector(row, turn.t_sent_W, 1);
         }
         table.rows.push_back(row);
     }

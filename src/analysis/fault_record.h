@@ -13,7 +13,9 @@ namespace dihaptic::analysis {
 
 class FaultRecord {
   public:
-    explicit FaultRecord(std::vector<std::string> fingers) : fingers_(std::move(fingers)) {}
+    /// `turning`: those of the fingers whose devices measure orientation.
+    explicit FaultRecord(std::vector<std::string> fingers, std::vector<std::string> turning = {})
+        : fingers_(std::move(fingers)), turning_(std::move(turning)) {}
 
     /// Frames in their order.
     void add(const servo::Frame& frame);
@@ -25,6 +27,7 @@ class FaultRecord {
 
   private:
     std::vector<std::string> fingers_;
+    std::vector<std::string> turning_;
     std::deque<servo::Frame> last_;  // without bodies and contacts
     bool ended_ = false;
     bool faulted_ = false;

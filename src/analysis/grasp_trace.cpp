@@ -25,6 +25,9 @@ void GraspTrace::add(const servo::Frame& frame) {
     sample.v_WB.setZero();
     sample.awake = false;
     sample.touching.assign(n, false);
+    sample.torque = frame.turns.empty() ? servo::kUnmeasured : 0;
+    for (const servo::TurnFrame& turn : frame.turns)
+        sample.torque = std::max(sample.torque, turn.t_sent_W.norm());
     if (object_ >= 0) {
         const servo::BodyFrame& object = frame.bodies[static_cast<size_t>(object_)];
         sample.X_WB = object.X_WB;
@@ -222,6 +225,18 @@ double GraspTrace::peak_force(Range range) const {
         for (const Vec3& f : samples_[i].f_sent_W) most = std::max(most, f.norm());
     }
     return most;
+}
+
+double GraspTrace::peak_torque(Range range) const {
+    double most = samples_[range.first].torque;
+    for (size_t i = range.first; i < range.last; ++i) most = std::max(most, samples_[i].torque);
+    return most;
+}
+
+double GraspTrace::mean_torque(Range range) const {
+    double sum = 0;
+    for (size_t i = range.first; i < range.last; ++i) sum += samples_[i].torque;
+    return sum / static_cast<double>(range.size());
 }
 
 double GraspTrace::mean_force(Range range) const {

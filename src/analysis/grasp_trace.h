@@ -38,6 +38,7 @@ class GraspTrace {
         std::vector<Vec3> p_WP;
         std::vector<Vec3> v_WH;
         std::vector<Vec3> f_sent_W;  ///< on the handle
+        double torque;               ///< largest on any handle; NaN without orientation [N*m]
         std::vector<char> touching;  ///< presses the object
     };
     const std::vector<Sample>& samples() const { return samples_; }
@@ -77,6 +78,9 @@ class GraspTrace {
     /// Largest force sent to any handle, and mean force of the busiest finger [N].
     double peak_force(Range range) const;
     double mean_force(Range range) const;
+    /// The same of torque; NaN when no device measures orientation [N*m].
+    double peak_torque(Range range) const;
+    double mean_torque(Range range) const;
 
   private:
     int object_;

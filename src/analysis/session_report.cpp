@@ -41,6 +41,8 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     out.mean_load = trace.mean_load(range);
     out.mean_force = trace.mean_force(range);
     out.peak_force = trace.peak_force(range);
+    out.mean_torque = trace.mean_torque(range);
+    out.peak_torque = trace.peak_torque(range);
     const bool held = trace.all_touching(range);
     bool carried = held && weight > 0;
     for (size_t i = range.first; i < range.last && carried; ++i)
@@ -88,7 +90,7 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
     EventFinder events(log.head(), object, names);
     GraspTrace trace(object, log.head().tick);
-    FaultRecord fault(log.head().fingers);
+    FaultRecord fault(log.head().fingers, log.head().turning_fingers());
     Reading out;
     SessionFigures& figures = out.figures;
     figures.status_ticks.assign(servo::kStatusBits, 0);
@@ -146,11 +148,13 @@ Table phase_table(const SessionFigures& figures) {
         {"mean_force_N", "mean force on the busiest finger"},
         {"peak_force_N", "largest force on any finger"},
         {"slip_mm", "largest slip of a finger on the object; empty unless all held it throughout"},
-        {"weight_felt", "vertical handle forces over the object's weight; empty unless carried"}};
+        {"weight_felt", "vertical handle forces over the object's weight; empty unless carried"},
+        {"mean_torque_Nm", "largest torque on any handle, mean; empty without orientation"},
+        {"peak_torque_Nm", "largest torque on any handle"}};
     for (const PhaseFigures& p : figures.phases) {
         table.rows.push_back({p.start, p.end, static_cast<double>(p.trial), p.name, p.mean_grip,
                               p.peak_grip, p.mean_load, p.mean_force, p.peak_force, p.slip * 1e3,
-                              p.weight_felt});
+                              p.weight_felt, p.mean_torque, p.peak_torque});
     }
     return table;
 }

@@ -20,9 +20,10 @@ struct PhaseFigures {
     std::string name;
     double start = 0;  ///< [s]
     double end = 0;
-    double mean_grip = 0, peak_grip = 0;    ///< [N]; NaN with one finger
-    double mean_load = 0;                   ///< [N]
-    double mean_force = 0, peak_force = 0;  ///< on the busiest finger; on any [N]
+    double mean_grip = 0, peak_grip = 0;      ///< [N]; NaN with one finger
+    double mean_load = 0;                     ///< [N]
+    double mean_force = 0, peak_force = 0;    ///< on the busiest finger; on any [N]
+    double mean_torque = 0, peak_torque = 0;  ///< on any [N*m]; NaN without orientation
     double slip = 0;         ///< [m]; NaN unless every finger holds the object throughout
     double weight_felt = 0;  ///< share of the object's weight; NaN unless it is carried
 };

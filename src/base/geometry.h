@@ -33,6 +33,40 @@ inline Quat rotation_xyz(const Vec3& angles) {
                 Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
 }
 
+/// The angles of rotation_xyz(): about y from -pi / 2 to pi / 2, where those about x and z add up
+/// [rad].
+inline Vec3 angles_xyz(const Quat& R_AB) {
+    const Mat3 R = R_AB.toRotationMatrix();
+    const double cosine = std::hypot(R(0, 0), R(1, 0));
+    if (cosine < 1e-9) return {std::atan2(-R(1, 2), R(1, 1)), std::atan2(-R(2, 0), cosine), 0};
+    return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), cosine),
+            std::atan2(R(1, 0), R(0, 0))};
+}
+
+/// The rotation by |r| about r [rad]: exp.
+inline Quat rotation_by(const Vec3& r) {
+    const double angle = r.norm();
+    if (angle == 0) return Quat::Identity();
+    return Quat(Eigen::AngleAxisd(angle, r / angle));
+}
+
+/// Axis times angle of a rotation, at most pi [rad]: log, the inverse of rotation_by().
+inline Vec3 rotation_vector(const Quat& R) {
+    const double sine = R.vec().norm();
+    // without a turn axis to speak of, 2 sin(a / 2) is the angle
+    if (sine < 1e-12) return (R.w() < 0 ? -2.0 : 2.0) * R.vec();
+    const double angle = 2 * std::atan2(R.w() < 0 ? -sine : sine, std::abs(R.w()));
+    return angle / sine * R.vec();
+}
+
+/// What acts on a handle or a body: a force, and a torque about its origin.
+struct Wrench {
+    Vec3 force = Vec3::Zero();   ///< [N]
+    Vec3 torque = Vec3::Zero();  ///< [N*m]
+
+    bool is_zero() const { return force == Vec3::Zero() && torque == Vec3::Zero(); }
+};
+
 /// Angle of the smallest rotation that takes A to B [rad].
 inline double angle_between(const Quat& R_A, const Quat& R_B) {
     const Quat between = R_A.conjugate() * R_B;

@@ -22,6 +22,10 @@ constexpr std::array kTorque{Unit{"Nm", 1}, Unit{"mNm", 1e-3}};
 constexpr std::array kAcceleration{Unit{"m_s2", 1}};
 constexpr std::array kForceRate{Unit{"N_s", 1}, Unit{"N_ms", 1e3}};
 constexpr std::array kStiffnessPerForce{Unit{"1_m", 1}, Unit{"1_mm", 1e3}};
+constexpr std::array kTurnStiffness{Unit{"Nm_rad", 1}, Unit{"mNm_rad", 1e-3}};
+constexpr std::array kTurnDamping{Unit{"Nms_rad", 1}, Unit{"mNms_rad", 1e-3}};
+constexpr std::array kTorqueRate{Unit{"Nm_s", 1}, Unit{"mNm_ms", 1}};
+constexpr std::array kInertia{Unit{"kg_m2", 1}, Unit{"g_cm2", 1e-7}};
 
 struct Kind {
     std::string_view name;
@@ -61,6 +65,14 @@ Kind kind(Quantity quantity) {
             return {"rate of force", kForceRate, "N/s"};
         case Quantity::stiffness_per_force:
             return {"stiffness per force", kStiffnessPerForce, "1/m"};
+        case Quantity::turn_stiffness:
+            return {"rotational stiffness", kTurnStiffness, "N*m/rad"};
+        case Quantity::turn_damping:
+            return {"rotational damping", kTurnDamping, "N*m*s/rad"};
+        case Quantity::torque_rate:
+            return {"rate of torque", kTorqueRate, "N*m/s"};
+        case Quantity::inertia:
+            return {"inertia", kInertia, "kg*m^2"};
     }
     return {"number", {}, "1"};
 }

@@ -25,6 +25,10 @@ enum class Quantity {
     acceleration,
     force_rate,
     stiffness_per_force,
+    turn_stiffness,
+    turn_damping,
+    torque_rate,
+    inertia,
 };
 
 struct Unit {

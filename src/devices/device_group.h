@@ -38,6 +38,10 @@ struct Reading {
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
     uint32_t status = 0;  ///< DeviceStatus
+    /// Turn of the endpoint from the device's neutral orientation, and its angular velocity
+    /// [rad/s], of devices that measure orientation.
+    Quat R_DH = Quat::Identity();
+    Vec3 w_DH = Vec3::Zero();
 };
 
 /// What a device can do.
@@ -50,6 +54,17 @@ struct DeviceInfo {
     double mass = 0;     ///< of handle and hand together; 0: not known [kg]
     double delay = 0;    ///< from write to force [s]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
+    /// What the maker says it renders calmly, if he does: what shares of its maximum are taken of
+    /// [N/m], [N*s/m].
+    std::optional<double> max_stiffness;
+    std::optional<double> max_damping;
+
+    bool measures_orientation = false;
+    double peak_torque = 0;  ///< 0: it renders none [N*m]
+    double continuous_torque =
+        std::numeric_limits<double>::infinity();  ///< that it can hold for long [N*m]
+    double turn_damping = 0;  ///< of handle and hand together, against turning [N*m*s/rad]
+    double inertia = 0;       ///< the same; 0: not known [kg*m^2]
 };
 
 /// One device, as the rig file has it.
@@ -92,10 +107,11 @@ class DeviceGroup {
         assert(active_ && readings.size() == infos_.size());
         do_read(now, readings);
     }
-    /// Forces in D to hold until the next write, one for each device [N].
-    void write(std::span<const Vec3> f_D) noexcept {
-        assert(active_ && f_D.size() == infos_.size());
-        do_write(f_D);
+    /// Forces and torques on the endpoints, in the axes of D, to hold until the next write; one for
+    /// each device. Torques are zero for devices that render none.
+    void write(std::span<const Wrench> wrenches_D) noexcept {
+        assert(active_ && wrenches_D.size() == infos_.size());
+        do_write(wrenches_D);
     }
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
@@ -112,7 +128,7 @@ class DeviceGroup {
     virtual void do_activate() = 0;
     virtual void do_deactivate() = 0;
     virtual void do_read(Time now, std::span<Reading> readings) noexcept = 0;
-    virtual void do_write(std::span<const Vec3> f_D) noexcept = 0;
+    virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_stop() noexcept {}
 
     std::vector<DeviceInfo> infos_;

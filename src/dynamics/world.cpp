@@ -6,16 +6,27 @@
 #include "scene/solid.h"
 
 namespace dihaptic::dynamics {
+namespace {
+
+/// The mean of its moments about B, about all axes, and B for a frame of its mass.
+void lump(scene::Solid& solid) {
+    const double about_centre = solid.inertia.sum() / 3;
+    solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());
+    solid.X_BM = {};
+}
+
+}  // namespace
 
 void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass,
                       double friction_coefficient, double torsion_radius, const Pose& X_WB,
-                      const btVector3& linear, const btVector3& angular) {
+                      const btVector3& linear, const btVector3& angular, bool about_origin) {
     Item item;
     item.name = name;
     item.friction = friction_coefficient;
     item.torsion_radius = torsion_radius;
     item.can_move = mass > 0 && !(linear.isZero() && angular.isZero());
     scene::Solid solid = scene::solid_of(shape, item.can_move ? mass : 0);
+    if (about_origin) lump(solid);
     const bool one_axis = angular.length2() == 1;
     if (one_axis) {
         // held to one axis e, only I_ee counts; spread over all axes, any orientation of M gives it
@@ -58,18 +69,19 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP) {
+BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
-               {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1), btVector3(0, 0, 0));
+               {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
+               turns ? btVector3(1, 1, 1) : btVector3(0, 0, 0), turns);
     impl_->items.back().is_proxy = true;
     return {size() - 1};
 }
 
-BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP) {
+BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     // a point has no shape; its body must have one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
-               btVector3(0, 0, 0));
+               turns ? btVector3(1, 1, 1) : btVector3(0, 0, 0), turns);
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;
     return {size() - 1};
@@ -171,6 +183,20 @@ void World::set_mass(BodyIndex body, double mass) noexcept {
 
 void World::set_velocity(BodyIndex body, const Vec3& v_WB) noexcept {
     impl_->items[static_cast<size_t>(body.value)].body->setLinearVelocity(to_bullet(v_WB));
+}
+
+double World::inertia(BodyIndex proxy) const {
+    return impl_->items[static_cast<size_t>(proxy.value)].inertia.x();
+}
+
+void World::set_inertia(BodyIndex proxy, double inertia) noexcept {
+    btRigidBody& b = *impl_->items[static_cast<size_t>(proxy.value)].body;
+    b.setMassProps(b.getMass(), btVector3(inertia, inertia, inertia));
+    b.updateInertiaTensor();
+}
+
+void World::set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept {
+    impl_->items[static_cast<size_t>(proxy.value)].body->setAngularVelocity(to_bullet(w_WP));
 }
 
 void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {

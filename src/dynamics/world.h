@@ -49,10 +49,11 @@ class World {
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    /// Adds a finger's proxy at a position. Gravity does not act on it and it does not turn.
-    BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP);
+    /// Adds a finger's proxy at a position. Gravity does not act on it. It does not turn, or else
+    /// turns about P, with the same inertia about all axes: its mean about P.
+    BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
     /// Adds a finger whose proxy is a point. It meets nothing but what meet() says.
-    BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP);
+    BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
     /// Reserves all memory that steps need.
     void activate();
 
@@ -74,11 +75,16 @@ class World {
     std::span<const contact::Contact> contacts() const { return contacts_; }
     const contact::SolveStats& solve_stats() const { return stats_; }
     double mass(BodyIndex body) const;
+    /// Of a proxy that turns, about P [kg*m^2].
+    double inertia(BodyIndex proxy) const;
     const Vec3& gravity() const { return gravity_; }
 
     /// The mass that the next steps see [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
+    /// The same for a proxy that turns: inertia about P [kg*m^2], angular velocity [rad/s].
+    void set_inertia(BodyIndex proxy, double inertia) noexcept;
+    void set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept;
     /// Puts a body somewhere else, at rest.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].

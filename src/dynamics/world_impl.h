@@ -64,7 +64,7 @@ struct World::Impl {
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
-             const btVector3& linear, const btVector3& angular);
+             const btVector3& linear, const btVector3& angular, bool about_origin = false);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);

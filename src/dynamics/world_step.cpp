@@ -83,7 +83,8 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         body.setLinearVelocity(body.getLinearVelocity() +
                                h * to_bullet(acceleration) * body.getLinearFactor());
         const btVector3 turn = body.getInvInertiaTensorWorld() * to_bullet(item.torque);
-        const btVector3 gyroscopic = body.getAngularFactor().isZero()
+        // a proxy has the same inertia about all axes
+        const btVector3 gyroscopic = item.is_proxy || body.getAngularFactor().isZero()
                                          ? btVector3(0, 0, 0)
                                          : body.computeGyroscopicImpulseImplicit_Body(h);
         body.setAngularVelocity(body.getAngularVelocity() +

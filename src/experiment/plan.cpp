@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "model/grasp.h"
 
@@ -55,6 +56,48 @@ Place place_of(const Plan& plan, const std::string& setting) {
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
 
+/// A share of what the devices render calmly, in SI units: of the device that renders least, since
+/// all fingers have the same coupling. The setting is then as if it had been given so.
+std::optional<double> of_maximum(Plan& plan, const devices::DeviceGroup& devices,
+                                 const std::string& name, Quantity quantity,
+                                 std::optional<double>& share,
+                                 std::optional<double> devices::DeviceInfo::*maximum,
+                                 Diagnostics& diagnostics) {
+    if (!share) return std::nullopt;
+    const std::string setting = "coupling." + name;
+    const std::string origin = place_of(plan, setting + "_share").file;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (!(info.*maximum)) {
+            diagnostics.error(
+                {origin, 0}, setting + "_share",
+                fmt::format("{} does not say what {} it renders at most", info.model, name),
+                fmt::format("Give coupling: {}, or another rig.", si_key(name, quantity)));
+            return std::nullopt;
+        }
+        least = std::min(least, *(info.*maximum));
+    }
+    plan.origins.erase(setting + "_share");
+    plan.origins[setting] = fmt::format("{} ({:g} of the device's {:g} {})", origin, *share, least,
+                                        si_symbol(quantity));
+    const double value = *share * least;
+    share.reset();
+    return value;
+}
+
+void resolve_shares(Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    haptics::CouplingSettings& coupling = plan.settings.coupling;
+    if (const auto k =
+            of_maximum(plan, devices, "stiffness", Quantity::stiffness, coupling.stiffness_share,
+                       &devices::DeviceInfo::max_stiffness, diagnostics))
+        coupling.stiffness = *k;
+    if (const auto c =
+            of_maximum(plan, devices, "damping", Quantity::damping, coupling.damping_share,
+                       &devices::DeviceInfo::max_damping, diagnostics))
+        coupling.damping = *c;
+}
+
 bool is_point(const Plan& plan, const scene::Finger& finger) {
     return plan.settings.proxy.of(finger) == haptics::ProxyKind::point;
 }
@@ -85,6 +128,20 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
                         coupling.stiffness, limit, info.damping, info.model),
             "It may be calm above too, as in bench grasp, or shake: look at the forces, or lower "
             "it.");
+        break;
+    }
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (info.peak_torque <= 0 || info.turn_damping <= 0) continue;
+        const double limit =
+            model::passive_stiffness(info.turn_damping, plan.settings.tick() + 2 * info.delay);
+        if (coupling.turn_stiffness <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.turn_stiffness"), "coupling.turn_stiffness",
+            fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), up to which the hand's "
+                        "damping of {:g} N*m*s/rad surely keeps {} calm",
+                        coupling.turn_stiffness, limit, info.turn_damping, info.model),
+            "Lower it, or look at the torques.");
         break;
     }
     const double explicit_limit = coupling.body_mass / (h * h);
@@ -297,6 +354,7 @@ Plan make_plan(const Request& request) {
     diagnostics.throw_if_errors();
     // made once to see what the devices can do; the session makes its own
     const auto devices = make_servo(plan);
+    resolve_shares(plan, devices->devices(), diagnostics);
     check_stiffness(plan, devices->devices(), diagnostics);
     check_damping(plan, devices->devices(), diagnostics);
     check_limits(plan, devices->devices(), diagnostics);
@@ -311,6 +369,11 @@ Plan make_plan(const Request& request) {
 void apply_setting(servo::Settings& settings, const std::string& text) {
     Diagnostics diagnostics;
     read_fields(settings, setting(text), diagnostics);
+    if (settings.coupling.stiffness_share || settings.coupling.damping_share) {
+        diagnostics.error({"--set", 0}, text, "is a share of what a device renders at most",
+                          "Here is no device that says so: write coupling.stiffness_N_m or "
+                          "coupling.damping_Ns_m.");
+    }
     diagnostics.throw_if_errors();
 }
 

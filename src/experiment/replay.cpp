@@ -27,7 +27,12 @@ bool same(const servo::Frame& frame, const servo::Frame& recorded) {
         const servo::FingerFrame& a = frame.fingers[i];
         const servo::FingerFrame& b = recorded.fingers[i];
         out = out && same_bits(a.f_sent_W, b.f_sent_W) && same_bits(a.f_asked_W, b.f_asked_W) &&
-              same_bits(a.p_WP, b.p_WP);
+              same_bits(a.p_WP, b.p_WP) && same_bits(a.R_WP.coeffs(), b.R_WP.coeffs());
+    }
+    for (size_t i = 0; i < frame.turns.size(); ++i) {
+        const servo::TurnFrame& a = frame.turns[i];
+        const servo::TurnFrame& b = recorded.turns[i];
+        out = out && same_bits(a.t_sent_W, b.t_sent_W) && same_bits(a.t_asked_W, b.t_asked_W);
     }
     for (size_t i = 0; i < frame.bodies.size(); ++i) {
         const Pose& a = frame.bodies[i].X_WB;
@@ -46,6 +51,9 @@ std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& 
         options("peak_force", device.peak_force, Field::of(Quantity::force));
         options("continuous_force", device.continuous_force, Field::of(Quantity::force));
         options("workspace", device.workspace, Field::length());
+        options("orientation", device.orientation);
+        options("peak_torque", device.peak_torque, Field::of(Quantity::torque));
+        options("continuous_torque", device.continuous_torque, Field::of(Quantity::torque));
         configs.push_back({device.finger, {}, options.take()});
     }
     return devices::find_backend("replay")->make(configs, context);
@@ -75,11 +83,16 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     context.tick = settings.tick();
     context.recording = [&](Time, std::span<devices::Reading> readings) {
         if (recorded == nullptr) return false;
+        auto turn = recorded->turns.begin();
         for (size_t i = 0; i < readings.size(); ++i) {
             const servo::FingerFrame& finger = recorded->fingers[i];
             const bool gone = (finger.status & servo::kNotAnswering) != 0;
             readings[i] = {finger.p_DH, finger.v_DH, finger.buttons,
                            gone ? uint32_t{devices::kNotAnswering} : 0};
+            if (!head.devices[i].orientation) continue;
+            readings[i].R_DH = turn->R_DH;
+            readings[i].w_DH = turn->w_DH;
+            ++turn;
         }
         return true;
     };

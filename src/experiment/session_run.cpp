@@ -173,9 +173,14 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                                        device.model,
                                        device.peak_force,
                                        {},
-                                       device.workspace};
+                                       device.workspace,
+                                       device.measures_orientation,
+                                       device.peak_torque,
+                                       {}};
         if (std::isfinite(device.continuous_force))
             record.continuous_force = device.continuous_force;
+        if (std::isfinite(device.continuous_torque))
+            record.continuous_torque = device.continuous_torque;
         info.devices.push_back(record);
     }
     info.phases = phases_of(*plan.driver);

@@ -11,8 +11,10 @@ namespace dihaptic::hand {
 
 /// Equilibrium point of a finger, in world axes.
 struct FingerTarget {
-    Vec3 p_WT = Vec3::Zero();  ///< [m]
-    Vec3 v_WT = Vec3::Zero();  ///< [m/s]
+    Vec3 p_WT = Vec3::Zero();      ///< [m]
+    Vec3 v_WT = Vec3::Zero();      ///< [m/s]
+    Quat R_WT = Quat::Identity();  ///< how it wants its handle turned
+    Vec3 w_WT = Vec3::Zero();      ///< [rad/s]
 };
 
 class Driver {

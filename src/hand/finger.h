@@ -2,6 +2,10 @@
 //
 //     f = (k + k_f |f_felt|) (x_target - x) + c (v_target - v)
 //
+// and a torque alike on a handle that turns, with r the rotation vector from it to the target,
+//
+//     t = k_r r + c_r (w_target - w)
+//
 // with x the handle that the finger holds. |f_felt| follows the device's force with a time constant
 // of kFeelTime, as muscle does, so that stiffening by itself adds no fast loop.
 #pragma once
@@ -25,6 +29,11 @@ class Finger {
         felt_ += (f_device_W.norm() - felt_) * h / kFeelTime;
         const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
         return k * (target.p_WT - p_WH) + impedance_.damping * (target.v_WT - v_WH);
+    }
+    /// Torque of the finger on the handle [N*m].
+    Vec3 turn(const FingerTarget& target, const Quat& R_WH, const Vec3& w_WH) const noexcept {
+        return impedance_.turn_stiffness * rotation_vector(target.R_WT * R_WH.conjugate()) +
+               impedance_.turn_damping * (target.w_WT - w_WH);
     }
     double mass() const { return impedance_.mass; }
 

@@ -148,6 +148,8 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     target.p_WT = centre + arm;
     target.v_WT =
         v + rate * (aperture_change / 2 * (R * place.side) + way.angle * way.axis.cross(arm));
+    target.R_WT = R;
+    target.w_WT = rate * way.angle * way.axis;
     return target;
 }
 

@@ -1,6 +1,6 @@
 // A hand that follows a script: aperture, centre and turn change step by step, by minimum jerk.
 //
-//     p_WT = c + R (offset + a / 2 side)
+//     p_WT = c + R (offset + a / 2 side),    R_WT = R
 //
 // Each finger has a centre c, an aperture a and a turn R of its own, all changed alike by the steps
 // that move it: fingers with the same are a hand, and a scene may have several.

@@ -21,6 +21,8 @@ struct Impedance {
     double stiffness = 300;          ///< [N/m]
     double damping = 3;              ///< [N*s/m]
     double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
+    double turn_stiffness = 1;       ///< against turning a handle: of a wrist's order [N*m/rad]
+    double turn_damping = 0.02;      ///< critical with the inertia of a stylus [N*m*s/rad]
     Place place{};                   ///< in the file; the same below
 
     template <class Visitor>
@@ -30,6 +32,8 @@ struct Impedance {
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
         v("stiffness_per_force", stiffness_per_force,
           Field::of(Quantity::stiffness_per_force).at_least(0));
+        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).positive());
+        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).at_least(0));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -77,7 +81,8 @@ struct ScriptStep {
         aperture;              ///< at the end: twice each finger's distance from the centre [m]
     Vec3 move = Vec3::Zero();  ///< of the centre [m]
     bool steady = false;       ///< constant speed instead of minimum jerk
-    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre: world axis times angle [rad]
+    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre, with the handles that it holds:
+                               ///< world axis times angle [rad]
     Vec3 end_velocity = Vec3::Zero();    ///< of the centre; the next step starts with it [m/s]
     std::vector<std::string> fingers{};  ///< that move, the others stay; empty: all
     Place place{};

@@ -14,10 +14,6 @@ Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
     return normal * touch.n_W + tangential;
 }
 
-bool same(const Handle& a, const Handle& b) noexcept {
-    return a.p_WH == b.p_WH && a.v_WH == b.v_WH;
-}
-
 /// What the handle feels of a spring k and a damper c to a proxy that touches something. Between
 /// steps of the world the handle moves on: the force then stays in the friction cone of the step's
 /// contact.
@@ -42,6 +38,10 @@ double stored_in(const dynamics::BodyState& proxy, double k, const ProxyTouch& t
 
 double damping(const CouplingSettings& settings, double h) {
     return settings.damping.value_or(settings.stiffness * h / 2);
+}
+
+double turn_damping(const CouplingSettings& settings, double h) {
+    return settings.turn_damping.value_or(settings.turn_stiffness * h / 2);
 }
 
 void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,

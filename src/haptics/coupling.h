@@ -14,7 +14,17 @@ using dynamics::World;
 struct Handle {
     Vec3 p_WH = Vec3::Zero();  ///< [m]
     Vec3 v_WH = Vec3::Zero();  ///< [m/s]
+    /// Turn of the handle from the device's neutral orientation, and its angular velocity [rad/s];
+    /// none where the device does not measure it.
+    Quat R_WH = Quat::Identity();
+    Vec3 w_WH = Vec3::Zero();
 };
+
+/// Whether a device says the same as before.
+inline bool same(const Handle& a, const Handle& b) noexcept {
+    return a.p_WH == b.p_WH && a.v_WH == b.v_WH && a.R_WH.coeffs() == b.R_WH.coeffs() &&
+           a.w_WH == b.w_WH;
+}
 
 /// All contacts of a proxy in the last step, taken together.
 struct ProxyTouch {
@@ -107,5 +117,7 @@ class DualSpring {
 
 /// c, the setting or else its default for a world step of h [N*s/m].
 double damping(const CouplingSettings& settings, double h);
+/// The same of the rotational spring: c_r [N*m*s/rad].
+double turn_damping(const CouplingSettings& settings, double h);
 
 }  // namespace dihaptic::haptics

@@ -4,37 +4,53 @@
 #include <cmath>
 
 namespace dihaptic::haptics {
+namespace {
 
-Vec3 EnergyGuard::watch(const Handle& handle, const Vec3& p_WP, const Vec3& f_H_W, double stored,
-                        bool stepped, double h, unsigned& flags) noexcept {
-    if (mode_ == EnergyGuardMode::off || !f_H_W.allFinite()) return Vec3::Zero();
-    if (f_H_W == Vec3::Zero()) stored = 0;
+/// Of a torque that is held while something turns from A to B [J].
+double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
+    if (torque_W == Vec3::Zero()) return 0;
+    return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
+}
+
+}  // namespace
+
+Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W,
+                          double stored, bool stepped, double h, unsigned& flags) noexcept {
+    const bool finite = asked_W.force.allFinite() && asked_W.torque.allFinite();
+    if (mode_ == EnergyGuardMode::off || !finite) return {};
+    if (asked_W.is_zero()) stored = 0;
     if (stepped) {
         generated_ = std::max(0.0, generated_ + since_step_);
         since_step_ = 0;
     }
     if (started_) {
-        const bool was_slack = f_H_W_ == Vec3::Zero();
-        double change = stored - stored_ + (f_H_W_ + damper_).dot(handle.p_WH - p_WH_);
+        const bool was_slack = asked_.is_zero();
+        double change = stored - stored_ +
+                        (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
+                        work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
         // a proxy that comes to touch was moved by nobody's work until then
-        if (!was_slack) change -= f_H_W.dot(p_WP - p_WP_);
+        if (!was_slack)
+            change -= asked_W.force.dot(X_WP.p - X_WP_.p) + work(asked_W.torque, X_WP_.R, X_WP.R);
         since_step_ += change;
         generated_ *= std::exp(-h / kEnergyWindow);
     }
     started_ = true;
-    p_WH_ = handle.p_WH;
-    p_WP_ = p_WP;
-    f_H_W_ = f_H_W;
+    X_WH_ = {handle.R_WH, handle.p_WH};
+    X_WP_ = X_WP;
+    asked_ = asked_W;
     stored_ = stored;
-    damper_.setZero();
+    damper_ = {};
     const double excess = generated_ - kEnergyBudget;
     if (excess <= 0) return damper_;
     flags |= kEnergyGenerated;
+    if (mode_ != EnergyGuardMode::act) return damper_;
     const double speed2 = handle.v_WH.squaredNorm();
-    if (mode_ == EnergyGuardMode::act && speed2 > 0) {
-        flags |= kEnergyDamped;
-        damper_ = -std::min(kMostEnergyDamping, excess / (h * speed2)) * handle.v_WH;
-    }
+    const double turning2 = handle.w_WH.squaredNorm();
+    if (speed2 > 0)
+        damper_.force = -std::min(kMostEnergyDamping, excess / (h * speed2)) * handle.v_WH;
+    if (turning2 > 0)
+        damper_.torque = -std::min(kMostEnergyTurnDamping, excess / (h * turning2)) * handle.w_WH;
+    if (!damper_.is_zero()) flags |= kEnergyDamped;
     return damper_;
 }
 

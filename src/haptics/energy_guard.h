@@ -20,17 +20,19 @@ constexpr double kEnergyBudget = 0.01;
 constexpr double kEnergyWindow = 1;
 /// The controller's damping, at most: what a Premium renders calmly [N*s/m].
 constexpr double kMostEnergyDamping = 5;
+/// The same against turning [N*m*s/rad].
+constexpr double kMostEnergyTurnDamping = 0.004;
 
 class EnergyGuard {
   public:
     explicit EnergyGuard(EnergyGuardMode mode) : mode_(mode) {}
 
-    /// Once a tick of h [s]: the handle, the proxy after the tick's step, the force on the handle
-    /// that the coupling wants from now on, and the energy that its spring has then [J]. `stepped`:
-    /// the world did, in this tick: what comes between two steps is judged as a whole. Returns the
-    /// force to add [N].
-    Vec3 watch(const Handle& handle, const Vec3& p_WP, const Vec3& f_H_W, double stored,
-               bool stepped, double h, unsigned& flags) noexcept;
+    /// Once a tick of h [s]: the handle, the proxy after the tick's step, what the coupling wants
+    /// to do to the handle from now on, and the energy that its springs have then [J]. `stepped`:
+    /// the world did, in this tick: what comes between two steps is judged as a whole. Returns what
+    /// to add.
+    Wrench watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W, double stored,
+                 bool stepped, double h, unsigned& flags) noexcept;
 
     /// Generated within the window, and not dissipated since [J].
     double generated() const { return generated_; }
@@ -38,12 +40,12 @@ class EnergyGuard {
   private:
     EnergyGuardMode mode_;
     bool started_ = false;
-    Vec3 p_WH_ = Vec3::Zero();    // at the last tick
-    Vec3 p_WP_ = Vec3::Zero();    // the same
-    Vec3 f_H_W_ = Vec3::Zero();   // what the coupling has wanted since then
-    Vec3 damper_ = Vec3::Zero();  // what was added to it
-    double stored_ = 0;           // in the spring
-    double since_step_ = 0;       // generated [J]
+    Pose X_WH_;              // at the last tick
+    Pose X_WP_;              // the same
+    Wrench asked_;           // what the coupling has wanted since then
+    Wrench damper_;          // what was added to it
+    double stored_ = 0;      // in the spring
+    double since_step_ = 0;  // generated [J]
     double generated_ = 0;
 };
 

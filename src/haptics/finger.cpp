@@ -20,17 +20,12 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
 }
 
 void Finger::place(World& world, const Handle& handle) noexcept {
-    if (auto* point = std::get_if<PointProxy>(&coupling_)) {
-        point->place(world, handle.p_WH);
-        return;
-    }
-    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
-        point->place(world, handle.p_WH);
-        return;
-    }
     Pose X_WP = world.state(proxy_).X_WB;
     X_WP.p = handle.p_WH;
+    if (turn_) X_WP.R = turn_->wanted(handle);
     world.set_pose(proxy_, X_WP);
+    if (auto* point = std::get_if<PointProxy>(&coupling_)) point->place(world, handle.p_WH);
+    if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->place(world, handle.p_WH);
 }
 
 void Finger::begin_tick(const World& world, const Handle& handle, double step) noexcept {
@@ -48,6 +43,7 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
     } else if (auto* point = std::get_if<SolvedPoint>(&coupling_)) {
         point->before_step(world, handle, step);
     }
+    if (turn_) turn_->before_step(world, proxy_, handle, onset_share(), step);
 }
 
 void Finger::after_step(World& world, const Handle& handle) noexcept {
@@ -92,8 +88,16 @@ Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
         feel(point.contacts());
     }
     stored_ = spring_energy(world, handle);
+    if (turn_) {
+        torque_ = turn_->torque(world, proxy_, touch_.touching, handle, onset_share());
+        stored_ += turn_->stored();
+    }
     std::visit([&](auto& coupling) { coupling.onset().advance(touch_.touching, tick); }, coupling_);
     return f_H_W;
+}
+
+double Finger::onset_share() noexcept {
+    return std::visit([](auto& coupling) { return coupling.onset().share(); }, coupling_);
 }
 
 double Finger::spring_energy(const World& world, const Handle& handle) const noexcept {

@@ -7,6 +7,7 @@
 
 #include "haptics/coupling.h"
 #include "haptics/point_proxy.h"
+#include "haptics/rotational_coupling.h"
 #include "haptics/solved_point.h"
 
 namespace dihaptic::haptics {
@@ -20,6 +21,9 @@ class Finger {
     /// The same with a point for a proxy.
     Finger(PointProxy point, BodyIndex proxy);
     Finger(SolvedPoint point, BodyIndex proxy);
+
+    /// Lets the proxy turn with the handle; its body in the world can.
+    void turn_with_handle(const RotationalCoupling& coupling) { turn_ = coupling; }
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
@@ -38,16 +42,21 @@ class Finger {
     /// Last in every tick: what the coupling wants the handle to feel as it is now [N]. `tick`: its
     /// length [s].
     Vec3 force(World& world, const Handle& handle, double tick) noexcept;
-    /// Energy in its coupling's spring then [J].
+    /// The torque that goes with the last force() [N*m].
+    const Vec3& torque() const noexcept { return torque_; }
+    /// Energy in its coupling's springs then [J].
     double stored() const noexcept { return stored_; }
 
   private:
     void feel(std::span<const contact::Contact> contacts) noexcept;
+    double onset_share() noexcept;
     double spring_energy(const World& world, const Handle& handle) const noexcept;
 
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
+    std::optional<RotationalCoupling> turn_;
     ProxyTouch touch_;
+    Vec3 torque_ = Vec3::Zero();
     double stored_ = 0;
     double step_ = 0;  // of the world [s]
 };

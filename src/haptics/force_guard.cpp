@@ -10,23 +10,34 @@ ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limit
       energy_(settings.energy_guard),
       wall_(limits.workspace, settings.workspace_stiffness, tick),
       limiter_(settings.largest_force(limits.peak_force), settings.max_force_rate,
-               Heating(limits.peak_force, limits.continuous_force, settings.heating_time)) {}
-
-Vec3 ForceGuard::shape(const Vec3& f_asked_W, const Handle& handle, const Vec3& p_WP, double stored,
-                       bool stepped, unsigned& flags) noexcept {
-    const Vec3 damper = energy_.watch(handle, p_WP, f_asked_W, stored, stepped, tick_, flags);
-    const Vec3 push_D = wall_.force(X_DW_ * handle.p_WH, X_DW_.R * handle.v_WH);
-    if (push_D != Vec3::Zero()) flags |= kPushedInward;
-    return f_asked_W + damper + X_WD_.R * push_D;
+               Heating(limits.peak_force, limits.continuous_force, settings.heating_time)) {
+    if (limits.peak_torque <= 0) return;
+    torque_limiter_.emplace(
+        settings.largest_torque(limits.peak_torque), settings.max_torque_rate,
+        Heating(limits.peak_torque, limits.continuous_torque, settings.heating_time));
 }
 
-Vec3 ForceGuard::limit(const Vec3& f_H_W, bool allowed, double share, unsigned& flags) noexcept {
-    if (allowed && share < 1 && f_H_W != Vec3::Zero()) flags |= kSoftStarted;
-    Vec3 limited = limiter_.limit(share * f_H_W, tick_, flags);
+Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP,
+                         double stored, bool stepped, unsigned& flags) noexcept {
+    const Wrench damper = energy_.watch(handle, X_WP, asked_W, stored, stepped, tick_, flags);
+    const Vec3 push_D = wall_.force(X_DW_ * handle.p_WH, X_DW_.R * handle.v_WH);
+    if (push_D != Vec3::Zero()) flags |= kPushedInward;
+    Wrench felt_W{asked_W.force + damper.force + X_WD_.R * push_D, Vec3::Zero()};
+    if (torque_limiter_) felt_W.torque = asked_W.torque + damper.torque;
+    return felt_W;
+}
+
+Wrench ForceGuard::limit(const Wrench& felt_W, bool allowed, double share,
+                         unsigned& flags) noexcept {
+    if (allowed && share < 1 && !felt_W.is_zero()) flags |= kSoftStarted;
+    Wrench limited{limiter_.limit(share * felt_W.force, tick_, flags), Vec3::Zero()};
+    if (torque_limiter_)
+        limited.torque = torque_limiter_->limit(share * felt_W.torque, tick_, flags);
     if (allowed) return limited;
     flags |= kSwitchedOff;
     limiter_.drop();
-    return Vec3::Zero();
+    if (torque_limiter_) torque_limiter_->drop();
+    return {};
 }
 
 }  // namespace dihaptic::haptics

@@ -3,6 +3,8 @@
 //     energy guard -> workspace wall -> share of soft start and dead-man switch -> Limiter
 #pragma once
 
+#include <limits>
+
 #include "haptics/energy_guard.h"
 #include "haptics/limiter.h"
 #include "haptics/workspace_wall.h"
@@ -14,6 +16,8 @@ struct DeviceLimits {
     double peak_force;              ///< [N]
     double continuous_force;        ///< that it can hold for ever; infinite: not known [N]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
+    double peak_torque = 0;         ///< 0: it renders none [N*m]
+    double continuous_torque = std::numeric_limits<double>::infinity();  ///< [N*m]
 };
 
 /// What the guard had to do: see also LimitFlags and EnergyFlags.
@@ -29,14 +33,14 @@ class ForceGuard {
     ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick,
                const Pose& X_WD);
 
-    /// The force that the handle is to feel, for the one that the coupling wants [N]. `p_WP`: its
-    /// proxy after the tick's step; `stored`: energy in the coupling's spring [J]; `stepped`: the
-    /// world did in this tick.
-    Vec3 shape(const Vec3& f_asked_W, const Handle& handle, const Vec3& p_WP, double stored,
-               bool stepped, unsigned& flags) noexcept;
+    /// What the handle is to feel, for what the coupling wants. `X_WP`: its proxy after the tick's
+    /// step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in this tick.
+    /// No torque where the device renders none.
+    Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
+                 bool stepped, unsigned& flags) noexcept;
     /// The part of it that the device may be told. `allowed`: by the dead-man switch, without which
-    /// force is zero at once; `share`: of SoftStart.
-    Vec3 limit(const Vec3& f_H_W, bool allowed, double share, unsigned& flags) noexcept;
+    /// it is zero at once; `share`: of SoftStart.
+    Wrench limit(const Wrench& felt_W, bool allowed, double share, unsigned& flags) noexcept;
     /// Energy that the coupling generated, as EnergyGuard counts it [J].
     double generated() const { return energy_.generated(); }
 
@@ -47,6 +51,7 @@ class ForceGuard {
     EnergyGuard energy_;
     WorkspaceWall wall_;
     Limiter limiter_;
+    std::optional<Limiter> torque_limiter_;  // of a device that renders torque
 };
 
 }  // namespace dihaptic::haptics

@@ -1,5 +1,5 @@
-// The last thing that happens to a force before a device gets it: finite, no larger and changing no
-// faster than allowed, by the device's motors too.
+// The last thing that happens to a force before a device gets it, and to a torque: finite, no
+// larger and changing no faster than allowed, by the device's motors too.
 #pragma once
 
 #include "haptics/heating.h"
@@ -18,7 +18,7 @@ enum LimitFlags : unsigned {
 
 class Limiter {
   public:
-    /// Largest magnitude [N] and largest change in magnitude [N/s].
+    /// Largest magnitude [N] and largest change in magnitude [N/s]; of a torque [N*m], [N*m/s].
     Limiter(double max_force, double max_rate, const Heating& heating = {})
         : max_force_(max_force), max_rate_(max_rate), heating_(heating) {}
 

@@ -3,14 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::haptics {
+namespace {
+
+/// Numbers, and an orientation that is one.
+bool is_sound(const Handle& read) noexcept {
+    constexpr double kUnit = 1e-3;
+    return read.p_WH.allFinite() && read.v_WH.allFinite() && read.w_WH.allFinite() &&
+           std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
+}
+
+}  // namespace
 
 Handle HandleGuard::accept(const Handle& read, bool answers, double elapsed,
                            Fault& fault) noexcept {
     if (trusted_ && !answers) {
         fault.kind = FaultKind::not_answering;
-    } else if (trusted_ && !(read.p_WH.allFinite() && read.v_WH.allFinite())) {
+    } else if (trusted_ && !is_sound(read)) {
         fault.kind = FaultKind::bad_reading;
     } else if (trusted_) {
         double speed = read.v_WH.norm();
@@ -22,10 +33,19 @@ Handle HandleGuard::accept(const Handle& read, bool answers, double elapsed,
             fault.value = speed;
             fault.limit = max_speed_;
         }
+        double turning = read.w_WH.norm();
+        if (seen_ && elapsed > 0 && read.R_WH.coeffs() != last_.R_WH.coeffs())
+            turning = std::max(turning, angle_between(read.R_WH, last_.R_WH) / elapsed);
+        if (!fault && !(turning <= kMostTurning)) {
+            fault.kind = FaultKind::turned_too_fast;
+            fault.value = turning;
+            fault.limit = kMostTurning;
+        }
     }
     if (fault) trusted_ = false;
     if (!trusted_) {
         last_.v_WH.setZero();
+        last_.w_WH.setZero();
         return last_;
     }
     last_ = read;
@@ -55,6 +75,11 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
             remedy =
                 "If no hand did that, look at its cables and encoders; otherwise raise settings: "
                 "safety: max_speed_m_s.";
+            break;
+        case FaultKind::turned_too_fast:
+            what = which + fmt::format("turned at {:.3g} rad/s, and {:g} rad/s are allowed",
+                                       fault.value, fault.limit);
+            remedy = "Look at its cables and the encoders of its gimbal.";
             break;
         case FaultKind::late:
             what = fmt::format("nothing answered the hands for {:.0f} ms, and {:g} ms are allowed",

@@ -13,12 +13,13 @@ namespace dihaptic::haptics {
 
 enum class FaultKind {
     none,
-    bad_reading,    ///< a position or velocity that is not a number
-    not_answering,  ///< the device says nothing
-    too_fast,       ///< the handle moved faster than `max_speed`, or jumped
-    late,           ///< no force was computed for longer than `max_pause`
-    not_finite,     ///< the force that was computed is not a number
-    stopped,        ///< the operator switched force off
+    bad_reading,      ///< a position or velocity that is not a number
+    not_answering,    ///< the device says nothing
+    too_fast,         ///< the handle moved faster than `max_speed`, or jumped
+    turned_too_fast,  ///< or turned faster than kMostTurning
+    late,             ///< no force was computed for longer than `max_pause`
+    not_finite,       ///< the force that was computed is not a number
+    stopped,          ///< the operator switched force off
 };
 
 /// The first fault of a session: what, which device, when.
@@ -26,7 +27,7 @@ struct Fault {
     FaultKind kind = FaultKind::none;
     int device = -1;   ///< -1: all of them
     Time time{0};      ///< of the tick, from activation
-    double value = 0;  ///< of a speed [m/s] or a pause [s]
+    double value = 0;  ///< of a speed [m/s], [rad/s] or a pause [s]
     double limit = 0;  ///< that it exceeded
 
     explicit operator bool() const { return kind != FaultKind::none; }
@@ -48,13 +49,17 @@ class FaultLatch {
     Fault fault_;
 };
 
+/// Largest plausible speed at which a hand turns a handle [rad/s].
+constexpr double kMostTurning = 100;
+
 /// Decides whether one device's readings can be used, from each and the one before:
 ///
 ///     |v_WH| <= max_speed   and   |p_WH - p_WH,old| <= max_speed * (t - t_old)
 ///
-/// The second finds a position that jumps, whatever velocity comes with it. A device that failed
-/// once is not trusted again: its handle then stays where it last was, at rest, so that neither NaN
-/// nor a blow reaches the world that is being recorded.
+/// and the same for turning, with kMostTurning. The second finds a position that jumps, whatever
+/// velocity comes with it. A device that failed once is not trusted again: its handle then stays
+/// where it last was, at rest, so that neither NaN nor a blow reaches the world that is being
+/// recorded.
 class HandleGuard {
   public:
     /// Largest plausible speed of a hand [m/s].

@@ -21,6 +21,12 @@ struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
     std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
+    /// The two as shares of what the devices render calmly; unset, once that is known and they are
+    /// in N/m and N*s/m.
+    std::optional<double> stiffness_share;
+    std::optional<double> damping_share;
+    double turn_stiffness = 1;           ///< k_r, where the device measures orientation [N*m/rad]
+    std::optional<double> turn_damping;  ///< c_r [N*m*s/rad]; unset: k_r h / 2
     double onset = 0;  ///< from first touch to full stiffness and damping; 0: at once [s]
 
     // dual spring only
@@ -36,12 +42,36 @@ struct CouplingSettings {
         v("kind", kind);
         v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
         v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("stiffness_share", stiffness_share, Field::number().positive().at_most(1));
+        v("damping_share", damping_share, Field::number().within(0, 1));
+        if constexpr (requires { v.diagnostics(); }) {
+            one_of_two(v, "stiffness", Quantity::stiffness, stiffness_share);
+            one_of_two(v, "damping", Quantity::damping, damping_share);
+        }
+        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).positive());
+        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).at_least(0));
         v("onset", onset, Field::of(Quantity::time).within(0, 1));
         v("body_mass", body_mass, Field::of(Quantity::mass).positive());
         v("body_damping_along", body_damping_along, Field::of(Quantity::damping).at_least(0));
         v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
         v("free_stiffening", free_stiffening, Field::number().at_least(1));
         v("smoothing", smoothing, Field::number().positive().at_most(1));
+    }
+
+  private:
+    /// A value and its share are two spellings of one setting: the later file's counts, and a file
+    /// has one of them.
+    template <class Reader>
+    static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
+                           std::optional<double>& share) {
+        if (!v.has(name, quantity)) return;
+        if (v.has(name + "_share")) {
+            v.diagnostics().error(
+                v.place_of(name + "_share"), name + "_share",
+                "the same " + name + " is given as " + si_key(name, quantity) + " too",
+                "Keep one of the two.");
+        }
+        share.reset();
     }
 };
 
@@ -81,9 +111,11 @@ constexpr auto enum_names(EnergyGuardMode) {
 
 /// What no force may exceed, whatever computed it, and what switches force off.
 struct SafetySettings {
-    std::optional<double> max_force;  ///< magnitude [N]; unset: the device's peak force
-    double max_force_rate = 3000;     ///< change of force, magnitude [N/s]
-    double max_speed = 10;            ///< of a handle; a hand that throws reaches a few m/s [m/s]
+    std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
+    double max_force_rate = 3000;      ///< change of force, magnitude [N/s]
+    std::optional<double> max_torque;  ///< magnitude [N*m]; unset: the device's peak torque
+    double max_torque_rate = 150;      ///< change of torque: of that force at 5 cm [N*m/s]
+    double max_speed = 10;             ///< of a handle; a hand that throws reaches a few m/s [m/s]
     /// From one tick to the next, longer than any tick: so long a force may be held [s].
     double max_pause = 0.04;
     /// In which the device's motors warm, and cool: of the order of a small motor's winding [s].
@@ -96,11 +128,15 @@ struct SafetySettings {
 
     /// Magnitude limit with a device of so much peak force [N].
     double largest_force(double peak) const { return std::min(max_force.value_or(peak), peak); }
+    /// The same of torque [N*m].
+    double largest_torque(double peak) const { return std::min(max_torque.value_or(peak), peak); }
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("max_force", max_force, Field::of(Quantity::force).positive());
         v("max_force_rate", max_force_rate, Field::of(Quantity::force_rate).positive());
+        v("max_torque", max_torque, Field::of(Quantity::torque).positive());
+        v("max_torque_rate", max_torque_rate, Field::of(Quantity::torque_rate).positive());
         v("max_speed", max_speed, Field::of(Quantity::speed).positive());
         v("max_pause", max_pause, Field::of(Quantity::time).within(0.02, 1));
         v("heating_time", heating_time, Field::of(Quantity::time).within(1, 1000));

@@ -145,10 +145,11 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     // a frame with everything in it, measured
     Frame frame;
     frame.fingers.resize(layout.fingers);
+    frame.turns.resize(layout.turns);
     frame.bodies.resize(layout.bodies);
     frame.contacts.resize(contacts);
-    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.bodies +
-                                 256 * contacts);
+    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.turns +
+                                 256 * layout.bodies + 256 * contacts);
     return encode(frame, bytes, Bodies::all);
 }
 
@@ -162,7 +163,8 @@ bool decode(std::span<const std::byte> in, const Layout& layout, Frame& frame) {
     frame.bodies.resize(layout.bodies);
     Reader reader(in);
     Frame::visit(frame, reader);
-    return reader.whole() && frame.fingers.size() == layout.fingers;
+    return reader.whole() && frame.fingers.size() == layout.fingers &&
+           frame.turns.size() == layout.turns;
 }
 
 std::string schema() {

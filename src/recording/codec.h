@@ -15,6 +15,7 @@ namespace dihaptic::recording {
 struct Layout {
     size_t fingers = 0;
     size_t bodies = 0;
+    size_t turns = 0;  ///< fingers whose devices measure orientation
 };
 
 /// Bytes of the largest frame with so many contacts.

@@ -41,10 +41,13 @@ void mark(hid_t object, const std::string& type, const std::string& space = "cor
 
 /// NWB's words for SI units; the same as here for the rest.
 std::string nwb_unit(const std::string& unit) {
-    static const std::map<std::string, std::string> kWords{
-        {"m", "meters"},  {"m/s", "meters/second"},
-        {"N", "newtons"}, {"rad/s", "radians/second"},
-        {"s", "seconds"}, {"1", "n/a"}};
+    static const std::map<std::string, std::string> kWords{{"m", "meters"},
+                                                           {"m/s", "meters/second"},
+                                                           {"N", "newtons"},
+                                                           {"N*m", "newton meters"},
+                                                           {"rad/s", "radians/second"},
+                                                           {"s", "seconds"},
+                                                           {"1", "n/a"}};
     const auto found = kWords.find(unit);
     return found == kWords.end() ? unit : found->second;
 }
@@ -91,7 +94,7 @@ class Series {
 class FrameExporter {
   public:
     FrameExporter(hid_t acquisition, const LogHead& head)
-        : acquisition_(acquisition), head_(head) {}
+        : acquisition_(acquisition), head_(head), turning_(head.turning_fingers()) {}
 
     void add(const servo::Frame& frame) {
         next_ = 0;
@@ -122,6 +125,13 @@ class FrameExporter {
         for (size_t i = 0; i < fingers.size(); ++i) {
             prefix_ = head_.fingers[i] + "_";
             servo::FingerFrame::visit(fingers[i], *this);
+        }
+        prefix_.clear();
+    }
+    void each(const char*, const std::vector<servo::TurnFrame>& turns) {
+        for (size_t i = 0; i < turns.size(); ++i) {
+            prefix_ = turning_[i] + "_";
+            servo::TurnFrame::visit(turns[i], *this);
         }
         prefix_.clear();
     }
@@ -182,6 +192,7 @@ class FrameExporter {
 
     hid_t acquisition_;
     const LogHead& head_;
+    std::vector<std::string> turning_;
     std::string prefix_;
     std::vector<Series> series_;
     size_t next_ = 0;

@@ -14,6 +14,7 @@
 // It holds nothing but what the session computed, so that the same session gives the same file.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <optional>
@@ -32,7 +33,19 @@ struct LogHead : Setup {
     std::vector<std::string> fingers;
     std::vector<std::string> bodies;  ///< of the scene
 
-    Layout layout() const { return {fingers.size(), bodies.size()}; }
+    /// Fingers whose devices measure orientation, in order.
+    std::vector<std::string> turning_fingers() const {
+        std::vector<std::string> out;
+        for (const DeviceRecord& device : devices) {
+            if (device.orientation) out.push_back(device.finger);
+        }
+        return out;
+    }
+    Layout layout() const {
+        const auto turns = std::count_if(devices.begin(), devices.end(),
+                                         [](const DeviceRecord& d) { return d.orientation; });
+        return {fingers.size(), bodies.size(), static_cast<size_t>(turns)};
+    }
     template <class Visitor>
     void visit(Visitor& v) {
         v("tick", tick, Field::of(Quantity::time).positive().required());

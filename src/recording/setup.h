@@ -28,9 +28,12 @@ struct PhaseInfo {
 struct DeviceRecord {
     std::string finger;
     std::string model;
-    double peak_force = 0;                   ///< [N]
-    std::optional<double> continuous_force;  ///< unset: as long as the peak [N]
-    std::optional<Vec3> workspace;           ///< edges of the box around D's origin [m]
+    double peak_force = 0;                    ///< [N]
+    std::optional<double> continuous_force;   ///< unset: as long as the peak [N]
+    std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
+    bool orientation = false;                 ///< whether it is measured
+    double peak_torque = 0;                   ///< [N*m]
+    std::optional<double> continuous_torque;  ///< [N*m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -39,6 +42,9 @@ struct DeviceRecord {
         v("peak_force", peak_force, Field::of(Quantity::force));
         v("continuous_force", continuous_force, Field::of(Quantity::force));
         v("workspace", workspace, Field::length());
+        v("orientation", orientation);
+        v("peak_torque", peak_torque, Field::of(Quantity::torque));
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque));
     }
 };
 

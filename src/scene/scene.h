@@ -76,7 +76,7 @@ constexpr auto enum_names(ProxyKind) {
 }
 
 /// What stands for a finger in the world: no gravity acts on it, and it keeps its canonical
-/// orientation.
+/// orientation, or turns from it with a device that measures orientation.
 struct Finger {
     std::string name;
     Shape shape;

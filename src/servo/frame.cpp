@@ -8,9 +8,10 @@ StatusText describe(Status bit) {
             return {"more contacts than memory was reserved for",
                     "raise settings: dynamics: max_contacts"};
         case kForceLimited:
-            return {"a force was cut to the largest allowed", "soften the coupling, or press less"};
+            return {"a force or a torque was cut to the largest allowed",
+                    "soften the coupling, or press less"};
         case kRateLimited:
-            return {"a force was kept from changing faster than allowed",
+            return {"a force or a torque was kept from changing faster than allowed",
                     "soften the coupling, touch more slowly, or raise settings: safety: "
                     "max_force_rate_N_s"};
         case kNotFinite:
@@ -21,8 +22,8 @@ StatusText describe(Status bit) {
             return {"a handle left its device's workspace",
                     "move the device in the rig file, or the hand"};
         case kForceClamped:
-            return {"a device was asked for more than its peak force",
-                    "lower settings: safety: max_force_N, or soften the coupling"};
+            return {"a device was asked for more than its peak force or torque",
+                    "lower settings: safety: max_force_N or max_torque_Nm, or soften the coupling"};
         case kNoMoreData:
             return {"the recording ended", ""};
         case kOverrun:
@@ -42,14 +43,14 @@ StatusText describe(Status bit) {
         case kNotAnswering:
             return {"a device did not answer", "look at its power and its cables"};
         case kTooFast:
-            return {"a handle jumped, or moved faster than allowed",
+            return {"a handle jumped, or turned or moved faster than allowed",
                     "look at the device's cables and encoders, or raise settings: safety: "
                     "max_speed_m_s"};
         case kLate:
             return {"the hands were left without an answer for longer than allowed",
                     "close other programs, or look for a device that blocks"};
         case kHeatLimited:
-            return {"a force was cut to what the device's motors can bear for long",
+            return {"a force or a torque was cut to what the device's motors can bear for long",
                     "press less, or for shorter; the force comes back as they cool"};
         case kPushedInward:
             return {"a handle was pushed back into its device's workspace",

@@ -80,6 +80,28 @@ struct FingerFrame {
     }
 };
 
+/// Of a finger whose device measures orientation: what it has more than others.
+struct TurnFrame {
+    Quat R_DH = Quat::Identity();  ///< as read from the device: from its neutral orientation
+    Vec3 w_DH = Vec3::Zero();
+    Quat R_WH = Quat::Identity();
+    Vec3 w_WH = Vec3::Zero();
+    Vec3 w_WP = Vec3::Zero();
+    Vec3 t_asked_W = Vec3::Zero();  ///< on the handle, what the coupling wants
+    Vec3 t_sent_W = Vec3::Zero();   ///< on the handle, what the device was told
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("device_orientation", f.R_DH, "1");
+        v("device_angular_velocity", f.w_DH, "rad/s");
+        v("handle_orientation", f.R_WH, "1");
+        v("handle_angular_velocity", f.w_WH, "rad/s");
+        v("proxy_angular_velocity", f.w_WP, "rad/s");
+        v("torque_asked", f.t_asked_W, "N*m");
+        v("torque_sent", f.t_sent_W, "N*m");
+    }
+};
+
 struct BodyFrame {
     Pose X_WB;
     Vec3 v_WB = Vec3::Zero();
@@ -136,6 +158,7 @@ struct Frame {
     double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
     std::vector<FingerFrame> fingers;
+    std::vector<TurnFrame> turns;   ///< of those whose devices measure orientation, in order
     std::vector<BodyFrame> bodies;  ///< of the scene
     std::vector<uint16_t>
         changed;  ///< bodies that changed since the last frame: only these are logged
@@ -159,6 +182,7 @@ struct Frame {
         v("lateness", f.lateness, "s");
         v("tick_duration", f.tick_duration, "s");
         v.each("fingers", f.fingers);
+        v.each("turns", f.turns);
         v.changed("bodies", f.bodies, f.changed);
         v.each("contacts", f.contacts);
     }

@@ -15,6 +15,7 @@ uint32_t fault_status(haptics::FaultKind kind) {
         case haptics::FaultKind::not_answering:
             return kNotAnswering;
         case haptics::FaultKind::too_fast:
+        case haptics::FaultKind::turned_too_fast:
             return kTooFast;
         case haptics::FaultKind::late:
             return kLate;
@@ -58,12 +59,19 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
         force_guards_.emplace_back(
             settings.safety,
-            haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace},
+            haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace,
+                                  info.peak_torque, info.continuous_torque},
             settings.tick(), X_WD_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
-        if (settings.proxy.of(scene.fingers[i]) == haptics::ProxyKind::point) {
-            const dynamics::BodyIndex proxy = world_.add_point(scene.fingers[i], Vec3::Zero());
+        const bool is_point = settings.proxy.of(scene.fingers[i]) == haptics::ProxyKind::point;
+        if (info.measures_orientation) turning_.push_back(i);
+        // a point apart has nothing that could turn a body
+        const bool turns = info.measures_orientation &&
+                           !(is_point && settings.proxy.friction == haptics::PointFriction::apart);
+        if (is_point) {
+            const dynamics::BodyIndex proxy =
+                world_.add_point(scene.fingers[i], Vec3::Zero(), turns);
             if (settings.proxy.friction == haptics::PointFriction::together) {
                 fingers_.emplace_back(
                     haptics::SolvedPoint(scene, proxy, settings.coupling, settings.proxy), proxy);
@@ -72,9 +80,15 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
                     haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
             }
         } else {
-            const dynamics::BodyIndex proxy = world_.add_proxy(scene.fingers[i], Vec3::Zero());
+            const dynamics::BodyIndex proxy =
+                world_.add_proxy(scene.fingers[i], Vec3::Zero(), turns);
             fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling,
                                   settings.safety.largest_force(info.peak_force));
+        }
+        if (turns) {
+            const double inertia = is_point ? 0 : world_.inertia(fingers_[i].proxy());
+            fingers_[i].turn_with_handle(haptics::RotationalCoupling(
+                settings.coupling, inertia, rotation_xyz(scene.fingers[i].rotation)));
         }
         X_DW_.push_back(X_WD_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed);
@@ -84,7 +98,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
     handles_.resize(n);
     device_faults_.resize(n, 0);
     forces_.resize(n);
-    f_D_.resize(n, Vec3::Zero());
+    sent_D_.resize(n);
 }
 
 Servo::~Servo() {
@@ -96,6 +110,7 @@ void Servo::activate() {
     frame_ = {};
     frame_.sequence = -1;
     frame_.fingers.resize(fingers_.size());
+    frame_.turns.resize(turning_.size());
     frame_.bodies.resize(static_cast<size_t>(world_.scene_size()));
     frame_.changed.reserve(frame_.bodies.size());
     frame_.contacts.reserve(world_.contacts().size() + 64 + 8 * static_cast<size_t>(world_.size()));
@@ -106,8 +121,8 @@ void Servo::activate() {
 
 void Servo::deactivate() {
     if (!active_) return;
-    std::fill(f_D_.begin(), f_D_.end(), Vec3::Zero());
-    devices_->write(f_D_);
+    std::fill(sent_D_.begin(), sent_D_.end(), Wrench{});
+    devices_->write(sent_D_);
     devices_->deactivate();
     active_ = false;
 }
@@ -148,7 +163,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
         for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].after_step(world_, handles_[i]);
     }
     make_forces(now);
-    devices_->write(f_D_);
+    devices_->write(sent_D_);
     make_frame(now, commands_, step);
     const bool grace_over = faults_.tripped() && now - faults_.fault().time >= kGrace;
     stopped_ =
@@ -163,7 +178,13 @@ void Servo::measure(Time now) noexcept {
         faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
     }
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        const haptics::Handle read{X_WD_[i] * readings_[i].p_DH, X_WD_[i].R * readings_[i].v_DH};
+        haptics::Handle read{X_WD_[i] * readings_[i].p_DH, X_WD_[i].R * readings_[i].v_DH};
+        if (devices_->info(static_cast<int>(i)).measures_orientation) {
+            // the same turn, about the world's axes
+            const Quat& R_WD = X_WD_[i].R;
+            read.R_WH = R_WD * readings_[i].R_DH * R_WD.conjugate();
+            read.w_WH = R_WD * readings_[i].w_DH;
+        }
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
@@ -181,11 +202,12 @@ void Servo::make_forces(Time now) noexcept {
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
         force.flags = 0;
-        force.asked_W = fingers_[i].force(world_, handles_[i], settings_.tick());
-        const Vec3& p_WP = world_.state(fingers_[i].proxy()).X_WB.p;
-        force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], p_WP,
+        force.asked_W.force = fingers_[i].force(world_, handles_[i], settings_.tick());
+        force.asked_W.torque = fingers_[i].torque();
+        const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
+        force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.flags);
-        asked = asked || force.felt_W != Vec3::Zero();
+        asked = asked || !force.felt_W.is_zero();
     }
     const bool allowed = switch_held();
     const double share = soft_start_.share(allowed, asked, settings_.tick());
@@ -197,8 +219,9 @@ void Servo::make_forces(Time now) noexcept {
     }
     // one finger's fault is every finger's: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        if (faults_.tripped()) forces_[i].sent_W.setZero();
-        f_D_[i] = X_DW_[i].R * forces_[i].sent_W;
+        if (faults_.tripped()) forces_[i].sent_W = {};
+        const Wrench& sent_W = forces_[i].sent_W;
+        sent_D_[i] = {X_DW_[i].R * sent_W.force, X_DW_[i].R * sent_W.torque};
     }
 }
 
@@ -239,14 +262,24 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         out.p_WP = proxy.X_WB.p;
         out.v_WP = proxy.v_WB;
         out.R_WP = proxy.X_WB.R;
-        out.f_asked_W = forces_[i].asked_W;
-        out.f_sent_W = forces_[i].sent_W;
+        out.f_asked_W = forces_[i].asked_W.force;
+        out.f_sent_W = forces_[i].sent_W.force;
         out.f_contact_W = touch.f_P_W;
         out.normal_force = touch.normal_force;
         const bool finite = out.p_WH.allFinite() && out.v_WH.allFinite() && out.p_WP.allFinite() &&
                             out.v_WP.allFinite();
         if (!finite) out.status |= kNotFinite;
         frame_.status |= out.status;
+    }
+    for (size_t n = 0; n < turning_.size(); ++n) {
+        const size_t i = turning_[n];
+        frame_.turns[n] = {readings_[i].R_DH,
+                           readings_[i].w_DH,
+                           handles_[i].R_WH,
+                           handles_[i].w_WH,
+                           world_.state(fingers_[i].proxy()).w_WB,
+                           forces_[i].asked_W.torque,
+                           forces_[i].sent_W.torque};
     }
     // bodies that were asleep and still are have not changed: only the awake ones are looked at
     const auto states = world_.states();

@@ -104,6 +104,7 @@ class Servo {
     Time period_;
     dynamics::World world_;
     std::vector<haptics::Finger> fingers_;
+    std::vector<size_t> turning_;  // fingers whose devices measure orientation
     std::unique_ptr<devices::DeviceGroup> devices_;
     std::vector<Pose> X_WD_;
     std::vector<Pose> X_DW_;
@@ -116,13 +117,13 @@ class Servo {
     haptics::SoftStart soft_start_;
     int dead_man_ = -1;  // device with the switch; -1: none
     struct Force {
-        Vec3 asked_W = Vec3::Zero();  // by the coupling
-        Vec3 felt_W = Vec3::Zero();   // with what the guard adds
-        Vec3 sent_W = Vec3::Zero();
+        Wrench asked_W;  // by the coupling
+        Wrench felt_W;   // with what the guard adds
+        Wrench sent_W;
         unsigned flags = 0;  // haptics::LimitFlags, EnergyFlags and GuardFlags
     };
     std::vector<Force> forces_;
-    std::vector<Vec3> f_D_;
+    std::vector<Wrench> sent_D_;
     Frame frame_;
     Commands commands_;
     double lateness_ = kUnmeasured;

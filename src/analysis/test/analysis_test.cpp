@@ -50,11 +50,29 @@ TEST(FaultRecord, KeepsTheSecondBeforeTheFaultAndItsTick) {
     ASSERT_EQ(last.size(), table.columns.size());
     EXPECT_EQ(std::get<double>(table.rows.front()[0]), 1);
     EXPECT_EQ(std::get<double>(last[0]), 2);
-    EXPECT_EQ(std::get<std::string>(last[1]),
-              "force was off, after a fault; a handle jumped, or moved faster than allowed");
+    EXPECT_EQ(
+        std::get<std::string>(last[1]),
+        "force was off, after a fault; a handle jumped, or turned or moved faster than allowed");
     EXPECT_EQ(table.columns.back().name, "index_force_sent_z_N");
     EXPECT_EQ(std::get<double>(last.back()), 0);
     EXPECT_EQ(std::get<double>(table.rows[999].back()), 1.5);
+}
+
+TEST(FaultRecord, HasTorqueOfFingersThatTurn) {
+    FaultRecord record({"thumb", "index"}, {"index"});
+    for (int i = 0; i < 3; ++i) {
+        servo::Frame frame = held(i);
+        frame.turns.resize(1);
+        frame.turns[0].t_sent_W = {0, 0, i < 2 ? 0.1 : 0};
+        if (i == 2) frame.status = servo::kForceOff;
+        record.add(frame);
+    }
+    const Table table = record.table();
+    ASSERT_EQ(table.rows.size(), 3u);
+    ASSERT_EQ(table.rows[1].size(), table.columns.size());
+    EXPECT_EQ(table.columns.back().name, "index_torque_sent_z_Nm");
+    EXPECT_EQ(std::get<double>(table.rows[1].back()), 0.1);
+    EXPECT_EQ(std::get<double>(table.rows[2].back()), 0);
 }
 
 TEST(FaultRecord, HasNothingWithoutAFault) {
@@ -187,10 +205,11 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
     std::vector<std::string> said;
     for (const Event& e : finder.events())
         said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
-    EXPECT_EQ(said, (std::vector<std::string>{
-                        "0 phase reach", "10 touch thumb block", "10 touch index block",
-                        "50 phase lift", "60 lift-off block",
-                        "70 limit a force was kept from changing faster than allowed"}));
+    EXPECT_EQ(said,
+              (std::vector<std::string>{
+                  "0 phase reach", "10 touch thumb block", "10 touch index block", "50 phase lift",
+                  "60 lift-off block",
+                  "70 limit a force or a torque was kept from changing faster than allowed"}));
 }
 
 }  // namespace

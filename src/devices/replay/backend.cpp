@@ -8,12 +8,18 @@ struct Options {
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     std::optional<double> continuous_force;                       ///< [N]
     std::optional<Vec3> workspace;                                ///< edges of the box [m]
+    bool orientation = false;
+    double peak_torque = 0;                   ///< [N*m]
+    std::optional<double> continuous_torque;  ///< [N*m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("peak_force", peak_force, Field::of(Quantity::force).positive());
         v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
         v("workspace", workspace, Field::length().positive());
+        v("orientation", orientation);
+        v("peak_torque", peak_torque, Field::of(Quantity::torque).at_least(0));
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
     }
 };
 
@@ -29,6 +35,9 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
         info.peak_force = options.peak_force;
         if (options.continuous_force) info.continuous_force = *options.continuous_force;
         info.workspace = options.workspace;
+        info.measures_orientation = options.orientation;
+        info.peak_torque = options.peak_torque;
+        if (options.continuous_torque) info.continuous_torque = *options.continuous_torque;
         out.push_back(info);
     }
     diagnostics.throw_if_errors();
@@ -47,7 +56,7 @@ class ReplayGroup final : public DeviceGroup {
         if (recording_(now, readings)) return;
         for (Reading& reading : readings) reading.status |= kNoMoreData;
     }
-    void do_write(std::span<const Vec3>) noexcept override {}
+    void do_write(std::span<const Wrench>) noexcept override {}
 
     std::function<bool(Time, std::span<Reading>)> recording_;
 };

@@ -12,6 +12,11 @@ namespace {
 Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     Options options;
     if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    if (options.peak_torque > 0 && !options.orientation) {
+        diagnostics.error(config.place, "peak_torque",
+                          "a device that renders torque measures orientation",
+                          "Add orientation: yes, or leave out peak_torque_Nm.");
+    }
     return options;
 }
 
@@ -20,6 +25,7 @@ struct Device {
     Pose X_WD;
     Plant plant;
     Encoder encoder;
+    Gimbal gimbal;
     uint32_t clamped = 0;
 };
 
@@ -34,6 +40,15 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
         info.mass = option.mass + context.impedance.mass;
         info.delay = option.delay_ticks * context.tick;
         info.workspace = option.workspace;
+        info.max_stiffness = option.max_stiffness;
+        info.max_damping = option.max_damping;
+        info.measures_orientation = option.orientation;
+        info.peak_torque = option.peak_torque;
+        if (option.continuous_torque) info.continuous_torque = *option.continuous_torque;
+        if (option.orientation) {
+            info.turn_damping = context.impedance.turn_damping;
+            info.inertia = option.inertia;
+        }
         out.push_back(info);
     }
     return out;
@@ -48,7 +63,7 @@ class SimulatedGroup final : public DeviceGroup {
             devices_.push_back({options[i], configs[i].X_WD,
                                 Plant(options[i], context.impedance, context.tremor, context.seed,
                                       static_cast<int>(i), *context.driver),
-                                Encoder(options[i])});
+                                Encoder(options[i]), Gimbal(options[i])});
         }
     }
 
@@ -70,17 +85,27 @@ class SimulatedGroup final : public DeviceGroup {
                 now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
             readings[i] = {measured.p, measured.v, static_cast<uint32_t>(device.options.buttons),
                            device.clamped};
+            if (device.options.orientation) {
+                const Quat& R_WD = device.X_WD.R;
+                const Gimbal::Measured turned =
+                    device.gimbal.measure(now, R_WD.conjugate() * device.plant.R_WH() * R_WD,
+                                          X_DW.R * device.plant.w_WH());
+                readings[i].R_DH = turned.R;
+                readings[i].w_DH = turned.w;
+            }
             if (const auto& box = device.options.workspace;
                 box && (measured.p.array().abs() > box->array() / 2).any()) {
                 readings[i].status |= kOutsideWorkspace;
             }
         }
     }
-    void do_write(std::span<const Vec3> f_D) noexcept override {
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
         for (size_t i = 0; i < devices_.size(); ++i) {
             Device& device = devices_[i];
-            device.clamped =
-                device.plant.hold(device.X_WD.R * f_D[i]) ? uint32_t{kForceClamped} : 0;
+            const Quat& R_WD = device.X_WD.R;
+            const bool clamped =
+                device.plant.hold({R_WD * wrenches_D[i].force, R_WD * wrenches_D[i].torque});
+            device.clamped = clamped ? uint32_t{kForceClamped} : 0;
         }
     }
 
@@ -108,10 +133,13 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
         if (Plant::holds(option, context.impedance)) continue;
         diagnostics.error(
             context.impedance.place, "impedance",
-            fmt::format("the hand is stiffer or more damped than a simulated device of {:g} g can "
-                        "follow",
-                        (option.mass + context.impedance.mass) * 1e3),
-            "A finger has about 300 N/m and 3 N*s/m: check the units.");
+            fmt::format(
+                "the hand is stiffer or more damped than a simulated device of {:g} g{} can "
+                "follow",
+                (option.mass + context.impedance.mass) * 1e3,
+                option.orientation ? fmt::format(" and {:g} g cm^2", option.inertia * 1e7) : ""),
+            "A finger has about 300 N/m and 3 N*s/m, and turns a handle with 1 N*m/rad and 0.02 "
+            "N*m*s/rad: check the units.");
         break;
     }
     diagnostics.throw_if_errors();

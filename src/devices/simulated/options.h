@@ -11,10 +11,13 @@
 namespace dihaptic::devices::simulated {
 
 /// plant: a bare mass, as the benchmarks use it. premium_1_0: SensAble PHANToM Premium 1.0, from
-/// its data sheet.
-enum class Preset { plant, premium_1_0 };
+/// its data sheet. touch: 3D Systems Touch, which measures orientation; sigma_7: Force Dimension
+/// sigma.7 without its gripper, which renders torque too. What the three render calmly, and the
+/// sigma.7's force and torque, are what CHAI3D 3.3 has; masses, inertias, friction and steps of the
+/// last two are estimates.
+enum class Preset { plant, premium_1_0, touch, sigma_7 };
 constexpr auto enum_names(Preset) {
-    return std::array{"plant", "premium_1_0"};
+    return std::array{"plant", "premium_1_0", "touch", "sigma_7"};
 }
 
 struct Options {
@@ -27,7 +30,15 @@ struct Options {
     int delay_ticks = 0;                     ///< a force acts so many ticks after it was written
     int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
     int buttons = 0;          ///< that the simulated hand holds down, a bit each
-    std::optional<Vec3> workspace;  ///< edges of the reachable box around D's origin [m]
+    std::optional<Vec3> workspace;        ///< edges of the reachable box around D's origin [m]
+    std::optional<double> max_stiffness;  ///< that the maker says it renders calmly [N/m]
+    std::optional<double> max_damping;    ///< the same [N*s/m]
+
+    bool orientation = false;  ///< whether it is measured: else the endpoint does not turn
+    double peak_torque = 0;    ///< larger torques are clamped; 0: it renders none [N*m]
+    std::optional<double> continuous_torque;  ///< that the motors can hold for long [N*m]
+    double inertia = 1e-4;  ///< of the handle about its endpoint, alike about all axes [kg*m^2]
+    double angle_step = 0;  ///< of the three encoders of its gimbal; 0: exact [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -42,6 +53,13 @@ struct Options {
         v("velocity_window", velocity_window, Field::number().at_least(1).at_most(kMostWindow));
         v("buttons", buttons, Field::number().within(0, 0x7fffffff));
         v("workspace", workspace, Field::length().positive());
+        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
+        v("max_damping", max_damping, Field::of(Quantity::damping).positive());
+        v("orientation", orientation);
+        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(0, 100));
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
+        v("inertia", inertia, Field::of(Quantity::inertia).within(1e-7, 1));
+        v("angle_step", angle_step, Field::of(Quantity::angle).within(0, 0.1));
     }
 
     static constexpr int kMostWindow = 64;

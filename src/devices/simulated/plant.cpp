@@ -15,6 +15,32 @@ Options Options::of(Preset preset) {
         options.position_step = 0.03e-3;
         options.friction = 0.04;
         options.workspace = Vec3(0.254, 0.178, 0.127);
+        options.max_stiffness = 1000;
+        options.max_damping = 8;
+    }
+    if (preset == Preset::touch) {
+        options.mass = 0.045;
+        options.peak_force = 3.3;
+        options.continuous_force = 0.88;
+        options.position_step = 0.055e-3;
+        options.friction = 0.26;
+        options.workspace = Vec3(0.16, 0.12, 0.07);
+        options.max_stiffness = 400;
+        options.max_damping = 4;
+        options.orientation = true;
+        options.angle_step = 1.5e-3;
+    }
+    if (preset == Preset::sigma_7) {
+        options.mass = 0.2;
+        options.peak_force = 12;
+        options.position_step = 1.5e-6;
+        options.workspace = Vec3(0.15, 0.15, 0.15);
+        options.max_stiffness = 4000;
+        options.max_damping = 30;
+        options.orientation = true;
+        options.peak_torque = 0.2;
+        options.inertia = 2e-4;
+        options.angle_step = 2.3e-4;
     }
     return options;
 }
@@ -26,13 +52,16 @@ Plant::Plant(const Options& options, const hand::Impedance& impedance,
       tremor_(tremor, seed, finger),
       index_(finger),
       driver_(driver),
-      pending_(static_cast<size_t>(options.delay_ticks) + 1, Vec3::Zero()) {}
+      pending_(static_cast<size_t>(options.delay_ticks) + 1) {}
 
 bool Plant::holds(const Options& options, const hand::Impedance& impedance) {
     const double h = seconds(kStep);
     const double mass = options.mass + impedance.mass;
     const double k = impedance.stiffness + impedance.stiffness_per_force * options.peak_force;
-    return k * h * h + 2 * impedance.damping * h < 4 * mass;
+    const bool turns =
+        !options.orientation ||
+        impedance.turn_stiffness * h * h + 2 * impedance.turn_damping * h < 4 * options.inertia;
+    return turns && k * h * h + 2 * impedance.damping * h < 4 * mass;
 }
 
 void Plant::reset() {
@@ -41,23 +70,29 @@ void Plant::reset() {
     tremor_.add(target, 0);
     p_ = target.p_WT;
     v_.setZero();
+    R_ = target.R_WT;
+    w_.setZero();
     release();
 }
 
 void Plant::release() noexcept {
-    std::fill(pending_.begin(), pending_.end(), Vec3::Zero());
+    std::fill(pending_.begin(), pending_.end(), Wrench{});
 }
 
-bool Plant::hold(const Vec3& f_W) noexcept {
-    const double size = f_W.norm();
-    const bool clamped = size > options_.peak_force;
+bool Plant::hold(const Wrench& wrench_W) noexcept {
     newest_ = (newest_ + 1) % pending_.size();
-    pending_[newest_] = clamped ? Vec3(f_W * (options_.peak_force / size)) : f_W;
-    return clamped;
+    Wrench& out = pending_[newest_];
+    out = wrench_W;
+    const double force = out.force.norm();
+    const double torque = out.torque.norm();
+    if (force > options_.peak_force) out.force *= options_.peak_force / force;
+    if (torque > options_.peak_torque) out.torque *= options_.peak_torque / torque;
+    return force > options_.peak_force || torque > options_.peak_torque;
 }
 
 void Plant::advance(Time now) noexcept {
-    const Vec3& f_device = pending_[(newest_ + 1) % pending_.size()];
+    const Wrench& device = pending_[(newest_ + 1) % pending_.size()];
+    const Vec3& f_device = device.force;
     const double mass = options_.mass + finger_.mass();
     while (time_ < now) {
         const Time step = std::min(kStep, now - time_);
@@ -71,6 +106,10 @@ void Plant::advance(Time now) noexcept {
             v_ *= speed > most ? 1 - most / speed : 0;
         }
         p_ += h * v_;
+        if (options_.orientation) {
+            w_ += h / options_.inertia * (finger_.turn(target, R_, w_) + device.torque);
+            R_ = (rotation_by(h * w_) * R_).normalized();
+        }
         time_ += step;
     }
 }
@@ -78,13 +117,18 @@ void Plant::advance(Time now) noexcept {
 Encoder::Measured Encoder::measure(Time now, const Vec3& p, const Vec3& v) noexcept {
     if (step_ <= 0) return {p, v};
     const Vec3 stepped = (p / step_).array().round().matrix() * step_;
-    const auto size = static_cast<int>(past_.size());
-    past_[static_cast<size_t>(count_ % size)] = {now, stepped};
-    const int back = std::min(window_, count_);
-    const Sample& old = past_[static_cast<size_t>((count_ - back) % size)];
-    ++count_;
-    if (back == 0) return {stepped, Vec3::Zero()};
-    return {stepped, (stepped - old.p) / seconds(now - old.time)};
+    const auto* old = past_.exchange(now, stepped);
+    if (old == nullptr) return {stepped, Vec3::Zero()};
+    return {stepped, (stepped - old->value) / seconds(now - old->time)};
+}
+
+Gimbal::Measured Gimbal::measure(Time now, const Quat& R, const Vec3& w) noexcept {
+    if (step_ <= 0) return {R, w};
+    const Vec3 angles = angles_xyz(R);
+    const Quat stepped = rotation_xyz((angles / step_).array().round().matrix() * step_);
+    const auto* old = past_.exchange(now, stepped);
+    if (old == nullptr) return {stepped, Vec3::Zero()};
+    return {stepped, rotation_vector(stepped * old->value.conjugate()) / seconds(now - old->time)};
 }
 
 }  // namespace dihaptic::devices::simulated

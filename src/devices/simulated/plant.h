@@ -4,9 +4,13 @@
 //
 // integrated at 10 kHz (semi-implicit Euler), with the device's force held from write to write,
 // clamped to its peak, and acting `delay_ticks` late. Coulomb friction takes up to friction * h of
-// momentum a step and holds the endpoint when it can.
+// momentum a step and holds the endpoint when it can. Where orientation is measured the endpoint
+// turns too, alike and without friction, with the same inertia I about all axes:
+//
+//     I dw/dt = t_finger + t_device,    R <- exp(h w) R
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "base/clock.h"
@@ -22,20 +26,22 @@ class Plant {
 
     /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
     /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
-    /// for a + 2 b < 4. k is the stiffness at the device's peak force.
+    /// for a + 2 b < 4. k is the stiffness at the device's peak force. The same for turning.
     static bool holds(const Options& options, const hand::Impedance& impedance);
 
     /// Puts the endpoint at the finger's target, at rest.
     void reset();
     /// Moves on to `now`.
     void advance(Time now) noexcept;
-    /// The force to hold from now on, in world axes [N]; true when it had to be clamped.
-    bool hold(const Vec3& f_W) noexcept;
+    /// What to hold from now on, in world axes; true when it had to be clamped.
+    bool hold(const Wrench& wrench_W) noexcept;
     /// No force from now on, whatever is on its way.
     void release() noexcept;
 
     const Vec3& p_WH() const { return p_; }
     const Vec3& v_WH() const { return v_; }
+    const Quat& R_WH() const { return R_; }
+    const Vec3& w_WH() const { return w_; }
 
   private:
     static constexpr Time kStep = std::chrono::microseconds(100);
@@ -48,15 +54,44 @@ class Plant {
     Time time_{0};
     Vec3 p_ = Vec3::Zero();
     Vec3 v_ = Vec3::Zero();
-    std::vector<Vec3> pending_;  // forces written, the oldest acting now; delay_ticks + 1 of them
+    Quat R_ = Quat::Identity();
+    Vec3 w_ = Vec3::Zero();
+    std::vector<Wrench> pending_;  // written, the oldest acting now; delay_ticks + 1 of them
     size_t newest_ = 0;
+};
+
+/// The last so many values of one sensor, for a velocity from its steps.
+template <class T>
+class Past {
+  public:
+    explicit Past(int window) : window_(window) {}
+
+    struct Sample {
+        Time time{0};
+        T value;
+    };
+    /// Keeps a value, and returns the one that was `window` ticks before, or the oldest; none for
+    /// the first.
+    const Sample* exchange(Time now, const T& value) noexcept {
+        const auto size = static_cast<int>(past_.size());
+        past_[static_cast<size_t>(count_ % size)] = {now, value};
+        const int back = std::min(window_, count_);
+        const Sample& old = past_[static_cast<size_t>((count_ - back) % size)];
+        ++count_;
+        return back == 0 ? nullptr : &old;
+    }
+
+  private:
+    int window_;
+    std::array<Sample, Options::kMostWindow + 1> past_{};
+    int count_ = 0;
 };
 
 /// What an encoder and a driver make of a position: steps, and a velocity from past positions.
 class Encoder {
   public:
     explicit Encoder(const Options& options)
-        : step_(options.position_step), window_(options.velocity_window) {}
+        : step_(options.position_step), past_(options.velocity_window) {}
 
     struct Measured {
         Vec3 p;
@@ -65,14 +100,26 @@ class Encoder {
     Measured measure(Time now, const Vec3& p, const Vec3& v) noexcept;
 
   private:
-    struct Sample {
-        Time time;
-        Vec3 p;
-    };
     double step_;
-    int window_;
-    std::array<Sample, Options::kMostWindow + 1> past_{};
-    int count_ = 0;
+    Past<Vec3> past_;
+};
+
+/// The same of an orientation, whose gimbal has an encoder for each of the angles of
+/// rotation_xyz().
+class Gimbal {
+  public:
+    explicit Gimbal(const Options& options)
+        : step_(options.angle_step), past_(options.velocity_window) {}
+
+    struct Measured {
+        Quat R;
+        Vec3 w;
+    };
+    Measured measure(Time now, const Quat& R, const Vec3& w) noexcept;
+
+  private:
+    double step_;
+    Past<Quat> past_;
 };
 
 }  // namespace dihaptic::devices::simulated

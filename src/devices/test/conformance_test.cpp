@@ -42,7 +42,7 @@ TEST_P(Conformance, LivesThroughItsLifeCycleTwice) {
     ASSERT_EQ(group->size(), 2);
     EXPECT_FALSE(group->info(0).model.empty());
     std::vector<Reading> readings(2);
-    const std::vector<Vec3> forces(2, Vec3(0.1, 0, 0));
+    const std::vector<Wrench> forces(2, {Vec3(0.1, 0, 0), Vec3::Zero()});
     for (int life = 0; life < 2; ++life) {
         group->activate();
         for (int i = 0; i < 10; ++i) {
@@ -62,7 +62,7 @@ TEST_P(Conformance, AllocatesNothingInTheCycle) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     const auto group = make();
     std::vector<Reading> readings(2);
-    const std::vector<Vec3> forces(2, Vec3(0.1, 0, 0));
+    const std::vector<Wrench> forces(2, {Vec3(0.1, 0, 0), Vec3::Zero()});
     group->activate();
     const testing::AllocationGuard guard;
     for (int i = 0; i < 100; ++i) {
@@ -76,7 +76,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
     const auto group = make();
     if (!group->can_stop()) return;
     std::vector<Reading> readings(2);
-    const std::vector<Vec3> forces(2, Vec3(2, 0, 0));
+    const std::vector<Wrench> forces(2, {Vec3(2, 0, 0), Vec3::Zero()});
     // how far two newtons push the still hand in 50 ms [m]
     const auto pushed = [&] {
         group->read(Time(0), readings);

@@ -90,6 +90,108 @@ TEST(Plan, SettingsComeFromSceneThenRigThenExperimentThenCommandLine) {
     EXPECT_EQ(plan.origins["coupling.stiffness"], "command line");
 }
 
+/// Stiffness and damping as shares of what a Premium renders calmly: 1000 N/m, 8 N*s/m.
+struct SharedFiles : Files {
+    SharedFiles() {
+        rig =
+            "devices:\n"
+            "  - {finger: thumb, backend: simulated, options: {preset: premium_1_0}}\n"
+            "  - {finger: index, backend: simulated, options: {preset: premium_1_0}}\n";
+    }
+};
+
+TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
+    SharedFiles files;
+    files.experiment +=
+        "settings: {coupling: {stiffness_share: 0.5, damping_share: 0.1}, proxy: {kind: point}}\n";
+    Plan plan = make_plan(files.request());
+    EXPECT_EQ(plan.settings.coupling.stiffness, 500);
+    EXPECT_EQ(plan.settings.coupling.damping, 0.8);
+    // what a session freezes has the values, once
+    EXPECT_FALSE(plan.settings.coupling.stiffness_share);
+    EXPECT_FALSE(plan.settings.coupling.damping_share);
+    EXPECT_NE(
+        plan.origins["coupling.stiffness"].find("experiment.yaml:3 (0.5 of the device's 1000 N/m)"),
+        std::string::npos)
+        << plan.origins["coupling.stiffness"];
+    EXPECT_EQ(plan.origins.count("coupling.stiffness_share"), 0u);
+    // a later word on it counts, whichever way it is said
+    Request request = files.request();
+    request.set = {"coupling.stiffness_N_m=700"};
+    EXPECT_EQ(make_plan(request).settings.coupling.stiffness, 700);
+    request.set.emplace_back("coupling.stiffness_share=0.25");
+    plan = make_plan(request);
+    EXPECT_EQ(plan.settings.coupling.stiffness, 250);
+    EXPECT_EQ(plan.origins["coupling.stiffness"], "command line (0.25 of the device's 1000 N/m)");
+}
+
+TEST(Plan, ASharesMaximumIsThatOfTheDeviceThatRendersLeast) {
+    SharedFiles files;
+    files.rig += "  - {finger: middle, backend: simulated, options: {max_stiffness_N_m: 400}}\n";
+    files.scene +=
+        "fingers: [{name: thumb, shape: sphere, radius_mm: 8}, {name: middle, shape: "
+        "sphere, radius_mm: 8}]\nhand: {fingers: [{name: thumb, side: [-1, 0, 0]}, "
+        "{name: middle, side: [1, 0, 0]}]}\n";
+    files.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
+    EXPECT_EQ(make_plan(files.request()).settings.coupling.stiffness, 200);
+}
+
+TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
+    SharedFiles both;
+    both.experiment += "settings: {coupling: {stiffness_share: 0.5, stiffness_N_m: 600}}\n";
+    EXPECT_NE(both.messages().find("experiment.yaml:3: error: stiffness_share: the same stiffness "
+                                   "is given as stiffness_N_m too. Keep one of the two."),
+              std::string::npos)
+        << both.messages();
+    SharedFiles damping;
+    damping.experiment += "settings: {coupling: {damping_Ns_m: 2, damping_share: 0.5}}\n";
+    EXPECT_NE(damping.messages().find("the same damping is given as damping_Ns_m too"),
+              std::string::npos)
+        << damping.messages();
+    SharedFiles large;
+    large.experiment += "settings: {coupling: {stiffness_share: 1.5}}\n";
+    EXPECT_NE(large.messages().find("stiffness_share: must be above 0 and at most 1, is 1.5"),
+              std::string::npos)
+        << large.messages();
+    Files ideal;
+    ideal.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
+    EXPECT_NE(
+        ideal.messages().find("experiment.yaml:3: error: coupling.stiffness_share: simulated plant "
+                              "does not say what stiffness it renders at most. Give "
+                              "coupling: stiffness_N_m, or another rig."),
+        std::string::npos)
+        << ideal.messages();
+    servo::Settings settings;
+    EXPECT_THROW(apply_setting(settings, "coupling.stiffness_share=0.5"), Error);
+}
+
+TEST(Plan, WarnsOfTurningStiffnessThatTheLoopCannotHold) {
+    Files files;
+    files.rig =
+        "devices:\n"
+        "  - {finger: thumb, backend: simulated, options: {preset: sigma_7}}\n"
+        "  - {finger: index, backend: simulated, options: {preset: sigma_7}}\n";
+    files.experiment += "settings: {coupling: {turn_stiffness_Nm_rad: 39}}\n";
+    EXPECT_EQ(files.messages(), "");
+    files.experiment =
+        "scene: scene.yaml\nrig: rig.yaml\n"
+        "settings: {coupling: {turn_stiffness_Nm_rad: 50}}\n";
+    EXPECT_NE(files.messages().find("warning: coupling.turn_stiffness: 50 N*m/rad is above 40 "
+                                    "N*m/rad (2 b / T), up to which the hand's damping of 0.02 "
+                                    "N*m*s/rad surely keeps simulated sigma_7 calm"),
+              std::string::npos)
+        << files.messages();
+}
+
+TEST(Plan, RefusesTorqueFromADeviceThatDoesNotMeasureOrientation) {
+    Files files;
+    files.rig = "devices:\n  - {finger: thumb, backend: simulated, options: {peak_torque_Nm: 1}}\n";
+    EXPECT_NE(files.messages().find("a device that renders torque measures orientation. Add "
+                                    "orientation: yes, or leave out peak_torque_Nm."),
+              std::string::npos)
+        << files.messages();
+}
+
 TEST(Plan, ASceneAloneRunsOnIdealDevices) {
     Files files;
     files.request();

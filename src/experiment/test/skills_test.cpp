@@ -1,6 +1,8 @@
 // What the shipped experiments have the hand do with a block, against mechanics, with every solver.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "analysis/session_report.h"
 #include "experiment/session_run.h"
 #include "recording/raw_log.h"
@@ -125,6 +127,28 @@ TEST_P(Skills, ABlockChangesHandsWithoutFalling) {
     }
     const double k = 1 / (1 / 300.0 + 1 / 1000.0);
     EXPECT_NEAR((before - after) / (0.1 * kGravity / (2 * k)), 1, 0.05);
+}
+
+TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
+    const auto found = run("lift-on-spatula");
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].kind, EpisodeKind::hold);
+    EXPECT_LT(found[0].slip, 1e-4);
+    // level, and tilted by 10 degrees and what the weight turns it
+    for (const double when : {2.9, 4.9}) {
+        recording::RawLogReader log(session + "/raw.log");
+        const servo::Frame* frame = log.next();
+        while (seconds(frame->time) < when) frame = log.next();
+        const double distance = frame->bodies[3].X_WB.p.x() - frame->fingers[0].p_WH.x();
+        const Vec3& torque = frame->turns.at(0).t_sent_W;
+        EXPECT_NEAR(torque.y() / (0.1 * kGravity * distance), 1, 0.005) << when;
+        EXPECT_LT(std::hypot(torque.x(), torque.z()), 1e-4);
+        EXPECT_NEAR(frame->fingers[0].f_sent_W.z() / (-0.1 * kGravity), 1, 0.005);
+        // it takes the hand, 1 N*m/rad, and the coupling, 1 N*m/rad, along
+        const double tilt = rotation_vector(frame->fingers[0].R_WP).y();
+        const double script = when > 4 ? 10 * std::numbers::pi / 180 : 0;
+        EXPECT_NEAR(tilt - script, 2 * torque.y(), 1e-3);
+    }
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double forc
              unsigned& flags) {
     const double stored = kStiffness / 2 * (p_P - p_H) * (p_P - p_H);
     return guard
-        .watch({{p_H, 0, 0}, {v_H, 0, 0}}, {p_P, 0, 0}, {force, 0, 0}, stored, true, kTick, flags)
-        .x();
+        .watch({{p_H, 0, 0}, {v_H, 0, 0}}, {{}, {p_P, 0, 0}}, {{force, 0, 0}}, stored, true, kTick,
+               flags)
+        .force.x();
 }
 
 /// A handle and a proxy along x, and the coupling's force on the handle.

@@ -107,20 +107,20 @@ TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
     settings.max_force_rate = 100;  // 0.1 N a tick
     ForceGuard guard(settings, {8.5, kInfinite, {}}, kTick, {});
     unsigned flags = 0;
-    for (int i = 0; i < 50; ++i) guard.limit({2, 0, 0}, true, 1, flags);
-    EXPECT_EQ(guard.limit({2, 0, 0}, true, 1, flags).x(), 2);
+    for (int i = 0; i < 50; ++i) guard.limit({Vec3(2, 0, 0)}, true, 1, flags);
+    EXPECT_EQ(guard.limit({Vec3(2, 0, 0)}, true, 1, flags).force.x(), 2);
     flags = 0;
-    EXPECT_EQ(guard.limit({2, 0, 0}, false, 0, flags), Vec3::Zero());
+    EXPECT_TRUE(guard.limit({Vec3(2, 0, 0)}, false, 0, flags).is_zero());
     EXPECT_EQ(flags & kSwitchedOff, unsigned{kSwitchedOff});
     flags = 0;
-    EXPECT_NEAR(guard.limit({2, 0, 0}, true, 0.5, flags).x(), 0.1, 1e-12);
+    EXPECT_NEAR(guard.limit({Vec3(2, 0, 0)}, true, 0.5, flags).force.x(), 0.1, 1e-12);
     EXPECT_EQ(flags, unsigned{kSoftStarted} | kRateLimited);
 }
 
 TEST(ForceGuard, SeesWhatIsNoNumberWithoutTheSwitchToo) {
     ForceGuard guard({}, {8.5, kInfinite, {}}, kTick, {});
     unsigned flags = 0;
-    guard.limit({std::numeric_limits<double>::quiet_NaN(), 0, 0}, false, 0, flags);
+    guard.limit({Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0)}, false, 0, flags);
     EXPECT_NE(flags & kNotFinite, 0u);
 }
 
@@ -129,9 +129,9 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
     ForceGuard guard({}, {8.5, kInfinite, Vec3(0.2, 0.1, 0.1)}, kTick, X_WD);
     unsigned flags = 0;
     // 2 mm beyond D's x, which is the world's y
-    const Vec3 push =
-        guard.shape(Vec3::Zero(), {{1, 0.102, 0}, Vec3::Zero()}, {1, 0.102, 0}, 0, true, flags);
-    EXPECT_LT((push - Vec3(0, -1, 0)).norm(), 1e-12);
+    const Vec3 p_WH(1, 0.102, 0);
+    const Wrench push = guard.shape({}, {p_WH, Vec3::Zero()}, {{}, p_WH}, 0, true, flags);
+    EXPECT_LT((push.force - Vec3(0, -1, 0)).norm(), 1e-12);
     EXPECT_EQ(flags, unsigned{kPushedInward});
 }
 
@@ -140,9 +140,9 @@ TEST(ForceGuard, CutsToWhatTheMotorsBear) {
     settings.heating_time = 1;
     ForceGuard guard(settings, {8.5, 1.4, {}}, kTick, {});
     unsigned flags = 0;
-    Vec3 force = Vec3::Zero();
-    for (int i = 0; i < 3000; ++i) force = guard.limit({0, 3, 0}, true, 1, flags);
-    EXPECT_NEAR(force.y(), 1.4, 1e-6);
+    Wrench limited;
+    for (int i = 0; i < 3000; ++i) limited = guard.limit({Vec3(0, 3, 0)}, true, 1, flags);
+    EXPECT_NEAR(limited.force.y(), 1.4, 1e-6);
     EXPECT_EQ(flags & kHeatLimited, unsigned{kHeatLimited});
 }
 

@@ -50,6 +50,27 @@ TEST(Codec, GivesBackEveryFieldAndCarriesOverBodiesThatDidNotChange) {
     EXPECT_TRUE(std::isnan(out.lateness));
 }
 
+TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
+    LogHead turning = head();
+    turning.devices.resize(2);
+    turning.devices[1].finger = "index";
+    turning.devices[1].orientation = true;
+    EXPECT_EQ(turning.turning_fingers(), std::vector<std::string>{"index"});
+    servo::Frame in = frame(1);
+    in.turns.resize(1);
+    in.turns[0].R_WH = rotation_by({0.1, 0.2, 0.3});
+    in.turns[0].t_sent_W = {1, 2, 3};
+    std::vector<std::byte> bytes(most_bytes(turning.layout(), 8));
+    const size_t size = encode(in, bytes);
+    ASSERT_GT(size, encode(frame(1), bytes));
+    encode(in, bytes);
+    servo::Frame out;
+    ASSERT_TRUE(decode(std::span(bytes).first(size), turning.layout(), out));
+    EXPECT_EQ(out.turns[0].R_WH.coeffs(), in.turns[0].R_WH.coeffs());
+    EXPECT_EQ(out.turns[0].t_sent_W, Vec3(1, 2, 3));
+    EXPECT_FALSE(decode(std::span(bytes).first(size), head().layout(), out));
+}
+
 TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
     std::vector<std::byte> small(100);
     EXPECT_EQ(encode(frame(1), small), 0u);

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: a, backend: simulated}\n",
             "'a' holds two devices"},
         Bad{"devices:\n  - {finger: a, backend: simulated, options: {preset: premium}}\n",
-            "'premium' is not known. Use plant or premium_1_0."},
+            "'premium' is not known. Use plant, premium_1_0, touch or sigma_7."},
         Bad{"devices:\n  - {finger: a, backend: simulated, options: {mass_g: 0}}\n",
             "mass_g: must be positive"},
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: b, backend: replay}\n",

@@ -44,9 +44,9 @@ class FailingGroup final : public devices::DeviceGroup {
         if (plan_.what == Injected::late && plan_.sleeps)
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    void do_write(std::span<const Vec3> f_D) noexcept override {
-        std::copy(f_D.begin(), f_D.end(), told.begin());
-        inner_->write(f_D);
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        for (size_t i = 0; i < told.size(); ++i) told[i] = wrenches_D[i].force;
+        inner_->write(wrenches_D);
     }
 
     std::unique_ptr<devices::DeviceGroup> inner_;

@@ -36,9 +36,9 @@ class SwitchedGroup final : public devices::DeviceGroup {
         inner_->read(now, readings);
         readings[0].buttons = buttons;
     }
-    void do_write(std::span<const Vec3> f_D) noexcept override {
-        std::copy(f_D.begin(), f_D.end(), told.begin());
-        inner_->write(f_D);
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        for (size_t i = 0; i < told.size(); ++i) told[i] = wrenches_D[i].force;
+        inner_->write(wrenches_D);
     }
 };
 

@@ -51,7 +51,7 @@ class BlockingGroup final : public devices::DeviceGroup {
     void do_activate() override {}
     void do_deactivate() override {}
     void do_read(Time, std::span<devices::Reading> readings) noexcept override { readings[0] = {}; }
-    void do_write(std::span<const Vec3>) noexcept override {
+    void do_write(std::span<const Wrench>) noexcept override {
         if (tick_-- != 0) return;
         std::unique_lock lock(mutex_);
         wake_.wait(lock, [&] { return free_; });
