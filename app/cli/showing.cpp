@@ -73,9 +73,10 @@ Showing open_plan(const std::string& file) {
         add_workspace(out, devices.info(static_cast<int>(i)).workspace,
                       rig::device_of(run->plan.rig, out.scene.fingers[i].name).X_WD());
     run->servo->activate();
-    out.next = [run]() -> const servo::Frame* {
-        if (run->servo->stopped()) return nullptr;
-        return &run->servo->tick(run->ticks++ * run->servo->period(), *run->director);
+    out.next = [run, end = out.duration]() -> const servo::Frame* {
+        const Time now = run->ticks++ * run->servo->period();
+        if (run->servo->stopped() || seconds(now) > end) return nullptr;
+        return &run->servo->tick(now, *run->director);
     };
     return out;
 }

@@ -67,6 +67,10 @@ std::string Offscreen::renderer() const {
     return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
 }
 
+void Offscreen::wait() const {
+    glFinish();
+}
+
 Image Offscreen::read() const {
     Image image{width_, height_, {}};
     const size_t row = 3 * static_cast<size_t>(width_);

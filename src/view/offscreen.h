@@ -22,6 +22,8 @@ class Offscreen {
     int height() const { return height_; }
     /// What draws, in OpenGL's words.
     std::string renderer() const;
+    /// Until all is drawn.
+    void wait() const;
     /// What was drawn into the framebuffer; waits for it.
     Image read() const;
 

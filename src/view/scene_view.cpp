@@ -293,7 +293,11 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     return {frame.sequence, frame.time};
 }
 
+/// Over everything: what a finger presses, its handle is in.
 void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_CULL_FACE);
     surface.set("gloss", 1.0);
     surface.set("alpha", 0.35);
     for (size_t i = 0; i < fingers.size(); ++i) {
@@ -301,6 +305,8 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
         surface.set("world_from_model", gl::matrix(displayed_handle(frame, i)));
         fingers[i].model.draw();
     }
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_TRUE);
 }
 
 /// Each twice: what is in front of the bodies as it is, what is hidden in or behind them faintly.

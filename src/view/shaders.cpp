@@ -133,8 +133,8 @@ vec2 visibility(vec3 n) {
     float around = chebyshev(wide, t);
     float above = (t - wide.x) / max(1.0 - around, 0.01) * smoothstep(0.0, 0.08, 1.0 - around);
     vec2 near = textureLod(moments, uv, level(kLightSize * max(above, 0.0))).rg;
-    float key = clamp((chebyshev(near, t) - kBleeding) / (1.0 - kBleeding), 0.0, 1.0);
-    return mix(vec2(1), vec2(key, around), inside);
+    vec2 seen = max((vec2(chebyshev(near, t), around) - kBleeding) / (1.0 - kBleeding), 0.0);
+    return mix(vec2(1), seen, inside);
 }
 
 float line(vec2 p, float spacing, float width) {
