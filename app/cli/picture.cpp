@@ -58,8 +58,7 @@ void add_picture(CLI::App& app) {
                      "which moment [s]; otherwise a scene's start, a session's end")
         ->check(CLI::NonNegativeNumber);
     add_view_options(*command, options);
-    command->add_option("-o,--out", options->out, "the picture, a PNG file")
-        ->capture_default_str();
+    command->add_option("-o,--out", options->out, "the picture, a PNG file")->capture_default_str();
     command->footer(
         "\nExamples:\n"
         "  dihaptic picture scenes/tools.yaml -o tools.png\n"

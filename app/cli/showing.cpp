@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kLayers{"path",     "forces", "contacts",
+const std::vector<std::string> kLayers{"path",      "forces",  "contacts",
                                        "grip-axis", "handles", "workspace"};
 
 void add_workspace(Showing& showing, const std::optional<Vec3>& size, const Pose& X_WD) {
@@ -108,8 +108,9 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
                        "front, above, side, or another of the scene's; otherwise its first");
     command.add_option("--size", options->size, "width and height in pixels")
         ->capture_default_str();
-    command.add_option("--show", options->show,
-                       fmt::format("what else is drawn: {}", fmt::join(kLayers, ", ")))
+    command
+        .add_option("--show", options->show,
+                    fmt::format("what else is drawn: {}", fmt::join(kLayers, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(kLayers));
 }
@@ -117,8 +118,7 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
 Drawer::Drawer(const Showing& showing, const ViewOptions& options)
     : showing_(showing), object_(showing.scene.object_index()) {
     const std::vector<view::Camera> cameras = view::cameras(showing.scene);
-    camera_ =
-        options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
+    camera_ = options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
     const auto wanted = [&](const char* layer) {
         return std::find(options.show.begin(), options.show.end(), layer) != options.show.end();
     };

@@ -18,9 +18,9 @@ namespace dihaptic::cli {
 struct Showing {
     std::string title;
     scene::Scene scene;
-    std::vector<view::Workspace> workspaces;  ///< of the devices that say
-    double duration = 0;                      ///< planned [s]; 0: not known
-    bool recorded = false;                    ///< a session
+    std::vector<view::Workspace> workspaces;    ///< of the devices that say
+    double duration = 0;                        ///< planned [s]; 0: not known
+    bool recorded = false;                      ///< a session
     std::function<const servo::Frame*()> next;  ///< the next frame; null at the end
 };
 

@@ -24,8 +24,8 @@ void make_video(const ViewOptions& options) {
                 movie.add(drawer.draw(shown));
                 ++pictures;
                 if (showing.duration > 0)
-                    line.show(std::min(1.0, static_cast<double>(pictures) / kRate /
-                                                showing.duration));
+                    line.show(
+                        std::min(1.0, static_cast<double>(pictures) / kRate / showing.duration));
                 if (stop_requested) {
                     line.clear();
                     exit_code = kFailed;

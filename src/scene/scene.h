@@ -124,9 +124,9 @@ struct Scene {
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that the summary is about; empty: the first that can move
     std::vector<Camera> cameras;  ///< besides those that every scene has (view/camera.h)
-    Node settings;       ///< settings that this scene asks for (servo::Settings)
-    Node hand;           ///< how the simulated hand tries the scene out (hand::HandSpec)
-    Place bodies_place;  ///< in the scene file
+    Node settings;                ///< settings that this scene asks for (servo::Settings)
+    Node hand;                    ///< how the simulated hand tries the scene out (hand::HandSpec)
+    Place bodies_place;           ///< in the scene file
     Place object_place;
 
     template <class Visitor>

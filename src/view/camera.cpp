@@ -10,8 +10,8 @@ namespace dihaptic::view {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNearest = 0.01;   // [m]
-constexpr double kFurthest = 100;   // [m]
+constexpr double kNearest = 0.01;  // [m]
+constexpr double kFurthest = 100;  // [m]
 
 struct Orbit {
     double distance, azimuth, elevation;
@@ -84,9 +84,9 @@ Camera find_camera(const std::vector<Camera>& cameras, const std::string& name) 
         if (camera.name == name) return camera;
         names.push_back(camera.name);
     }
-    throw Error(fmt::format("there is no camera '{}'", name),
-                fmt::format("There are {}; a scene may have more, under cameras.",
-                            fmt::join(names, ", ")));
+    throw Error(
+        fmt::format("there is no camera '{}'", name),
+        fmt::format("There are {}; a scene may have more, under cameras.", fmt::join(names, ", ")));
 }
 
 Camera orbited(const Camera& camera, double azimuth, double elevation) {

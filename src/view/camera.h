@@ -6,8 +6,8 @@
 //
 //     position = look_at + d (sin azimuth cos elevation, -cos azimuth cos elevation, sin elevation)
 //
-// and the picture's upward axis is the derivative of this by the elevation, so that looking straight
-// down is nothing special: the person's far side is up.
+// and the picture's upward axis is the derivative of this by the elevation, so that looking
+// straight down is nothing special: the person's far side is up.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What of a Frame is shown: the only place where drawing reads poses. They are the true ones until a
-// visual map moves what is seen away from what is felt.
+// What of a Frame is shown: the only place where drawing reads poses. They are the true ones until
+// a visual map moves what is seen away from what is felt.
 #pragma once
 
 #include "servo/frame.h"

@@ -32,12 +32,24 @@ class Name {
     GLuint name_ = 0;
 };
 
-inline void delete_buffer(GLuint n) { glDeleteBuffers(1, &n); }
-inline void delete_vertex_array(GLuint n) { glDeleteVertexArrays(1, &n); }
-inline void delete_texture(GLuint n) { glDeleteTextures(1, &n); }
-inline void delete_framebuffer(GLuint n) { glDeleteFramebuffers(1, &n); }
-inline void delete_renderbuffer(GLuint n) { glDeleteRenderbuffers(1, &n); }
-inline void delete_program(GLuint n) { glDeleteProgram(n); }
+inline void delete_buffer(GLuint n) {
+    glDeleteBuffers(1, &n);
+}
+inline void delete_vertex_array(GLuint n) {
+    glDeleteVertexArrays(1, &n);
+}
+inline void delete_texture(GLuint n) {
+    glDeleteTextures(1, &n);
+}
+inline void delete_framebuffer(GLuint n) {
+    glDeleteFramebuffers(1, &n);
+}
+inline void delete_renderbuffer(GLuint n) {
+    glDeleteRenderbuffers(1, &n);
+}
+inline void delete_program(GLuint n) {
+    glDeleteProgram(n);
+}
 
 using Buffer = Name<delete_buffer>;
 using VertexArray = Name<delete_vertex_array>;

@@ -13,8 +13,8 @@ struct Image {
     std::vector<uint8_t> rgb;  ///< sRGB, three bytes a pixel, rows from top to bottom
 
     const uint8_t* at(int x, int y) const {
-        return &rgb[3 * (static_cast<size_t>(y) * static_cast<size_t>(width) +
-                         static_cast<size_t>(x))];
+        return &rgb[3 *
+                    (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x))];
     }
 };
 

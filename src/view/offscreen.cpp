@@ -44,9 +44,13 @@ Offscreen::Offscreen(int width, int height)
     if (c.display == EGL_NO_DISPLAY || eglInitialize(c.display, nullptr, nullptr) == EGL_FALSE)
         fail("EGL cannot be started");
     eglBindAPI(EGL_OPENGL_API);
-    const std::array<EGLint, 7> wanted{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+    const std::array<EGLint, 7> wanted{EGL_CONTEXT_MAJOR_VERSION,
+                                       3,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       3,
                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                       EGL_NONE};
     c.context = eglCreateContext(c.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
     if (c.context == EGL_NO_CONTEXT ||
         eglMakeCurrent(c.display, EGL_NO_SURFACE, EGL_NO_SURFACE, c.context) == EGL_FALSE)
@@ -80,8 +84,7 @@ Image Offscreen::read() const {
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
     for (size_t y = 0; y < static_cast<size_t>(height_) / 2; ++y) {  // OpenGL's rows rise
         auto* const low = &image.rgb[y * row];
-        std::swap_ranges(low, low + row,
-                         &image.rgb[(static_cast<size_t>(height_) - 1 - y) * row]);
+        std::swap_ranges(low, low + row, &image.rgb[(static_cast<size_t>(height_) - 1 - y) * row]);
     }
     return image;
 }

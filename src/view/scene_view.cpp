@@ -35,7 +35,6 @@ Mat3 light_rotation() {
     return R_WL.transpose();
 }
 
-
 Vec3 ink(const char* hex) {
     return linear_colour(hex);
 }
@@ -118,7 +117,8 @@ struct SceneView::Parts {
         ball = gl::Model(triangles(scene::Shape::sphere(1)));
         for (size_t i = 0; i < scene.bodies.size(); ++i) {
             const scene::Body& body = scene.bodies[i];
-            Thing& thing = bodies.emplace_back(make_thing(body.shape, body.pose(), body_colour(scene, i)));
+            Thing& thing =
+                bodies.emplace_back(make_thing(body.shape, body.pose(), body_colour(scene, i)));
             thing.ground = is_ground(body);
             thing.plane = body.shape.kind == scene::ShapeKind::plane;
         }
@@ -152,8 +152,8 @@ struct SceneView::Parts {
         if (count > 0) start /= count;
         for (size_t i = 0; i < bodies.size(); ++i) {
             if (bodies[i].ground) continue;
-            start_radius = std::max(
-                start_radius, (scene.bodies[i].position - start).norm() + bodies[i].radius);
+            start_radius = std::max(start_radius,
+                                    (scene.bodies[i].position - start).norm() + bodies[i].radius);
         }
         start_radius += 0.05;  // fingers come from around
     }
@@ -265,9 +265,8 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     const double distance = (camera.position - camera.look_at).norm();
     p.surface.use();
     p.surface.set("size", size);
-    p.surface.set("clip_from_world",
-                  projection(camera, static_cast<double>(width) / height, 0.05 * distance,
-                             distance + kPlaneSize));
+    p.surface.set("clip_from_world", projection(camera, static_cast<double>(width) / height,
+                                                0.05 * distance, distance + kPlaneSize));
     p.surface.set("eye", camera.position);
     p.surface.set("middle", p.start);
     p.surface.set("light", light());
@@ -327,9 +326,9 @@ void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& 
         const bool a_finger = contact.a >= first_finger;
         const bool b_finger = contact.b >= first_finger;
         if (overlays.contacts)
-            drawings.push_back(
-                {&ball, placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
-                 ink("#ffffff")});
+            drawings.push_back({&ball,
+                                placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
+                                ink("#ffffff")});
         const double newton = contact.f_B_W.norm();
         if (!overlays.forces || a_finger == b_finger || newton < 0.02) continue;
         const Vec3 f_W = b_finger ? contact.f_B_W : Vec3(-contact.f_B_W);

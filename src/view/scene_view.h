@@ -25,11 +25,11 @@ struct Workspace {
 
 /// What is drawn besides bodies and proxies.
 struct Overlays {
-    bool handles = false;    ///< a ghost of each proxy where its handle is
-    bool forces = false;     ///< on each finger, from what it touches: 25 mm/N
-    bool contacts = false;   ///< where bodies and fingers touch
-    bool grip_axis = false;  ///< from the first finger to the middle of the others
-    std::span<const Vec3> path;              ///< of a body, in W [m]
+    bool handles = false;                   ///< a ghost of each proxy where its handle is
+    bool forces = false;                    ///< on each finger, from what it touches: 25 mm/N
+    bool contacts = false;                  ///< where bodies and fingers touch
+    bool grip_axis = false;                 ///< from the first finger to the middle of the others
+    std::span<const Vec3> path;             ///< of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< of devices
 };
 
@@ -52,8 +52,8 @@ class SceneView {
     SceneView(const SceneView&) = delete;
     SceneView& operator=(const SceneView&) = delete;
 
-    /// Draws a frame of this scene, `width` x `height` pixels from the framebuffer's lower left, and
-    /// returns its stamp.
+    /// Draws a frame of this scene, `width` x `height` pixels from the framebuffer's lower left,
+    /// and returns its stamp.
     Shown draw(const servo::Frame& frame, const Camera& camera, int width, int height,
                const Overlays& overlays = {});
 

@@ -10,8 +10,8 @@ namespace dihaptic::view {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kRound = 48;       // segments of a full circle
-constexpr int kBevel = 3;        // of half a rounded edge
+constexpr int kRound = 48;             // segments of a full circle
+constexpr int kBevel = 3;              // of half a rounded edge
 constexpr double kMostBevel = 1.2e-3;  // [m]
 /// Faces of a mesh that meet at a smaller angle are shaded as one smooth surface.
 const double kSmooth = std::cos(40 * kPi / 180);
@@ -172,8 +172,8 @@ Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector
 void Triangles::append(const Triangles& other, const Pose& X) {
     const auto offset = static_cast<uint32_t>(vertices.size());
     for (const Vertex& v : other.vertices) {
-        vertices.push_back({(X * v.p.cast<double>()).cast<float>(),
-                            (X.R * v.n.cast<double>()).cast<float>()});
+        vertices.push_back(
+            {(X * v.p.cast<double>()).cast<float>(), (X.R * v.n.cast<double>()).cast<float>()});
     }
     for (const uint32_t i : other.indices) indices.push_back(offset + i);
 }

@@ -16,8 +16,7 @@ Mat3 without_red() {
 }
 Mat3 without_green() {
     Mat3 m;
-    m << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940,
-        0.968881;
+    m << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940, 0.968881;
     return m;
 }
 
@@ -26,9 +25,7 @@ Vec3 lab(const Vec3& rgb) {
     Mat3 m;
     m << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
     const Vec3 xyz = (m * rgb.cwiseMax(0)).cwiseQuotient(Vec3(0.9505, 1, 1.089));
-    const auto f = [](double t) {
-        return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116;
-    };
+    const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116; };
     return {116 * f(xyz.y()) - 16, 500 * (f(xyz.x()) - f(xyz.y())),
             200 * (f(xyz.y()) - f(xyz.z()))};
 }

@@ -37,8 +37,8 @@ servo::Frame start(const scene::Scene& scene) {
     return frame;
 }
 
-Image picture(const scene::Scene& scene, const servo::Frame& frame, const Camera& camera,
-              int width, int height, const Overlays& overlays = {}) {
+Image picture(const scene::Scene& scene, const servo::Frame& frame, const Camera& camera, int width,
+              int height, const Overlays& overlays = {}) {
     const Offscreen offscreen = software_offscreen(width, height);
     SceneView view(scene);
     view.draw(frame, camera, width, height, overlays);
@@ -72,14 +72,15 @@ std::vector<double> shares(const scene::Scene& scene, const Vec3& around) {
     const Image lit = picture(bare, start(bare), under(around), kPixels, kPixels);
     std::vector<double> out;
     for (int y = 0; y < kPixels; ++y) {
-        for (int x = 0; x < kPixels; ++x) out.push_back(light_at(image, x, y) / light_at(lit, x, y));
+        for (int x = 0; x < kPixels; ++x)
+            out.push_back(light_at(image, x, y) / light_at(lit, x, y));
     }
     return out;
 }
 
 struct Shadow {
-    Vec3 centre;       // in W
-    double softness;   // from 20 to 80 % of its depth, along x, at its left side [m]
+    Vec3 centre;      // in W
+    double softness;  // from 20 to 80 % of its depth, along x, at its left side [m]
     double darkest;
 };
 
@@ -102,7 +103,8 @@ Shadow shadow_of_block_at(double height) {
         }
     }
     out.centre = out.centre / sum + expected + Vec3(-kSpan / 2, kSpan / 2, 0);
-    const int row = static_cast<int>(std::lround((expected.y() + kSpan / 2 - out.centre.y()) / pixel));
+    const int row =
+        static_cast<int>(std::lround((expected.y() + kSpan / 2 - out.centre.y()) / pixel));
     int soft = 0;
     for (int x = 0; x < kPixels / 2; ++x) {
         const double depth =
@@ -140,8 +142,8 @@ TEST(SceneView, little_light_bleeds_through_two_layers) {
     EXPECT_LT(one, 0.4);
     // README.md: nothing bleeds until the upper layer is four times as high as the lower one
     for (const auto& [height, bound] : {std::pair{0.07, 0.01}, {0.15, 0.01}, {0.25, 0.15}}) {
-        const double two = brightest({lower, box("upper", {0.08, 0.08, 0.004},
-                                                 middle + light * (height / light.z()))});
+        const double two = brightest(
+            {lower, box("upper", {0.08, 0.08, 0.004}, middle + light * (height / light.z()))});
         EXPECT_LT((two - one) / (1 - one), bound) << height;
     }
 }
@@ -211,8 +213,9 @@ void expect_like(const Image& image, const std::string& name) {
     const double share = static_cast<double>(far_off) / static_cast<double>(image.rgb.size());
     if (same_size && mean < 1.5 && share < 0.01) return;
     write_png(image, seen);
-    ADD_FAILURE() << "mean difference " << mean << " of 255, " << 100 * share << " % far off: look at "
-                  << seen << ", and if it is as it should be, copy it to " << reference(name);
+    ADD_FAILURE() << "mean difference " << mean << " of 255, " << 100 * share
+                  << " % far off: look at " << seen << ", and if it is as it should be, copy it to "
+                  << reference(name);
 }
 
 scene::Scene shipped(const char* file) {
