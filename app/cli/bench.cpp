@@ -8,6 +8,7 @@
 #include "measure/jitter.h"
 #include "measure/scale.h"
 #include "measure/solvers.h"
+#include "measure/view.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -280,6 +281,23 @@ void add_jitter(CLI::App& bench) {
     });
 }
 
+void add_view(CLI::App& bench) {
+    auto* command = bench.add_subcommand(
+        "view", "What a picture costs, beside the same one with a plain shadow map");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "one JSON object on standard output, nothing else");
+    command->footer("\nExample:\n  dihaptic bench view");
+    command->callback([json] {
+        std::vector<measure::ViewFigures> figures;
+        {
+            ProgressLine line("bench view");
+            figures = measure::bench_view(
+                60, [&](const std::string& what, double share) { line.show(share, what); });
+        }
+        fmt::print("{}", *json ? to_json(figures) : to_table(figures));
+    });
+}
+
 }  // namespace
 
 void add_bench(CLI::App& app) {
@@ -293,6 +311,7 @@ void add_bench(CLI::App& app) {
     add_contact(*bench);
     add_solvers(*bench);
     add_jitter(*bench);
+    add_view(*bench);
 }
 
 }  // namespace dihaptic::cli

@@ -25,6 +25,8 @@ void add_recover(CLI::App& app);
 void add_check(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
+void add_picture(CLI::App& app);
+void add_video(CLI::App& app);
 
 /// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each
 /// tenth.

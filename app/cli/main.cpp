@@ -72,6 +72,8 @@ int main(int argc, char** argv) {
     cli::add_check(app);
     cli::add_bench(app);
     cli::add_tune(app);
+    cli::add_picture(app);
+    cli::add_video(app);
     try {
         refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);

@@ -61,9 +61,9 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
             return;
         }
         if (shape.concave) {
-            const Mesh surface = closed(mesh, file, place);
-            shape.solid = integrate(surface.vertices, surface.faces);
-            shape.pieces = convex_pieces(surface, file, place, diagnostics);
+            shape.surface = closed(mesh, file, place);
+            shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
+            shape.pieces = convex_pieces(shape.surface, file, place, diagnostics);
             return;
         }
         const double solid = integrate(mesh.vertices, mesh.faces).volume;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "scene/camera.h"
 #include "scene/shape.h"
 
 namespace dihaptic::scene {
@@ -122,9 +123,10 @@ struct Scene {
     std::vector<PairFriction> pairs;
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that the summary is about; empty: the first that can move
-    Node settings;       ///< settings that this scene asks for (servo::Settings)
-    Node hand;           ///< how the simulated hand tries the scene out (hand::HandSpec)
-    Place bodies_place;  ///< in the scene file
+    std::vector<Camera> cameras;  ///< besides those that every scene has (view/camera.h)
+    Node settings;                ///< settings that this scene asks for (servo::Settings)
+    Node hand;                    ///< how the simulated hand tries the scene out (hand::HandSpec)
+    Place bodies_place;           ///< in the scene file
     Place object_place;
 
     template <class Visitor>
@@ -135,6 +137,7 @@ struct Scene {
         v("pairs", pairs);
         v("fingers", fingers);
         v("object", object);
+        v("cameras", cameras);
         v("settings", settings);
         v("hand", hand);
         if constexpr (requires { v.place(); }) {

@@ -43,6 +43,7 @@ struct Shape {
     bool concave = false;     ///< mesh: felt as it is, not as its convex hull
     std::vector<Part> parts;  ///< compound: one at least, none of them a plane or a compound
     Hull hull;                ///< mesh: its convex hull, loaded [m]
+    Mesh surface;             ///< concave mesh: the mesh itself, closed [m]
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
     VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
     Place file_place;         ///< mesh: where its file is named

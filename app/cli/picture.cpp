@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include "showing.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct Options : ViewOptions {
+    std::optional<double> time;
+};
+
+void make_picture(const Options& options) {
+    const Showing showing = open_showing(options.file);
+    Drawer drawer(showing, options);
+    // a scene is shown as it starts, a session as it ended
+    const double time =
+        options.time.value_or(showing.recorded ? std::numeric_limits<double>::infinity() : 0);
+    servo::Frame shown;
+    double end = -1;
+    {
+        ProgressLine line("reading");
+        const double all = std::max(std::min(time, showing.duration), 1e-3);
+        int64_t count = 0;
+        while (const servo::Frame* frame = showing.next()) {
+            end = seconds(frame->time);
+            // the newest frame by then
+            if (end > time + 1e-9 && count > 0) break;
+            shown = *frame;
+            drawer.follow(shown);
+            if (stop_requested) {
+                exit_code = kFailed;
+                fmt::print(stderr, "interrupted: there is no picture\n");
+                return;
+            }
+            if (++count % 2000 == 0) line.show(std::min(1.0, end / all));
+        }
+    }
+    if (end < 0) throw Error({options.file, 0}, "", "has no frame", "Give another session.");
+    if (options.time && end < *options.time - 1e-9)
+        throw Error({"--time", 0}, "",
+                    fmt::format("{:g} s is beyond the end, which is at {:g} s", *options.time, end),
+                    fmt::format("Give a time from 0 to {:g}.", end));
+    view::write_png(drawer.draw(shown), options.out);
+    fmt::print("{}: {} at {:.3f} s\n", options.out, showing.title, seconds(shown.time));
+}
+
+}  // namespace
+
+void add_picture(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "picture", "Draw a scene, an experiment or a recorded session, without a window");
+    auto options = std::make_shared<Options>();
+    options->out = "scene.png";
+    command->add_option("FILE", options->file, "scene, experiment, or folder of a session")
+        ->required();
+    command
+        ->add_option("--time", options->time,
+                     "which moment [s]; otherwise a scene's start, a session's end")
+        ->check(CLI::NonNegativeNumber);
+    add_view_options(*command, options);
+    command->add_option("-o,--out", options->out, "the picture, a PNG file")->capture_default_str();
+    command->footer(
+        "\nExamples:\n"
+        "  dihaptic picture scenes/tools.yaml -o tools.png\n"
+        "  dihaptic picture sessions/2026-11-20_101500_lift-block --time 5 --camera side --show "
+        "path,forces -o lift.png");
+    command->callback([options] { make_picture(*options); });
+}
+
+}  // namespace dihaptic::cli

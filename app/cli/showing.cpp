@@ -1,0 +1,149 @@
+#include "showing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "experiment/phase_director.h"
+#include "experiment/plan.h"
+#include "recording/raw_log.h"
+#include "recording/session.h"
+#include "view/displayed.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kLayers{"path",      "forces",  "contacts",
+                                       "grip-axis", "handles", "workspace"};
+
+void add_workspace(Showing& showing, const std::optional<Vec3>& size, const Pose& X_WD) {
+    if (size) showing.workspaces.push_back({X_WD, *size});
+}
+
+Showing open_session(const std::string& file) {
+    const auto folder = recording::SessionFolder::open(file);
+    auto log = std::make_shared<recording::RawLogReader>(folder.raw_log());
+    const recording::LogHead& head = log->head();
+    Diagnostics diagnostics;
+    Showing out;
+    out.title = head.title;
+    out.recorded = true;
+    out.duration = head.planned();
+    out.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    diagnostics.throw_if_errors();
+    for (const recording::DeviceRecord& device : head.devices)
+        add_workspace(out, device.workspace, rig::device_of(rig, device.finger).X_WD());
+    out.next = [log] { return log->next(); };
+    return out;
+}
+
+Showing open_plan(const std::string& file) {
+    struct Run {
+        experiment::Plan plan;
+        std::unique_ptr<servo::Servo> servo;
+        std::optional<experiment::PhaseDirector> director;
+        int64_t ticks = 0;
+    };
+    auto run = std::make_shared<Run>();
+    experiment::Request request;
+    request.file = file;
+    run->plan = experiment::make_plan(request);
+    for (const rig::Device& device : run->plan.rig.devices) {
+        if (device.backend != "simulated")
+            throw Error(device.place, "backend", "a picture moves simulated devices only",
+                        "Record a session, and give its folder.");
+    }
+    run->servo = experiment::make_servo(run->plan);
+    std::vector<recording::PhaseInfo> phases;
+    for (const hand::Driver::Phase& phase : run->plan.driver->phases())
+        phases.push_back({phase.name, phase.start, phase.end});
+    run->director.emplace(phases, run->plan.settings.tick());
+    Showing out;
+    out.title = run->plan.title;
+    out.scene = run->plan.scene;
+    out.duration = phases.empty() ? 0 : phases.back().end;
+    const devices::DeviceGroup& devices = run->servo->devices();
+    for (size_t i = 0; i < out.scene.fingers.size(); ++i)
+        add_workspace(out, devices.info(static_cast<int>(i)).workspace,
+                      rig::device_of(run->plan.rig, out.scene.fingers[i].name).X_WD());
+    run->servo->activate();
+    out.next = [run, end = out.duration]() -> const servo::Frame* {
+        const Time now = run->ticks++ * run->servo->period();
+        if (run->servo->stopped() || seconds(now) > end) return nullptr;
+        return &run->servo->tick(now, *run->director);
+    };
+    return out;
+}
+
+std::pair<int, int> pixels(const std::string& size) {
+    int width = 0;
+    int height = 0;
+    const char* const last = size.data() + size.size();
+    const auto [x, first] = std::from_chars(size.data(), last, width);
+    if (first == std::errc() && x != last && *x == 'x') {
+        const auto [end, second] = std::from_chars(x + 1, last, height);
+        if (second == std::errc() && end == last && std::min(width, height) >= 16 &&
+            std::max(width, height) <= 8192)
+            return {width, height};
+    }
+    throw Error({"--size", 0}, "", fmt::format("'{}' is no size of a picture", size),
+                "Give width and height in pixels, 16 to 8192 each, such as 1280x720.");
+}
+
+}  // namespace
+
+Showing open_showing(const std::string& file) {
+    return fs::is_directory(file) || fs::path(file).filename() == "raw.log" ? open_session(file)
+                                                                            : open_plan(file);
+}
+
+void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {
+    command.add_option("--camera", options->camera,
+                       "front, above, side, or another of the scene's; otherwise its first");
+    command.add_option("--size", options->size, "width and height in pixels")
+        ->capture_default_str();
+    command
+        .add_option("--show", options->show,
+                    fmt::format("what else is drawn: {}", fmt::join(kLayers, ", ")))
+        ->delimiter(',')
+        ->check(CLI::IsMember(kLayers));
+}
+
+Drawer::Drawer(const Showing& showing, const ViewOptions& options)
+    : showing_(showing), object_(showing.scene.object_index()) {
+    const std::vector<view::Camera> cameras = view::cameras(showing.scene);
+    camera_ = options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
+    const auto wanted = [&](const char* layer) {
+        return std::find(options.show.begin(), options.show.end(), layer) != options.show.end();
+    };
+    path_wanted_ = wanted("path");
+    overlays_.forces = wanted("forces");
+    overlays_.contacts = wanted("contacts");
+    overlays_.grip_axis = wanted("grip-axis");
+    overlays_.handles = wanted("handles");
+    if (wanted("workspace")) overlays_.workspaces = showing.workspaces;
+    const auto [width, height] = pixels(options.size);
+    offscreen_.emplace(width, height);
+    view_.emplace(showing.scene);
+}
+
+void Drawer::follow(const servo::Frame& frame) {
+    if (!path_wanted_ || object_ < 0) return;
+    const Vec3 p = view::displayed_body(frame, static_cast<size_t>(object_)).p;
+    constexpr double kStep = 5e-4;  // [m]
+    if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
+}
+
+view::Image Drawer::draw(const servo::Frame& frame) {
+    overlays_.path = path_;
+    view_->draw(frame, camera_, offscreen_->width(), offscreen_->height(), overlays_);
+    return offscreen_->read();
+}
+
+}  // namespace dihaptic::cli

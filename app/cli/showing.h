@@ -1,0 +1,61 @@
+// What picture and video show: a session as it was recorded, or a scene or an experiment as the
+// simulated hand tries it out.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "scene/scene.h"
+#include "servo/frame.h"
+#include "view/offscreen.h"
+#include "view/scene_view.h"
+
+namespace dihaptic::cli {
+
+struct Showing {
+    std::string title;
+    scene::Scene scene;
+    std::vector<view::Workspace> workspaces;    ///< of the devices that say
+    double duration = 0;                        ///< planned [s]; 0: not known
+    bool recorded = false;                      ///< a session
+    std::function<const servo::Frame*()> next;  ///< the next frame; null at the end
+};
+
+/// Throws Error with what is wrong with the files.
+Showing open_showing(const std::string& file);
+
+/// What both commands are asked for.
+struct ViewOptions {
+    std::string file;
+    std::string camera;
+    std::string size = "1280x720";
+    std::vector<std::string> show;
+    std::string out;
+};
+void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
+
+/// Draws frames as the options say.
+class Drawer {
+  public:
+    Drawer(const Showing& showing, const ViewOptions& options);
+    /// The frame's part of the object's path; call it for every frame.
+    void follow(const servo::Frame& frame);
+    view::Image draw(const servo::Frame& frame);
+    int width() const { return offscreen_->width(); }
+    int height() const { return offscreen_->height(); }
+
+  private:
+    const Showing& showing_;
+    view::Camera camera_;
+    view::Overlays overlays_;
+    bool path_wanted_ = false;
+    int object_ = -1;
+    std::vector<Vec3> path_;
+    std::optional<view::Offscreen> offscreen_;
+    std::optional<view::SceneView> view_;
+};
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include "base/plural.h"
+#include "showing.h"
+#include "view/movie.h"
+
+namespace dihaptic::cli {
+namespace {
+
+constexpr int kRate = 60;  // pictures a second
+
+void make_video(const ViewOptions& options) {
+    const Showing showing = open_showing(options.file);
+    Drawer drawer(showing, options);
+    view::Movie movie(options.out, drawer.width(), drawer.height(), kRate);
+    int64_t pictures = 0;
+    {
+        ProgressLine line("drawing");
+        servo::Frame shown;
+        while (const servo::Frame* frame = showing.next()) {
+            // the newest frame at each picture's time; stretches that a log lacks stand still
+            while (!shown.bodies.empty() &&
+                   seconds(frame->time) > static_cast<double>(pictures) / kRate + 1e-9) {
+                movie.add(drawer.draw(shown));
+                ++pictures;
+                if (showing.duration > 0)
+                    line.show(
+                        std::min(1.0, static_cast<double>(pictures) / kRate / showing.duration));
+                if (stop_requested) {
+                    line.clear();
+                    exit_code = kFailed;
+                    fmt::print(stderr, "interrupted: there is no video\n");
+                    return;
+                }
+            }
+            shown = *frame;
+            drawer.follow(shown);
+        }
+        if (shown.bodies.empty())
+            throw Error({options.file, 0}, "", "has no frame", "Give another session.");
+        movie.add(drawer.draw(shown));
+        ++pictures;
+        movie.finish();
+    }
+    fmt::print("{}: {}, {:.2f} s, {}\n", options.out, showing.title,
+               static_cast<double>(pictures) / kRate, counted(pictures, "picture"));
+}
+
+}  // namespace
+
+void add_video(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("video", "Make a video of a session, a scene or an experiment");
+    auto options = std::make_shared<ViewOptions>();
+    options->out = "session.mp4";
+    command->add_option("FILE", options->file, "folder of a session, scene, or experiment")
+        ->required();
+    add_view_options(*command, options);
+    command->add_option("-o,--out", options->out, "the video, an MP4 file")->capture_default_str();
+    command->footer(
+        "\nIts time is the session's. It needs the Debian package ffmpeg.\n\nExample:\n"
+        "  dihaptic video sessions/2026-11-20_101500_lift-block --show forces -o lift.mp4");
+    command->callback([options] { make_video(*options); });
+}
+
+}  // namespace dihaptic::cli

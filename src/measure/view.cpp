@@ -1,0 +1,100 @@
+#include "measure/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "view/offscreen.h"
+#include "view/scene_view.h"
+
+namespace dihaptic::measure {
+namespace {
+
+scene::Scene block_on_table() {
+    scene::Scene scene;
+    scene.bodies.resize(2);
+    scene.bodies[0].name = "table";
+    scene.bodies[0].shape = scene::Shape::box({0.6, 0.4, 0.05});
+    scene.bodies[0].position = {0, 0, -0.025};
+    scene.bodies[0].fixed = true;
+    scene.bodies[1].name = "block";
+    scene.bodies[1].shape = scene::Shape::box(Vec3::Constant(0.04));
+    scene.bodies[1].mass = 0.1;
+    Diagnostics diagnostics;
+    scene::complete(scene, "", diagnostics);
+    return scene;
+}
+
+servo::Frame frame_at(const scene::Scene& scene, int i) {
+    servo::Frame frame;
+    for (const scene::Body& body : scene.bodies) frame.bodies.push_back({body.pose()});
+    const Vec3 p(0.03 * std::sin(0.1 * i), 0, 0.07 + 0.05 * std::sin(0.07 * i));
+    frame.bodies[1].X_WB.p = p;
+    frame.fingers.resize(2);
+    frame.fingers[0].p_WP = p - Vec3(0.0225, 0, 0);
+    frame.fingers[1].p_WP = p + Vec3(0.0225, 0, 0);
+    return frame;
+}
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+}  // namespace
+
+std::vector<ViewFigures> bench_view(int frames, const Progress& progress) {
+    const scene::Scene scene = block_on_table();
+    const view::Camera camera = view::cameras(scene).front();
+    std::vector<ViewFigures> out;
+    for (const auto& [width, height] : {std::pair{640, 360}, {1280, 720}}) {
+        const view::Offscreen offscreen(width, height);
+        view::SceneView variance(scene, view::Shadows::variance);
+        view::SceneView plain(scene, view::Shadows::plain);
+        std::array<std::vector<double>, 2> times;
+        for (int i = 0; i < frames; ++i) {
+            if (progress)
+                progress(fmt::format("{}x{}", width, height),
+                         0.5 * static_cast<double>(out.size()) + 0.5 * i / frames);
+            for (view::SceneView* drawn : {&variance, &plain}) {
+                const auto begin = std::chrono::steady_clock::now();
+                drawn->draw(frame_at(scene, i), camera, width, height);
+                offscreen.wait();
+                const std::chrono::duration<double, std::milli> took =
+                    std::chrono::steady_clock::now() - begin;
+                // the first makes what the others use
+                if (i > 0) times[drawn == &variance ? 0 : 1].push_back(took.count());
+            }
+        }
+        out.push_back({offscreen.renderer(), width, height, median(times[0]), median(times[1])});
+    }
+    return out;
+}
+
+std::string to_json(const std::vector<ViewFigures>& figures) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (const ViewFigures& f : figures)
+        rows.push_back({{"width", f.width},
+                        {"height", f.height},
+                        {"variance_ms", f.variance_ms},
+                        {"plain_ms", f.plain_ms},
+                        {"ratio", f.variance_ms / f.plain_ms}});
+    return nlohmann::json{{"renderer", figures.front().renderer}, {"sizes", rows}}.dump(2) + "\n";
+}
+
+std::string to_table(const std::vector<ViewFigures>& figures) {
+    std::string out = fmt::format("{}\n{:>10s} {:>13s} {:>9s} {:>7s}\n", figures.front().renderer,
+                                  "pixels", "variance ms", "plain ms", "ratio");
+    for (const ViewFigures& f : figures)
+        out += fmt::format("{:>10s} {:13.1f} {:9.1f} {:7.2f}\n",
+                           fmt::format("{}x{}", f.width, f.height), f.variance_ms, f.plain_ms,
+                           f.variance_ms / f.plain_ms);
+    return out;
+}
+
+}  // namespace dihaptic::measure

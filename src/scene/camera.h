@@ -1,0 +1,27 @@
+// From where a scene is looked at.
+#pragma once
+
+#include <numbers>
+#include <string>
+
+#include "base/field.h"
+#include "base/geometry.h"
+
+namespace dihaptic::scene {
+
+struct Camera {
+    std::string name;
+    Vec3 position{0, -0.5, 0.35};  ///< of the eye in W [m]
+    Vec3 look_at = Vec3::Zero();   ///< what is in the middle of the picture, in W [m]
+    double field_of_view = 30 * std::numbers::pi / 180;  ///< from bottom to top [rad]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("position", position, Field::length().within(-100, 100).required());
+        v("look_at", look_at, Field::length().within(-100, 100));
+        v("field_of_view", field_of_view, Field::of(Quantity::angle).within(0.02, 2.5));
+    }
+};
+
+}  // namespace dihaptic::scene

@@ -1,0 +1,43 @@
+#include "view/colours.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace dihaptic::view {
+namespace {
+
+constexpr std::array kFingers{"#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00"};
+constexpr std::array kBodies{"#0072b2", "#56b4e9", "#d55e00", "#f0e442"};
+constexpr const char* kFixed = "#c4c1b9";
+
+}  // namespace
+
+Vec3 linear_colour(const std::string& hex) {
+    unsigned value = 0x999999;
+    if (hex.size() == 7 && hex[0] == '#')
+        std::from_chars(hex.data() + 1, hex.data() + hex.size(), value, 16);
+    Vec3 out;
+    for (int i = 0; i < 3; ++i) {
+        const double s = (value >> (16 - 8 * i) & 0xff) / 255.0;
+        out[i] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
+    }
+    return out;
+}
+
+Vec3 body_colour(const scene::Scene& scene, size_t body) {
+    const scene::Body& of = scene.bodies[body];
+    if (!of.colour.empty()) return linear_colour(of.colour);
+    if (!of.moves_at_all()) return linear_colour(kFixed);
+    size_t before = 0;
+    for (size_t i = 0; i < body; ++i) {
+        if (scene.bodies[i].moves_at_all() && scene.bodies[i].colour.empty()) ++before;
+    }
+    return linear_colour(kBodies[before % kBodies.size()]);
+}
+
+Vec3 finger_colour(size_t finger) {
+    return linear_colour(kFingers[finger % kFingers.size()]);
+}
+
+}  // namespace dihaptic::view

@@ -1,0 +1,385 @@
+#include "view/scene_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/diagnostics.h"
+#include "view/colours.h"
+#include "view/displayed.h"
+#include "view/gl.h"
+#include "view/shaders.h"
+#include "view/shadow_map.h"
+
+namespace dihaptic::view {
+namespace {
+
+constexpr int kSamples = 4;
+constexpr double kArrowPerNewton = 0.025;  // [m/N]
+constexpr double kDepthRange = 4;          // of the light [m]
+constexpr double kPlaneSize = 6;           // [m]
+
+/// Larger fixed bodies are what others stand on: they receive shadows, and get the grid.
+constexpr double kGround = 0.3;  // [m]
+bool is_ground(const scene::Body& body) {
+    return body.shape.kind == scene::ShapeKind::plane ||
+           (body.fixed && scene::extent(body.shape) > kGround);
+}
+
+/// Rotation R_LW into the light's frame: z is the depth, away from the light.
+Mat3 light_rotation() {
+    const Vec3 z = -SceneView::light();
+    const Vec3 x = Vec3::UnitY().cross(z).normalized();
+    Mat3 R_WL;
+    R_WL << x, z.cross(x), z;
+    return R_WL.transpose();
+}
+
+Vec3 ink(const char* hex) {
+    return linear_colour(hex);
+}
+
+/// A copy of a thing at a pose, scaled.
+Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
+    Eigen::Matrix4d out = gl::matrix(X);
+    out.topLeftCorner<3, 3>() *= scale.asDiagonal();
+    return out;
+}
+
+/// The framebuffer that was bound for drawing is bound again at the end.
+class KeepTarget {
+  public:
+    KeepTarget() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_); }
+    ~KeepTarget() { glBindFramebuffer(GL_FRAMEBUFFER, name()); }
+    KeepTarget(const KeepTarget&) = delete;
+    KeepTarget& operator=(const KeepTarget&) = delete;
+    GLuint name() const { return static_cast<GLuint>(target_); }
+
+  private:
+    GLint target_ = 0;
+};
+
+/// From a to b, z along it.
+Pose along(const Vec3& a, const Vec3& b) {
+    return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
+}
+
+void check_version() {
+    if (epoxy_gl_version() >= 33) return;
+    throw Error("OpenGL 3.3 is needed, and this context offers an older one",
+                "Update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1 "
+                "dihaptic ...");
+}
+
+}  // namespace
+
+Vec3 SceneView::light() {
+    return Vec3(-0.45, -0.5, 1).normalized();
+}
+
+struct SceneView::Parts {
+    struct Thing {
+        gl::Model model;
+        double radius = 0;
+        double lowest = 0;  // z at the start [m]
+        Vec3 colour = Vec3::Ones();
+        bool ground = false;
+        bool plane = false;
+    };
+    std::vector<Thing> bodies;
+    std::vector<Thing> fingers;
+    Shadows kind;
+    gl::Model floor;  // under everything, for the light alone: what lies beyond the table's edge
+    Pose X_WF;
+    Vec3 start = Vec3::Zero();  // middle of what throws shadows at the start
+    double start_radius = 0.1;  // about it [m]
+    ShadowMap shadow_map;
+    gl::Program surface;
+    gl::Program background;
+    gl::VertexArray nothing;
+    gl::Model ball;  // of radius 1
+    // the multisampled picture
+    gl::Framebuffer samples;
+    gl::Renderbuffer colour;
+    gl::Renderbuffer depth;
+    int width = 0;
+    int height = 0;
+
+    Parts(const scene::Scene& scene, Shadows shadows)
+        : kind(shadows),
+          surface(shaders::kSurfaceVertex,
+                  std::string(shaders::kBackground) + shaders::kSurfaceFragment),
+          background(shaders::kBlurVertex,
+                     std::string(shaders::kBackground) + shaders::kBackgroundFragment) {
+        GLuint name = 0;
+        glGenVertexArrays(1, &name);
+        nothing = gl::VertexArray(name);
+        ball = gl::Model(triangles(scene::Shape::sphere(1)));
+        for (size_t i = 0; i < scene.bodies.size(); ++i) {
+            const scene::Body& body = scene.bodies[i];
+            Thing& thing =
+                bodies.emplace_back(make_thing(body.shape, body.pose(), body_colour(scene, i)));
+            thing.ground = is_ground(body);
+            thing.plane = body.shape.kind == scene::ShapeKind::plane;
+        }
+        for (size_t i = 0; i < scene.fingers.size(); ++i)
+            fingers.push_back(make_thing(scene.fingers[i].shape, {}, finger_colour(i)));
+        floor = gl::Model(square(2 * kDepthRange));
+        for (const Thing& thing : bodies) X_WF.p.z() = std::min(X_WF.p.z(), thing.lowest);
+        find_start(scene);
+    }
+
+    static Thing make_thing(const scene::Shape& shape, const Pose& X_WB, const Vec3& tone) {
+        const Triangles all = triangles(shape, kPlaneSize);
+        Thing thing;
+        thing.model = gl::Model(all);
+        thing.colour = tone;
+        for (const Vertex& v : all.vertices) {
+            const Vec3 p_B = v.p.cast<double>();
+            thing.radius = std::max(thing.radius, p_B.norm());
+            thing.lowest = std::min(thing.lowest, (X_WB * p_B).z());
+        }
+        return thing;
+    }
+
+    void find_start(const scene::Scene& scene) {
+        int count = 0;
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            if (bodies[i].ground) continue;
+            start += scene.bodies[i].position;
+            ++count;
+        }
+        if (count > 0) start /= count;
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            if (bodies[i].ground) continue;
+            start_radius = std::max(start_radius,
+                                    (scene.bodies[i].position - start).norm() + bodies[i].radius);
+        }
+        start_radius += 0.05;  // fingers come from around
+    }
+
+    /// Half of the shadow map's width: the smallest of a series that holds all that throws shadows.
+    /// Steps keep shadows from swimming as things move. What falls out of reach is left out.
+    double reach(const servo::Frame& frame, const Mat3& R_LW) const {
+        double needed = start_radius;
+        const double most = 4 * start_radius + 0.5;
+        const auto include = [&](const Thing& thing, const Vec3& p) {
+            const double r = (R_LW * (p - start)).head<2>().norm() + thing.radius + 0.02;
+            if (r < most) needed = std::max(needed, r);
+        };
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            if (!bodies[i].ground) include(bodies[i], displayed_body(frame, i).p);
+        }
+        for (size_t i = 0; i < fingers.size(); ++i)
+            include(fingers[i], displayed_proxy(frame, i).p);
+        return start_radius * std::exp2(std::ceil(2 * std::log2(needed / start_radius)) / 2);
+    }
+
+    void resize(int new_width, int new_height) {
+        if (width == new_width && height == new_height) return;
+        width = new_width;
+        height = new_height;
+        GLint most = 0;
+        glGetIntegerv(GL_MAX_SAMPLES, &most);
+        const auto make = [&](GLenum format) {
+            gl::Renderbuffer buffer = gl::make_renderbuffer();
+            glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+            glRenderbufferStorageMultisample(GL_RENDERBUFFER, std::min(kSamples, most), format,
+                                             width, height);
+            return buffer;
+        };
+        colour = make(GL_RGBA8);
+        depth = make(GL_DEPTH_COMPONENT24);
+        samples = gl::make_framebuffer();
+        glBindFramebuffer(GL_FRAMEBUFFER, samples);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    }
+
+    void draw_models(const servo::Frame& frame, const gl::Program& program,
+                     const std::function<void(const Thing&)>& prepare) const {
+        for (size_t i = 0; i < bodies.size(); ++i) {
+            prepare(bodies[i]);
+            program.set("world_from_model", gl::matrix(displayed_body(frame, i)));
+            bodies[i].model.draw();
+        }
+        for (size_t i = 0; i < fingers.size(); ++i) {
+            prepare(fingers[i]);
+            program.set("world_from_model", gl::matrix(displayed_proxy(frame, i)));
+            fingers[i].model.draw();
+        }
+    }
+
+    struct Drawing {  // of an overlay
+        const gl::Model* model;
+        Eigen::Matrix4d world_from_model;
+        Vec3 colour;
+    };
+
+    void draw_overlays(const servo::Frame& frame, const Overlays& overlays);
+    void draw_ghosts(const servo::Frame& frame) const;
+};
+
+SceneView::SceneView(const scene::Scene& scene, Shadows shadows) {
+    check_version();
+    const KeepTarget target;
+    parts_ = std::make_unique<Parts>(scene, shadows);
+}
+
+SceneView::~SceneView() = default;
+
+Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width, int height,
+                      const Overlays& overlays) {
+    Parts& p = *parts_;
+    const KeepTarget target;
+    p.resize(width, height);
+
+    const Mat3 R_LW = light_rotation();
+    const double reach = p.reach(frame, R_LW);
+    Eigen::Matrix4d light_from_world = Eigen::Matrix4d::Identity();
+    light_from_world.topLeftCorner<3, 3>() = Vec3(1 / reach, 1 / reach, 1).asDiagonal() * R_LW;
+    light_from_world.topRightCorner<3, 1>() = -light_from_world.topLeftCorner<3, 3>() * p.start;
+    const double texel = 2 * reach / ShadowMap::kSize;
+    p.shadow_map.render(light_from_world, kDepthRange, texel, p.kind == Shadows::variance,
+                        [&](const gl::Program& program) {
+                            program.set("world_from_model", gl::matrix(p.X_WF));
+                            p.floor.draw();
+                            p.draw_models(frame, program, [](const Parts::Thing&) {});
+                        });
+
+    glBindFramebuffer(GL_FRAMEBUFFER, p.samples);
+    glViewport(0, 0, width, height);
+    const Eigen::Vector2d size(width, height);
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    p.background.use();
+    p.background.set("size", size);
+    glBindVertexArray(p.nothing);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+
+    const float furthest = 1;
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glClearBufferfv(GL_DEPTH, 0, &furthest);
+    const double distance = (camera.position - camera.look_at).norm();
+    p.surface.use();
+    p.surface.set("size", size);
+    p.surface.set("clip_from_world", projection(camera, static_cast<double>(width) / height,
+                                                0.05 * distance, distance + kPlaneSize));
+    p.surface.set("eye", camera.position);
+    p.surface.set("middle", p.start);
+    p.surface.set("light", light());
+    p.surface.set("light_from_world", light_from_world);
+    p.surface.set("texel", texel);
+    p.surface.set("plain", p.kind == Shadows::plain ? 1 : 0);
+    p.surface.set("shadowed", 1);
+    p.surface.set("moments", 0);
+    p.surface.set("alpha", 1.0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, p.shadow_map.texture());
+    p.draw_models(frame, p.surface, [&](const Parts::Thing& thing) {
+        p.surface.set("albedo", thing.colour);
+        p.surface.set("gloss", thing.ground ? 0.25 : 1.0);
+        p.surface.set("grid", thing.ground ? 0.28 : 0.0);
+        p.surface.set("fade", thing.plane ? 1.2 : 0.0);
+    });
+    p.draw_overlays(frame, overlays);
+
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, p.samples);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return {frame.sequence, frame.time};
+}
+
+/// Over everything: what a finger presses, its handle is in.
+void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_CULL_FACE);
+    surface.set("gloss", 1.0);
+    surface.set("alpha", 0.35);
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        surface.set("albedo", fingers[i].colour);
+        surface.set("world_from_model", gl::matrix(displayed_handle(frame, i)));
+        fingers[i].model.draw();
+    }
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_TRUE);
+}
+
+/// Each twice: what is in front of the bodies as it is, what is hidden in or behind them faintly.
+void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) {
+    std::vector<gl::Model> made;
+    made.reserve(2 * frame.contacts.size() + 16 * overlays.workspaces.size() + 8);
+    std::vector<Drawing> drawings;
+    const auto add = [&](const Triangles& what, const Pose& X, const Vec3& tint) {
+        made.emplace_back(what);
+        drawings.push_back({&made.back(), gl::matrix(X), tint});
+    };
+    const auto add_line = [&](const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
+        add(tube(std::array{a, b}, radius), {}, tint);
+    };
+    if (!overlays.path.empty()) add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
+    const auto first_finger = static_cast<int>(bodies.size());
+    for (const servo::ContactFrame& contact : frame.contacts) {
+        const bool a_finger = contact.a >= first_finger;
+        const bool b_finger = contact.b >= first_finger;
+        if (overlays.contacts)
+            drawings.push_back({&ball,
+                                placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
+                                ink("#ffffff")});
+        const double newton = contact.f_B_W.norm();
+        if (!overlays.forces || a_finger == b_finger || newton < 0.02) continue;
+        const Vec3 f_W = b_finger ? contact.f_B_W : Vec3(-contact.f_B_W);
+        add(arrow(kArrowPerNewton * newton, 0.0011), along(contact.p_WC, contact.p_WC + f_W),
+            ink("#22262e"));
+    }
+    if (overlays.grip_axis && fingers.size() > 1) {
+        Vec3 others = Vec3::Zero();
+        for (size_t i = 1; i < fingers.size(); ++i) others += displayed_proxy(frame, i).p;
+        add_line(displayed_proxy(frame, 0).p, others / static_cast<double>(fingers.size() - 1),
+                 0.0006, ink("#7b4ea3"));
+    }
+    for (const Workspace& workspace : overlays.workspaces) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int corner = 0; corner < 4; ++corner) {
+                Vec3 a;
+                a[axis] = -0.5;
+                a[(axis + 1) % 3] = (corner & 1) - 0.5;
+                a[(axis + 2) % 3] = (corner >> 1) - 0.5;
+                Vec3 b = a;
+                b[axis] = 0.5;
+                add_line(workspace.X_WD * a.cwiseProduct(workspace.size),
+                         workspace.X_WD * b.cwiseProduct(workspace.size), 0.0005, ink("#5b6675"));
+            }
+        }
+    }
+    surface.set("shadowed", 0);
+    surface.set("grid", 0.0);
+    surface.set("fade", 0.0);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    if (!drawings.empty()) {
+        surface.set("gloss", 0.4);
+        const auto draw_all = [&] {
+            for (const Drawing& drawing : drawings) {
+                surface.set("albedo", drawing.colour);
+                surface.set("world_from_model", drawing.world_from_model);
+                drawing.model->draw();
+            }
+        };
+        glDepthMask(GL_FALSE);
+        glDepthFunc(GL_GREATER);
+        surface.set("alpha", 0.3);
+        draw_all();
+        glDepthMask(GL_TRUE);
+        glDepthFunc(GL_LESS);
+        surface.set("alpha", 1.0);
+        draw_all();
+    }
+    if (overlays.handles) draw_ghosts(frame);
+    glDisable(GL_BLEND);
+}
+
+}  // namespace dihaptic::view

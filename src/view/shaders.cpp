@@ -1,0 +1,175 @@
+#include "view/shaders.h"
+
+namespace dihaptic::view::shaders {
+
+// Both moments of the depth below the light; a quarter of the squared slope is the variance of the
+// depth within a texel of a tilted surface (README.md). Steeper than two in one, a surface hardly
+// shows itself to the light, and its variance would only let light through.
+const char* const kMomentsVertex = R"(
+layout(location = 0) in vec3 position;
+uniform mat4 world_from_model;
+uniform mat4 light_from_world;  // x, y from -1 to 1, z the depth [m]
+uniform float depth_range;
+out float depth;
+void main() {
+    vec4 q = light_from_world * world_from_model * vec4(position, 1);
+    depth = q.z;
+    gl_Position = vec4(q.xy, q.z / depth_range, 1);
+}
+)";
+
+const char* const kMomentsFragment = R"(
+in float depth;
+uniform float texel;  // [m]
+layout(location = 0) out vec2 moments;
+void main() {
+    vec2 slope = min(abs(vec2(dFdx(depth), dFdy(depth))), 2.0 * texel);
+    moments = vec2(depth, depth * depth + 0.25 * dot(slope, slope));
+}
+)";
+
+const char* const kBlurVertex = R"(
+out vec2 uv;
+void main() {
+    uv = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2;
+    gl_Position = vec4(2 * uv - 1, 0, 1);
+}
+)";
+
+// The binomial weights 1 4 6 4 1 are a Gaussian of one texel. Two neighbours are read at once,
+// where linear interpolation weighs them so.
+const char* const kBlurFragment = R"(
+in vec2 uv;
+uniform sampler2D source;
+uniform vec2 texel;  // a step along the row or the column
+layout(location = 0) out vec2 moments;
+void main() {
+    moments = (6.0 * texture(source, uv).rg +
+               5.0 * texture(source, uv + 1.2 * texel).rg +
+               5.0 * texture(source, uv - 1.2 * texel).rg) / 16.0;
+}
+)";
+
+const char* const kBackground = R"(
+uniform vec2 size;  // of the picture [pixels]
+vec3 background() {
+    vec2 at = gl_FragCoord.xy / size;
+    vec3 colour = mix(vec3(0.50, 0.54, 0.59), vec3(0.86, 0.89, 0.92), smoothstep(0.0, 1.0, at.y));
+    vec2 off = at - vec2(0.5, 0.6);
+    return colour * (1.06 - 0.35 * dot(off, off));
+}
+vec3 encode(vec3 linear) {  // sRGB, IEC 61966-2-1; a hair of noise hides its steps
+    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    vec3 c = clamp(linear, 0.0, 1.0);
+    c = mix(12.92 * c, 1.055 * pow(c, vec3(1 / 2.4)) - 0.055, step(0.0031308, c));
+    return c + (noise - 0.5) / 255.0;
+}
+)";
+
+const char* const kBackgroundFragment = R"(
+out vec4 colour;
+void main() { colour = vec4(encode(background()), 1); }
+)";
+
+const char* const kSurfaceVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 world_from_model;
+uniform mat4 clip_from_world;
+out vec3 p_W;
+out vec3 n_W;
+void main() {
+    vec4 p = world_from_model * vec4(position, 1);
+    p_W = p.xyz;
+    n_W = mat3(world_from_model) * normal;
+    gl_Position = clip_from_world * p;
+}
+)";
+
+const char* const kSurfaceFragment = R"(
+in vec3 p_W;
+in vec3 n_W;
+out vec4 colour;
+
+uniform vec3 eye;
+uniform vec3 albedo;
+uniform float alpha;
+uniform float gloss;       // of the surface's coat, 0 to 1
+uniform float grid;        // how dark the lines on its upper side are
+uniform float fade;        // beyond this distance from the middle it is the background; 0: never [m]
+uniform vec3 middle;
+uniform bool shadowed;
+uniform bool plain;        // a plain shadow map
+uniform vec3 light;        // toward it
+uniform mat4 light_from_world;
+uniform sampler2D moments;
+uniform float texel;       // of the map's finest level [m]
+
+const float kLeast = 1.0e-7;     // variance [m^2]: a third of a millimetre
+const float kBleeding = 0.35;    // what is darker than this is black
+const float kLightSize = 0.10;   // standard deviation of the penumbra over the height
+const float kSearch = 0.015;     // that of the search for what throws a shadow [m]
+
+float chebyshev(vec2 m, float t) {
+    float above = t - m.x;
+    if (above <= 0.0) return 1.0;
+    float variance = max(m.y - m.x * m.x, kLeast);
+    return variance / (variance + above * above);
+}
+
+float level(float sigma) { return log2(max(sigma / (1.2 * texel), 1.0)); }
+
+// x: share of the main light; y: of the light from around
+vec2 visibility(vec3 n) {
+    // off the surface by what a texel cannot resolve
+    vec3 q = (light_from_world * vec4(p_W + 1.5 * texel * n, 1)).xyz;
+    vec2 uv = 0.5 * q.xy + 0.5;
+    float t = q.z;
+    float inside = 1.0 - smoothstep(0.9, 1.0, max(abs(q.x), abs(q.y)));
+    if (plain) return mix(vec2(1), vec2(t <= textureLod(moments, uv, 0.0).x ? 1 : 0, 1), inside);
+    // how far above lies what throws the shadow: the mean of the depths is p of them at t, the
+    // others at the occluder's; where there is hardly any, the estimate fades out
+    vec2 wide = textureLod(moments, uv, level(kSearch)).rg;
+    float around = chebyshev(wide, t);
+    float above = (t - wide.x) / max(1.0 - around, 0.01) * smoothstep(0.0, 0.08, 1.0 - around);
+    vec2 near = textureLod(moments, uv, level(kLightSize * max(above, 0.0))).rg;
+    vec2 seen = max((vec2(chebyshev(near, t), around) - kBleeding) / (1.0 - kBleeding), 0.0);
+    return mix(vec2(1), seen, inside);
+}
+
+float line(vec2 p, float spacing, float width) {
+    vec2 blur = fwidth(p);
+    vec2 d = abs(fract(p / spacing - 0.5) - 0.5) * spacing;
+    vec2 cover = clamp((width + blur - d) / (2.0 * blur), 0.0, 1.0) * min(vec2(1), 2.0 * width / blur);
+    return max(cover.x, cover.y);
+}
+
+void main() {
+    vec3 n = normalize(n_W);
+    vec3 v = normalize(eye - p_W);
+    vec3 base = albedo;
+    if (grid > 0.0 && n.z > 0.99) {
+        float drawn = max(0.55 * line(p_W.xy, 0.025, 0.00015),
+                          line(p_W.xy, 0.1, 0.0003));
+        base *= 1.0 - grid * drawn;
+    }
+    vec2 seen = shadowed ? visibility(n) : vec2(1);
+    const vec3 sky = vec3(0.44, 0.47, 0.52);
+    const vec3 ground = vec3(0.29, 0.275, 0.26);
+    const vec3 key = vec3(0.88, 0.85, 0.80);
+    vec3 around = mix(ground, sky, 0.5 + 0.5 * n.z) * mix(0.55, 1.0, seen.y);
+    vec3 direct = key * max(dot(n, light), 0.0) * seen.x;
+    // a clear coat: Schlick's reflectance of glass, Blinn's highlight, and the surroundings
+    vec3 h = normalize(light + v);
+    float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(n, v), 0.0), 5.0);
+    vec3 r = reflect(-v, n);
+    vec3 coat = fresnel * 0.5 * mix(ground, sky, smoothstep(-0.3, 0.7, r.z)) * mix(0.4, 1.0, seen.y);
+    coat += key * 0.35 * pow(max(dot(n, h), 0.0), 70.0) * seen.x * step(0.0, dot(n, light));
+    vec3 out_linear = base * (around + direct) + gloss * coat;
+    if (fade > 0.0)
+        out_linear = mix(out_linear, background(), smoothstep(0.3 * fade, fade, length(p_W.xy - middle.xy)));
+    colour = vec4(encode(out_linear), alpha);
+}
+)";
+
+}  // namespace dihaptic::view::shaders

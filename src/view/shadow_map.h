@@ -1,0 +1,42 @@
+// The variance shadow map: a pyramid of the first two moments of depth (README.md). For the room's
+// own sources only.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "view/gl.h"
+
+namespace dihaptic::view {
+
+class ShadowMap {
+  public:
+    static constexpr int kSize = 512;  // texels of the finest level, across
+    static constexpr int kLevels = 6;
+
+    ShadowMap();
+
+    /// Renders moments: `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
+    /// depth along the light [m]; `draw` draws what throws and receives shadows, and sets
+    /// world_from_model for each. `depth_range`: largest depth, `texel`: of the finest level [m].
+    /// Without `blurred` only the finest level, as it was rendered. Leaves another framebuffer
+    /// bound.
+    void render(const Eigen::Matrix4d& light_from_world, double depth_range, double texel,
+                bool blurred, const std::function<void(const gl::Program&)>& draw) const;
+
+    GLuint texture() const { return moments_; }
+
+  private:
+    void blur(int level) const;
+
+    gl::Program render_;
+    gl::Program blur_;
+    gl::VertexArray nothing_;
+    gl::Texture moments_;
+    gl::Texture rows_;  // blurred along rows only
+    gl::Renderbuffer depth_;
+    std::vector<gl::Framebuffer> to_moments_;  // by level
+    std::vector<gl::Framebuffer> to_rows_;
+};
+
+}  // namespace dihaptic::view

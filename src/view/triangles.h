@@ -1,0 +1,37 @@
+// Surfaces of shapes as triangles, for drawing.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/shape.h"
+
+namespace dihaptic::view {
+
+struct Vertex {
+    Eigen::Vector3f p;  ///< [m]
+    Eigen::Vector3f n;  ///< outward, of unit length
+};
+
+/// Counter-clockwise seen from outside: three indices each.
+struct Triangles {
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+
+    void append(const Triangles& other, const Pose& X);
+};
+
+/// The surface of a shape in its body's frame. Edges of boxes and cylinders are rounded, by a
+/// millimetre at most and inward, so that they catch light. A concave mesh is drawn as it is, any
+/// other as its convex hull: what is seen is what is felt. A plane is a square of `plane_size` [m].
+Triangles triangles(const scene::Shape& shape, double plane_size = 8);
+
+/// A square at z = 0 about the origin, facing up [m].
+Triangles square(double size);
+/// A tube along a path, with round ends [m]. Empty for less than two different points.
+Triangles tube(std::span<const Vec3> path, double radius);
+/// An arrow from the origin along z, of the given length [m].
+Triangles arrow(double length, double radius);
+
+}  // namespace dihaptic::view
