@@ -1,0 +1,65 @@
+// A hand that goes where somebody at a screen wants it, for those without devices. What is wanted
+// changes in jumps, as events come in; the hand follows, critically damped with the time constant
+// kFollow:
+//
+//     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
+//
+// for each coordinate x of the posture, with the goal g that was set at t0.
+#pragma once
+
+#include "base/latest.h"
+#include "hand/driver.h"
+#include "hand/spec.h"
+
+namespace dihaptic::hand {
+
+/// Where a hand is and how far it is open.
+struct Posture {
+    Vec3 centre = Vec3::Zero();  ///< in world axes [m]
+    double aperture = 0;         ///< twice each finger's distance from the centre [m]
+    double yaw = 0;              ///< about the vertical, first [rad]
+    double roll = 0;             ///< about the hand's own y axis, away from the person [rad]
+};
+
+class MouseDriver final : public Driver {
+  public:
+    static constexpr double kFollow = 0.04;  // [s]
+
+    /// Starts as a script of `spec` would: fingers with a centre or an aperture of their own keep
+    /// how these differ from the hand's. Throws Error as finger_places() does.
+    MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
+
+    /// From time `t` on, go to `goal`. From one thread that is not the servo's; `t` is the time of
+    /// the newest Frame that it knows, and what the servo computed since then changes hardly.
+    void follow(const Posture& goal, double t) noexcept;
+    const Posture& goal() const { return goal_; }
+
+    /// Until somebody ends it; a session must have an end.
+    double duration() const override { return kLongestScript; }
+    const std::vector<Phase>& phases() const override { return phases_; }
+
+  private:
+    using Coordinates = Eigen::Matrix<double, 6, 1>;
+    struct Motion {
+        Coordinates x = Coordinates::Zero();
+        Coordinates v = Coordinates::Zero();
+    };
+    struct Way {
+        double start = 0;  // [s]
+        Motion from;
+        Coordinates goal = Coordinates::Zero();
+
+        Motion at(double t) const noexcept;
+    };
+    static Coordinates coordinates(const Posture& posture);
+    FingerTarget do_target(int finger, double t) const noexcept override;
+
+    std::vector<FingerPlace> fingers_;
+    std::vector<Phase> phases_;
+    Posture start_;
+    Posture goal_;
+    Way way_;                  // as follow() set it
+    mutable Latest<Way> now_;  // read by the servo, in the tick
+};
+
+}  // namespace dihaptic::hand
