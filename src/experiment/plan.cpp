@@ -321,7 +321,8 @@ Plan make_plan(const Request& request) {
     } else if (!experiment.rig.empty()) {
         plan.rig = rig::read_rig(beside(request.file, experiment.rig), diagnostics);
     } else {
-        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
+        // a mouse can turn the hand, which is felt where orientation is measured
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     overlay(plan, plan.scene.settings, diagnostics);
     overlay(plan, plan.rig.settings, diagnostics);
@@ -341,7 +342,11 @@ Plan make_plan(const Request& request) {
         throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
-    if (!movement.empty()) {
+    if (request.mouse) {
+        plan.mouse =
+            std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.driver = plan.mouse;
+    } else if (!movement.empty()) {
         plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
                                      plan.scene, plan.movement, diagnostics);
         diagnostics.throw_if_errors();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/movement.h"
+#include "hand/mouse.h"
 #include "hand/script.h"
 #include "rig/rig.h"
 #include "scene/scene.h"
@@ -20,6 +21,7 @@ struct Request {
     std::string movement;          ///< in place of the experiment's
     std::vector<std::string> set;  ///< "coupling.stiffness_N_m=600": settings from the command line
     uint64_t seed = 1;
+    bool mouse = false;  ///< somebody at a screen moves the simulated hand, not the file
 };
 
 struct Plan {
@@ -31,6 +33,7 @@ struct Plan {
     Origins origins;
     hand::HandSpec hand;
     std::shared_ptr<const hand::Driver> driver;  ///< shared with the devices that it moves
+    std::shared_ptr<hand::MouseDriver> mouse;    ///< the driver, if it is one
     std::optional<MovementReport> movement;
     std::vector<Problem> warnings;
     uint64_t seed = 1;

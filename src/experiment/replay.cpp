@@ -106,6 +106,9 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                                          servo::Commands& commands) {
         phases(last, handles, commands);
         commands.force_off = (recorded->status & servo::kStopped) != 0;
+        commands.resume = (recorded->status & servo::kResumed) != 0;
+        commands.tuning = {static_cast<haptics::CouplingKind>(recorded->coupling),
+                           recorded->stiffness, recorded->damping, recorded->smoothing};
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);
     };
     const auto begin = Wall::now();

@@ -200,8 +200,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const Time whole = from_seconds(plan.driver->duration());
     result.timing.reserve(static_cast<size_t>(whole / servo->period()) + 2);
     std::atomic<int64_t> reached{0};
+    Live* const live = options.live;
+    if (live != nullptr) live->prepare(*servo, plan.scene.object_index());
+    bool resumed = false;
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
+        if (live != nullptr) live->show(frame);
         reached.store(frame.time.count(), std::memory_order_relaxed);
     };
     PhaseDirector phases(info.phases, plan.settings.tick());
@@ -211,6 +215,11 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         phases(last, handles, commands);
         commands.stop = recorder.failed();
         commands.force_off = real && stop.load(std::memory_order_relaxed);
+        if (live == nullptr) return;
+        commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
+        commands.solver = live->solver.read();
+        commands.tuning = live->tune(servo->settings().coupling.tuning(), plan.settings.tick());
+        commands.resume = std::exchange(resumed, false);
     };
     const auto stuck = [&](const servo::Timing::Stall& stall) {
         if (!options.stuck) return;
@@ -219,12 +228,22 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                         "devices off and on; dihaptic recover {} makes the session's files.",
                         servo::describe(stall), folder.path()));
     };
+    const auto ended = [&] { return live != nullptr && live->ended; };
     const auto begin = Wall::now();
     {
         const Watcher watcher(reached, whole, progress);
         if (real) {
             const std::atomic<bool> never{false};  // the director stops it, by a fault
-            servo::run_real(*servo, director, sink, Time(0), whole, never, result.timing, stuck);
+            const std::atomic<bool>& paused = live != nullptr ? live->paused : never;
+            Time first{0};
+            do {
+                servo::run_real(*servo, director, sink, first, whole, paused, result.timing, stuck);
+                servo->rest();
+                while (paused && !stop && !live->ended)
+                    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                first = result.timing.reached + servo->period();
+                resumed = true;
+            } while (!servo->stopped() && !stop && !ended() && first <= whole);
         } else {
             servo::run_virtual(*servo, director, sink, whole, stop, &result.timing.ticks);
         }
@@ -235,7 +254,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.simulated = seconds(Time(reached.load()));
     result.ticks = recorder.frames();
     result.dropped = recorder.dropped();
-    result.interrupted = stop.load();
+    // with a mouse there is no more to do than somebody wants to
+    result.interrupted = stop.load() || (ended() && plan.mouse == nullptr);
+    if (plan.mouse != nullptr && !info.phases.empty()) info.phases.back().end = result.simulated;
     if (const haptics::Fault& fault = servo->fault()) {
         const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
         result.fault =

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "experiment/live.h"
 #include "experiment/plan.h"
 #include "recording/recorder.h"
 #include "recording/session.h"
@@ -21,6 +22,7 @@ struct RunOptions {
     /// Called from another thread when a call to the devices never returns, and run_session() thus
     /// cannot either: it has to end the program. Gets what to tell.
     std::function<void(const std::string& message)> stuck;
+    Live* live = nullptr;  ///< real clock only: who watches and steers; outlives the run
 };
 
 struct RunResult {

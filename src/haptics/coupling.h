@@ -55,6 +55,7 @@ class ImplicitCoupling {
     double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                   const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
 
   private:
     CouplingSettings settings_;
@@ -81,6 +82,7 @@ class VelocityImpulse {
     double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                   const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
 
   private:
     CouplingSettings settings_;
@@ -108,6 +110,7 @@ class DualSpring {
         return onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm();
     }
     Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
 
   private:
     CouplingSettings settings_;

@@ -4,15 +4,29 @@ namespace dihaptic::haptics {
 
 Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
                double max_force)
-    : proxy_(proxy), coupling_(ImplicitCoupling(coupling, finger.mass)) {
-    if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
-    if (coupling.kind == CouplingKind::velocity_impulse)
-        coupling_ = VelocityImpulse(coupling, finger.mass, max_force);
+    : proxy_(proxy),
+      coupling_(ImplicitCoupling(coupling, finger.mass)),
+      mass_(finger.mass),
+      max_force_(max_force) {
+    retune(coupling);
 }
 
 Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
 
 Finger::Finger(SolvedPoint point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
+
+void Finger::retune(const CouplingSettings& coupling) noexcept {
+    const bool is_body = mass_ > 0;
+    if (is_body && coupling.kind != kind_) {
+        if (coupling.kind == CouplingKind::implicit) coupling_ = ImplicitCoupling(coupling, mass_);
+        if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
+        if (coupling.kind == CouplingKind::velocity_impulse)
+            coupling_ = VelocityImpulse(coupling, mass_, max_force_);
+        kind_ = coupling.kind;
+    } else {
+        std::visit([&](auto& of) { of.retune(coupling.tuning()); }, coupling_);
+    }
+}
 
 std::span<const contact::Contact> Finger::contacts() const noexcept {
     const auto* point = std::get_if<PointProxy>(&coupling_);

@@ -30,6 +30,9 @@ class Finger {
     /// Contacts that the world does not know of: a point's, of the last force().
     std::span<const contact::Contact> contacts() const noexcept;
 
+    /// From the coming tick on. The kind is of bodies: a point has one of its own.
+    void retune(const CouplingSettings& coupling) noexcept;
+
     /// Puts the proxy at the handle, before the first tick.
     void place(World& world, const Handle& handle) noexcept;
 
@@ -54,6 +57,9 @@ class Finger {
 
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
+    CouplingKind kind_ = CouplingKind::implicit;
+    double mass_ = 0;       // of a body [kg]
+    double max_force_ = 0;  // that the hand may feel of a body [N]
     std::optional<RotationalCoupling> turn_;
     ProxyTouch touch_;
     Vec3 torque_ = Vec3::Zero();

@@ -38,6 +38,7 @@ class PointProxy {
     }
 
     Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;

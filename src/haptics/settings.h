@@ -16,6 +16,16 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
+/// What may change while a session runs.
+struct Tuning {
+    CouplingKind kind = CouplingKind::implicit;
+    double stiffness = 0;  ///< k [N/m]
+    double damping = 0;    ///< c [N*s/m]; negative: k h / 2
+    double smoothing = 0;  ///< alpha
+
+    bool operator==(const Tuning&) const = default;
+};
+
 /// How a handle and its proxy pull at each other; equations in README.md.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
@@ -56,6 +66,14 @@ struct CouplingSettings {
         v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
         v("free_stiffening", free_stiffening, Field::number().at_least(1));
         v("smoothing", smoothing, Field::number().positive().at_most(1));
+    }
+
+    Tuning tuning() const { return {kind, stiffness, damping.value_or(-1), smoothing}; }
+    void set(const Tuning& tuning) {
+        kind = tuning.kind;
+        stiffness = tuning.stiffness;
+        damping = tuning.damping < 0 ? std::nullopt : std::optional(tuning.damping);
+        smoothing = tuning.smoothing;
     }
 
   private:

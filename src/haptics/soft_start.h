@@ -1,4 +1,4 @@
-// How force comes on: after activation, and when a dead-man switch is pressed again.
+// How force comes on: after activation and a pause, and when a dead-man switch is pressed again.
 //
 // What a hand is in at that moment (an object, a wall, a field) would strike it. So the share of
 // the force that is sent rises from 0 to 1 in the time T, on all devices alike. When nothing is
@@ -28,6 +28,9 @@ class SoftStart {
         elapsed_ = std::min(duration_, elapsed_ + h);
         return share;
     }
+
+    /// After a pause.
+    void restart() noexcept { elapsed_ = 0; }
 
   private:
     double duration_;

@@ -29,6 +29,7 @@ class SolvedPoint {
     /// Energy of the spring as far as it acted in the last force() [J].
     double stored(const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
 
   private:
     struct Press {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/field_writer.h"
+
 namespace dihaptic::rig {
 namespace {
 
@@ -68,13 +70,18 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
     return rig;
 }
 
-Rig simulated_rig(const std::vector<std::string>& fingers) {
+Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
     Rig rig;
     rig.title = "Ideal simulated devices";
     for (const std::string& finger : fingers) {
         Device device;
         device.finger = finger;
         device.backend = "simulated";
+        if (orientation) {
+            FieldWriter options;
+            options("orientation", true);
+            device.options = options.take();
+        }
         rig.devices.push_back(device);
     }
     return rig;

@@ -45,7 +45,7 @@ struct Rig {
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
 
 /// A rig without a file: an ideal simulated device for each finger.
-Rig simulated_rig(const std::vector<std::string>& fingers);
+Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 
 /// The devices for the scene's fingers, in the fingers' order. Throws Error when a finger has none.
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,

@@ -66,6 +66,8 @@ StatusText describe(Status bit) {
                     "soften it, raise its damping, or set settings: safety: energy_guard: act"};
         case kEnergyDamped:
             return {"a damper took of that energy", "soften the coupling, or raise its damping"};
+        case kResumed:
+            return {"the session went on after a pause", "nothing"};
         case kStopped:
             return {"the operator switched force off", "start the session again to go on"};
         case kSolverMissed:

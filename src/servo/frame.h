@@ -37,8 +37,9 @@ enum Status : uint32_t {
     kEnergyGenerated = 1u << 19,
     kEnergyDamped = 1u << 20,
     kStopped = 1u << 21,
+    kResumed = 1u << 22,
 };
-constexpr int kStatusBits = 22;
+constexpr int kStatusBits = 23;
 
 struct StatusText {
     std::string what;
@@ -151,6 +152,10 @@ struct Frame {
     double grip_force =
         kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
     double load_force = 0;  ///< tangential contact forces along gravity, summed over the fingers
+    int32_t coupling = 0;   ///< in force: index into haptics::CouplingKind
+    double stiffness = 0;   ///< k, the same
+    double damping = 0;     ///< c, the same; negative: k h / 2
+    double smoothing = 0;   ///< alpha, the same
     int32_t solver = 0;     ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;         ///< 1: another solver than that answered
@@ -175,6 +180,10 @@ struct Frame {
         v("status", f.status, "1");
         v("grip_force", f.grip_force, "N");
         v("load_force", f.load_force, "N");
+        v("coupling", f.coupling, "1");
+        v("stiffness", f.stiffness, "N/m");
+        v("damping", f.damping, "N*s/m");
+        v("smoothing", f.smoothing, "1");
         v("solver", f.solver, "1");
         v("solver_iterations", f.solver_iterations, "1");
         v("solver_fallback", f.solver_fallback, "1");

@@ -109,20 +109,28 @@ void Servo::activate() {
     world_.activate();
     frame_ = {};
     frame_.sequence = -1;
-    frame_.fingers.resize(fingers_.size());
-    frame_.turns.resize(turning_.size());
-    frame_.bodies.resize(static_cast<size_t>(world_.scene_size()));
-    frame_.changed.reserve(frame_.bodies.size());
-    frame_.contacts.reserve(world_.contacts().size() + 64 + 8 * static_cast<size_t>(world_.size()));
+    reserve(frame_);
     devices_->activate();
     active_ = true;
     stopped_ = false;
 }
 
-void Servo::deactivate() {
-    if (!active_) return;
+void Servo::reserve(Frame& frame) const {
+    frame.fingers.resize(fingers_.size());
+    frame.turns.resize(turning_.size());
+    frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
+    frame.changed.reserve(frame.bodies.size());
+    frame.contacts.reserve(64 + 8 * static_cast<size_t>(world_.size()));
+}
+
+void Servo::rest() noexcept {
     std::fill(sent_D_.begin(), sent_D_.end(), Wrench{});
     devices_->write(sent_D_);
+}
+
+void Servo::deactivate() {
+    if (!active_) return;
+    rest();
     devices_->deactivate();
     active_ = false;
 }
@@ -144,7 +152,14 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.load_count = 0;
     commands_.stop = false;
     commands_.force_off = false;
+    commands_.resume = false;
+    commands_.tuning.reset();
     if (director) director(frame_, handles_, commands_);
+    if (commands_.tuning && *commands_.tuning != settings_.coupling.tuning()) {
+        settings_.coupling.set(*commands_.tuning);
+        for (haptics::Finger& finger : fingers_) finger.retune(settings_.coupling);
+    }
+    if (commands_.resume) soft_start_.restart();
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
 
     for (size_t i = 0; i < fingers_.size(); ++i)
@@ -239,11 +254,17 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.phase = commands.phase;
     frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
     if (overrun_) frame_.status |= kOverrun;
+    if (commands.resume) frame_.status |= kResumed;
     if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
     if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     frame_.solver = static_cast<int32_t>(world_.solver());
+    const haptics::Tuning tuning = settings_.coupling.tuning();
+    frame_.coupling = static_cast<int32_t>(tuning.kind);
+    frame_.stiffness = tuning.stiffness;
+    frame_.damping = tuning.damping;
+    frame_.smoothing = tuning.smoothing;
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
     frame_.solver_iterations = world_.solve_stats().iterations;

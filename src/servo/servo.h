@@ -29,7 +29,9 @@ struct Commands {
     int32_t phase = 0;
     bool stop = false;                       ///< this tick is the last
     bool force_off = false;                  ///< from this tick on, for good: the operator's wish
+    bool resume = false;                     ///< the first tick after rest()
     std::optional<dynamics::Solver> solver;  ///< from this step on
+    std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
 
     struct Load {
         dynamics::BodyIndex body;
@@ -64,6 +66,11 @@ class Servo {
     void activate();
     /// Zero force, devices off.
     void deactivate();
+    /// Zero force between two ticks, for a pause; time goes on where it was, and force comes on
+    /// softly.
+    void rest() noexcept;
+    /// Memory for every Frame that this servo makes; only copies into it allocate nothing.
+    void reserve(Frame& frame) const;
 
     /// One tick at `now`; returns its Frame, valid until the next tick.
     const Frame& tick(Time now, const Director& director) noexcept;

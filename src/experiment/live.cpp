@@ -1,0 +1,56 @@
+#include "experiment/live.h"
+
+#include <cstring>
+
+namespace dihaptic::experiment {
+
+void Live::prepare(const servo::Servo& servo, int object) {
+    for (servo::Frame& value : frame.values()) servo.reserve(value);
+    object_ = object;
+}
+
+void Live::show(const servo::Frame& now) noexcept {
+    if (now.sequence == 0 || now.time - shown_ >= kInterval) {
+        shown_ = now.time;
+        frame.publish(now);
+    }
+    if (now.sequence > 0 && now.time - sampled_ < kCurveInterval) return;
+    sampled_ = now.time;
+    CurveSample sample;
+    sample.time = seconds(now.time);
+    sample.grip_force = now.grip_force;
+    sample.load_force = now.load_force;
+    for (size_t i = 0; i < now.fingers.size() && i < CurveSample::kFingers; ++i) {
+        sample.forces[i] = now.fingers[i].f_sent_W.norm();
+        sample.heights[i] = now.fingers[i].p_WH.z();
+    }
+    if (object_ >= 0) sample.object_height = now.bodies[static_cast<size_t>(object_)].X_WB.p.z();
+    samples_.push(std::as_bytes(std::span(&sample, 1)));
+}
+
+std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) noexcept {
+    const std::optional<haptics::Tuning>& goal = tuning.read();
+    if (!goal || *goal == now) return std::nullopt;
+    if (tuning_goal_ != *goal) {
+        tuning_goal_ = *goal;
+        left_ = kEase;
+    }
+    haptics::Tuning next = *goal;
+    // the same share of what is left in each tick: there in time, along a straight line
+    const double share = left_ > h ? h / left_ : 1;
+    left_ -= h;
+    next.stiffness = now.stiffness + share * (goal->stiffness - now.stiffness);
+    if (goal->damping >= 0 && now.damping >= 0)
+        next.damping = now.damping + share * (goal->damping - now.damping);
+    if (share == 1) next = *goal;
+    return next;
+}
+
+std::optional<CurveSample> Live::take_sample() {
+    if (!samples_.pop(taken_)) return std::nullopt;
+    CurveSample sample;
+    std::memcpy(&sample, taken_.data(), sizeof sample);
+    return sample;
+}
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,63 @@
+// A running session's link to whoever watches and steers it from another thread, e.g. a window.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "base/latest.h"
+#include "base/ring.h"
+#include "servo/servo.h"
+
+namespace dihaptic::experiment {
+
+/// What curves are drawn of: frames that a slow screen never shows are among them.
+struct CurveSample {
+    static constexpr size_t kFingers = 8;  ///< those beyond are left out
+
+    double time = 0;                            ///< [s]
+    double grip_force = 0;                      ///< [N]
+    double load_force = 0;                      ///< [N]
+    std::array<double, kFingers> forces{};      ///< on the handle, as sent, by finger [N]
+    std::array<double, kFingers> heights{};     ///< of the handle, by finger [m]
+    double object_height = servo::kUnmeasured;  ///< of the object's origin [m]
+};
+
+struct Live {
+    /// How often a frame is handed over, at most: a screen shows no more.
+    static constexpr Time kInterval = std::chrono::milliseconds(4);
+    /// And a sample of curves.
+    static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
+
+    Latest<servo::Frame> frame;       ///< the newest; its `sequence` is -1 before the first
+    std::atomic<bool> paused{false};  ///< as long as it is, time stands still and no force acts
+    std::atomic<bool> ended{false};   ///< the session is to end, in order
+    Latest<std::optional<dynamics::Solver>> solver;  ///< from the next step on
+    /// To be had soon: stiffness and damping go there in kEase, so that what is held stays held.
+    Latest<std::optional<haptics::Tuning>> tuning;
+    static constexpr double kEase = 0.2;  // [s]
+
+    Live() {
+        for (servo::Frame& value : frame.values()) value.sequence = -1;
+    }
+    /// Before the first tick: memory for the frames of this servo. `object`: its body, or -1.
+    void prepare(const servo::Servo& servo, int object);
+    /// In the tick: hands over what is due again.
+    void show(const servo::Frame& now) noexcept;
+    /// In the tick: what the coupling is to be in this one. `now`: in the last; `h`: a tick [s].
+    std::optional<haptics::Tuning> tune(const haptics::Tuning& now, double h) noexcept;
+    /// The oldest sample that was not taken yet.
+    std::optional<CurveSample> take_sample();
+
+  private:
+    Ring samples_{65536};  // several seconds: a window that hangs longer has a gap in its curves
+    std::vector<std::byte> taken_;
+    int object_ = -1;
+    haptics::Tuning tuning_goal_;
+    double left_ = 0;  // until it is reached [s]
+    Time shown_{0};
+    Time sampled_{0};
+};
+
+}  // namespace dihaptic::experiment

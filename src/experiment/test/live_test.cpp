@@ -1,0 +1,153 @@
+// A session that somebody watches and steers from another thread, as a window does.
+#include "experiment/live.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "experiment/replay.h"
+#include "experiment/session_run.h"
+#include "recording/raw_log.h"
+#include "testing/files.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Runs in a thread of its own until it ends by itself or by the desk.
+class Desk {
+  public:
+    explicit Desk(Request request) {
+        request.set.emplace_back("safety.max_pause_ms=1000");  // on a busy machine, too
+        plan = make_plan(request);
+        RunOptions options;
+        options.out = folder_.path();
+        options.clock = Clock::real;
+        options.live = &live;
+        thread_ = std::thread(
+            [this, options] { result = run_session(plan, options, stop_, Progress()); });
+    }
+    ~Desk() { end(); }
+    void end() {
+        live.ended = true;
+        join();
+    }
+    void join() {
+        if (thread_.joinable()) thread_.join();
+    }
+
+    /// The newest frame, once session time is `t` or its thread had ten seconds for it.
+    const servo::Frame& at(double t) {
+        for (int i = 0; i < 10000; ++i) {
+            const servo::Frame& frame = live.frame.read();
+            if (frame.sequence >= 0 && seconds(frame.time) >= t) return frame;
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        ADD_FAILURE() << "session time " << t << " s was not reached";
+        return live.frame.read();
+    }
+    double now() { return seconds(live.frame.read().time); }
+
+    Live live;
+    Plan plan;
+    RunResult result;
+
+  private:
+    testing::TemporaryFolder folder_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+Request block(bool mouse) {
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    request.mouse = mouse;
+    return request;
+}
+
+std::vector<servo::Frame> frames_of(const std::string& session) {
+    std::vector<servo::Frame> frames;
+    recording::RawLogReader log(session + "/raw.log");
+    while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+    return frames;
+}
+
+TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
+    Desk desk(block(false));
+    desk.at(1.3);  // gripped
+    desk.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(100));
+    const double paused_at = desk.now();
+    std::this_thread::sleep_for(milliseconds(300));
+    EXPECT_EQ(desk.now(), paused_at);
+    desk.live.paused = false;
+    desk.join();
+    EXPECT_FALSE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.fault, "");
+
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    int resumed = 0;
+    for (size_t i = 1; i < frames.size(); ++i) {
+        // ticks that were missed are left out; the pause is not in session time
+        EXPECT_LT(seconds(frames[i].time - frames[i - 1].time), 0.2);
+        if ((frames[i].status & servo::kResumed) == 0) continue;
+        ++resumed;
+        EXPECT_NE(frames[i].status & servo::kSoftStarted, 0u);
+        EXPECT_LT(frames[i].fingers[0].f_sent_W.norm(), 0.05);
+        EXPECT_GT(frames[i - 1].fingers[0].f_sent_W.norm(), 0.5);
+    }
+    EXPECT_EQ(resumed, 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
+    Desk desk(block(true));
+    const auto follow = [&](const hand::Posture& goal) {
+        desk.plan.mouse->follow(goal, desk.now());
+    };
+    desk.at(0.2);
+    hand::Posture goal = desk.plan.mouse->goal();
+    goal.aperture = 0.034;
+    follow(goal);
+    desk.at(0.8);
+    // events come sixty times a second
+    for (int i = 0; i < 60; ++i) {
+        goal.centre.z() += 0.001;
+        follow(goal);
+        std::this_thread::sleep_for(milliseconds(16));
+    }
+    const servo::Frame& frame = desk.at(desk.now() + 0.3);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.08, 0.005);
+    desk.live.solver.publish(dynamics::Solver::stewart_trinkle);
+    const servo::Frame& after = desk.at(desk.now() + 0.3);
+    EXPECT_EQ(after.solver, static_cast<int>(dynamics::Solver::stewart_trinkle));
+    EXPECT_NEAR(after.bodies[1].X_WB.p.z(), 0.08, 0.005);
+    desk.end();
+    EXPECT_FALSE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.info.state, recording::SessionState::complete);
+    EXPECT_EQ(desk.result.info.phases.back().end, desk.result.simulated);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AScriptThatIsEndedEarlyIsInterruptedWithoutAFault) {
+    Desk desk(block(false));
+    desk.at(0.3);
+    desk.end();
+    EXPECT_TRUE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, EndsInAPause) {
+    Desk desk(block(true));
+    desk.at(0.1);
+    desk.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(50));
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_GT(desk.result.ticks, 90);
+}
+
+}  // namespace
+}  // namespace dihaptic::experiment
