@@ -259,17 +259,20 @@ void add_jitter(CLI::App& bench) {
         ->add_option("--extra", options->setup.extra_blocks, "more blocks on the table, kept awake")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
+    auto view = std::make_shared<bool>(false);
+    command->add_flag("--view", *view, "draw the scene beside, as fast as the machine goes");
     add_common(*command, *options);
     command->footer(
         "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic bench jitter\n"
-        "  dihaptic bench jitter --rate 4000 --time 10");
-    command->callback([options, time] {
+        "  dihaptic bench jitter --rate 4000 --time 10\n"
+        "  dihaptic bench jitter --view");
+    command->callback([options, time, view] {
         resolve(*options);
         measure::JitterFigures figures;
         {
             ProgressLine line("bench jitter");
             figures = measure::bench_jitter(
-                options->setup, *time, stop_requested,
+                options->setup, *time, *view, stop_requested,
                 [&](const std::string& what, double share) { line.show(share, what); });
         }
         if (figures.ticks == 0) {

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/plural.h"
 #include "measure/bench_log.h"
+#include "measure/drawing.h"
 
 namespace dihaptic::measure {
 namespace {
@@ -44,11 +46,11 @@ double JitterFigures::p999_ratio() const {
     return lateness.p999 / cyclictest.quantile(0.999);
 }
 
-JitterFigures bench_jitter(const BenchSetup& base, double whole, const std::atomic<bool>& stop,
-                           const Progress& progress) {
+JitterFigures bench_jitter(const BenchSetup& base, double whole, bool view,
+                           const std::atomic<bool>& stop, const Progress& progress) {
     BenchSetup setup = base;
     setup.settings.dynamics.sleeping = setup.extra_blocks == 0;
-    setup.hold_time = whole + kTurn;
+    setup.hold_time = (view ? 2 : 1) * whole + kTurn;
     const scene::Scene scene = grasp_scene(setup);
     Bench bench(scene, grasp_hand(setup), setup);
     const BenchLog log(scene, setup.settings);
@@ -58,33 +60,53 @@ JitterFigures bench_jitter(const BenchSetup& base, double whole, const std::atom
     const Time period = bench.servo().period();
     servo::Timing timing;
     timing.reserve(static_cast<size_t>(whole * setup.settings.rate) + 2);
-    timing.reached = lift(bench);
+    Time reached = lift(bench);
     double height = 0;
+    Latest<servo::Frame> newest;
+    for (servo::Frame& frame : newest.values()) bench.servo().reserve(frame);
+    const auto run_servo = [&](servo::Timing& into, double turn) {
+        recording::Recorder recorder = log.record(recording::Writing::in_thread);
+        const Time first = reached + period;
+        servo::run_real(
+            bench.servo(), {},
+            [&](const servo::Frame& frame) {
+                recorder.record(frame);
+                if (view) newest.publish(frame);
+                height = frame.bodies[1].X_WB.p.z();
+            },
+            first, first + from_seconds(turn) - period, stop, into);
+        reached = into.reached;
+        recorder.finish();
+        figures.dropped += recorder.dropped();
+    };
+    int64_t pictures = 0;
     while (figures.seconds < whole - 1e-9 && !stop) {
         const double turn = std::min(kTurn, whole - figures.seconds);
         const auto say = [&](const char* what, double done) {
             if (progress) progress(what, (figures.seconds + done * turn) / whole);
         };
-        say("servo", 0);
-        recording::Recorder recorder = log.record(recording::Writing::in_thread);
-        const Time first = timing.reached + period;
-        servo::run_real(
-            bench.servo(), {},
-            [&](const servo::Frame& frame) {
-                recorder.record(frame);
-                height = frame.bodies[1].X_WB.p.z();
-            },
-            first, first + from_seconds(turn) - period, stop, timing);
-        recorder.finish();
-        figures.dropped += recorder.dropped();
+        std::optional<Drawing> drawing;
+        if (view) {
+            say("servo without a view", 0);
+            servo::Timing quiet;
+            run_servo(quiet, turn);
+            figures.quiet_overruns += quiet.overruns;
+            drawing.emplace(scene, newest);
+        }
+        say("servo", view ? 0.33 : 0);
+        run_servo(timing, turn);
         if (figures.no_cyclictest.empty() && !stop) {
-            say("cyclictest", 0.5);
+            say("cyclictest", view ? 0.67 : 0.5);
             const Cyclictest peer{setup.settings, timing.refusals.priority == 0,
                                   timing.refusals.memory == 0, log.file("cyclictest.json")};
             figures.no_cyclictest = run_cyclictest(peer, turn, figures.cyclictest);
         }
+        if (drawing) pictures += drawing->pictures();
+        drawing.reset();
         figures.seconds += turn;
     }
+    const double drawn = (figures.no_cyclictest.empty() ? 2 : 1) * figures.seconds;
+    figures.pictures = static_cast<double>(pictures) / drawn;
     figures.ticks = static_cast<int64_t>(timing.ticks.count());
     figures.lateness = spread(timing.lateness);
     figures.tick = spread(timing.ticks);
@@ -116,6 +138,8 @@ std::string to_json(const JitterFigures& f) {
     out["tick_p99_share"] = f.tick.p99 / f.period();
     out["slack_us"] = f.slack();
     out["cyclictest_late"] = peer ? Json(f.cyclictest_late()) : Json();
+    out["view_hz"] = f.pictures > 0 ? Json(f.pictures) : Json();
+    out["overruns_without_view"] = f.pictures > 0 ? Json(f.quiet_overruns) : Json();
     out["refused"] = f.refused.empty() ? Json() : Json(f.refused);
     return out.dump(2) + "\n";
 }
@@ -160,6 +184,11 @@ std::string to_table(const JitterFigures& f) {
             counted(f.cyclictest_late(), "time"), f.p999_ratio());
     } else {
         out += "no peer: " + f.no_cyclictest + "\n";
+    }
+    if (f.pictures > 0) {
+        out += fmt::format(
+            "a view drew {:.0f} pictures a second beside both; without it {} in as many ticks\n",
+            f.pictures, counted(f.quiet_overruns, "overrun"));
     }
     if (f.dropped > 0) out += fmt::format("{} not recorded\n", counted(f.dropped, "frame"));
     if (!f.held) out += "the block was NOT held\n";

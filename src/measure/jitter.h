@@ -31,7 +31,9 @@ struct JitterFigures {
     Wakeups wakeups;
     std::string refused;  ///< of what real time takes; "" when nothing was
     Wakeups cyclictest;
-    std::string no_cyclictest;  ///< why it has no wake-ups
+    double pictures = 0;         ///< a second, of a view that draws beside both; 0: there is none
+    int64_t quiet_overruns = 0;  ///< of as many ticks without that view
+    std::string no_cyclictest;   ///< why it has no wake-ups
 
     double period() const { return 1e6 / rate; }          ///< [us]
     double slack() const { return period() - tick.p99; }  ///< [us]
@@ -40,9 +42,10 @@ struct JitterFigures {
 };
 
 /// Two fingers hold the block in the air, recording included, for `seconds` in turn with cyclictest
-/// for as long; or until `stop`.
-JitterFigures bench_jitter(const BenchSetup& setup, double seconds, const std::atomic<bool>& stop,
-                           const Progress& progress);
+/// for as long; or until `stop`. `view`: one draws beside both as fast as it can, and in turn with
+/// them the servo runs as long without. Throws Error when nothing can be drawn.
+JitterFigures bench_jitter(const BenchSetup& setup, double seconds, bool view,
+                           const std::atomic<bool>& stop, const Progress& progress);
 
 std::string to_json(const JitterFigures& figures);
 std::string to_table(const JitterFigures& figures);
