@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "command.h"
+
+namespace dihaptic::cli {
+namespace {
+
+constexpr const char* kProgram = "dihaptic-gui";
+
+/// Becomes the window's program, which lies beside this one.
+void run(const std::string& file, const std::string& out) {
+    const std::string program =
+        (std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram).string();
+    std::vector<std::string> words{kProgram, "--out", out};
+    if (!file.empty()) words.push_back(file);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
+    throw Error(fmt::format("{} cannot be started: {}", program, std::strerror(errno)),
+                "Build all of Dihaptic by ./dev build: it lies beside the program dihaptic.");
+}
+
+}  // namespace
+
+void add_gui(CLI::App& app) {
+    struct Options {
+        std::string file;
+        std::string out = "sessions";
+    };
+    auto* command = app.add_subcommand(
+        "gui", "The operator's window; without devices, the mouse moves a simulated hand");
+    auto options = std::make_shared<Options>();
+    command->add_option("FILE", options->file, "scene or experiment; scenes/block-on-table.yaml");
+    command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
+    command->footer("\nExample:\n  dihaptic gui scenes/block-on-table.yaml");
+    command->callback([options] { run(options->file, options->out); });
+}
+
+}  // namespace dihaptic::cli

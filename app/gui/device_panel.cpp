@@ -1,0 +1,85 @@
+#include "device_panel.h"
+
+#include <QHeaderView>
+#include <QProgressBar>
+#include <QVBoxLayout>
+#include <cmath>
+
+namespace dihaptic::gui {
+namespace {
+
+enum Column { kFinger, kModel, kForce, kStatus, kColumns };
+
+QString words(uint32_t status) {
+    QStringList out;
+    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
+        if ((status >> bit & 1u) == 0) continue;
+        out += QString::fromStdString(servo::describe(static_cast<servo::Status>(1u << bit)).what);
+    }
+    return out.isEmpty() ? "well" : out.join("; ");
+}
+
+}  // namespace
+
+DevicePanel::DevicePanel(QWidget* parent)
+    : QWidget(parent), table_(new QTableWidget(0, kColumns)), loop_(new QLabel) {
+    table_->setHorizontalHeaderLabels({"Finger", "Device", "Force / limit", "Status"});
+    table_->verticalHeader()->hide();
+    table_->horizontalHeader()->setStretchLastSection(true);
+    table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    table_->setSelectionMode(QAbstractItemView::NoSelection);
+    loop_->setWordWrap(true);
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(table_);
+    layout->addWidget(loop_);
+}
+
+void DevicePanel::set_devices(const std::vector<Device>& devices) {
+    devices_ = devices;
+    overruns_ = 0;
+    lateness_ = tick_ = 0;
+    loop_->clear();
+    table_->setRowCount(static_cast<int>(devices.size()));
+    for (int i = 0; i < table_->rowCount(); ++i) {
+        const Device& device = devices[static_cast<size_t>(i)];
+        table_->setItem(i, kFinger, new QTableWidgetItem(device.finger));
+        table_->setItem(i, kModel, new QTableWidgetItem(device.model));
+        table_->setItem(i, kStatus, new QTableWidgetItem("at rest"));
+        auto* bar = new QProgressBar;
+        bar->setRange(0, 1000);
+        bar->setFormat("-");
+        table_->setCellWidget(i, kForce, bar);
+    }
+    table_->resizeColumnsToContents();
+    table_->setColumnWidth(kForce, 130);
+}
+
+void DevicePanel::show_frame(const servo::Frame& frame) {
+    for (size_t i = 0; i < devices_.size() && i < frame.fingers.size(); ++i) {
+        const servo::FingerFrame& finger = frame.fingers[i];
+        const double force = finger.f_sent_W.norm();
+        auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(static_cast<int>(i), kForce));
+        const double most = devices_[i].most_force;
+        bar->setValue(std::isfinite(most) ? static_cast<int>(1000 * std::min(1.0, force / most))
+                                          : 0);
+        bar->setFormat(std::isfinite(most)
+                           ? QString("%1 / %2 N").arg(force, 0, 'f', 2).arg(most, 0, 'f', 1)
+                           : QString("%1 N").arg(force, 0, 'f', 2));
+        table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
+    }
+    if (frame.status & servo::kOverrun) ++overruns_;
+    // slow averages: single ticks flicker
+    const auto follow = [](double& value, double now) {
+        if (std::isfinite(now)) value += 0.05 * (now - value);
+    };
+    follow(lateness_, frame.lateness);
+    follow(tick_, frame.tick_duration);
+    loop_->setText(
+        QString("Loop: tick %1 us, wake-up late by %2 us, overruns among the frames shown: %3. %4")
+            .arg(tick_ * 1e6, 0, 'f', 0)
+            .arg(lateness_ * 1e6, 0, 'f', 0)
+            .arg(overruns_)
+            .arg((frame.status & servo::kForceOff) != 0 ? "Force is off." : ""));
+}
+
+}  // namespace dihaptic::gui

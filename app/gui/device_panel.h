@@ -1,0 +1,35 @@
+// How the devices and the loop are doing.
+#pragma once
+
+#include <QLabel>
+#include <QTableWidget>
+
+#include "servo/servo.h"
+
+namespace dihaptic::gui {
+
+class DevicePanel : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit DevicePanel(QWidget* parent = nullptr);
+
+    struct Device {
+        QString finger;
+        QString model;
+        double most_force = 0;  ///< that is sent [N]
+    };
+    void set_devices(const std::vector<Device>& devices);
+    /// Every frame that is shown; the loop's figures are of those.
+    void show_frame(const servo::Frame& frame);
+
+  private:
+    QTableWidget* table_;
+    QLabel* loop_;
+    std::vector<Device> devices_;
+    int overruns_ = 0;
+    double lateness_ = 0;
+    double tick_ = 0;
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,71 @@
+#include "loader.h"
+
+namespace dihaptic::gui {
+namespace {
+
+Opened open(const experiment::Request& request) {
+    Opened out;
+    out.plan = experiment::make_plan(request);
+    const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
+    const auto servo = experiment::make_servo(out.plan);
+    const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
+    for (int i = 0; i < servo->devices().size(); ++i) {
+        const devices::DeviceInfo& info = servo->devices().info(i);
+        out.devices.push_back({QString::fromStdString(fingers[static_cast<size_t>(i)]),
+                               QString::fromStdString(info.model),
+                               out.plan.settings.safety.largest_force(info.peak_force)});
+        if (info.workspace)
+            out.workspaces.push_back({X_WD[static_cast<size_t>(i)], *info.workspace});
+    }
+    // on simulated devices: real ones are left alone
+    experiment::Plan still = out.plan;
+    still.rig = rig::simulated_rig(fingers);
+    const auto resting = experiment::make_servo(still);
+    resting->activate();
+    out.frame = resting->tick(Time(0), {});
+    return out;
+}
+
+}  // namespace
+
+Loader::~Loader() {
+    if (thread_.joinable()) thread_.join();
+}
+
+void Loader::load(const experiment::Request& request) {
+    if (loading()) {
+        next_ = request;
+        return;
+    }
+    thread_ = std::thread([this, request] { run(request); });
+}
+
+void Loader::run(const experiment::Request& request) {
+    std::optional<Opened> result;
+    QStringList problems;
+    try {
+        result = open(request);
+    } catch (const Error& e) {
+        for (const Problem& problem : e.problems())
+            problems += QString::fromStdString(problem.text());
+    } catch (const std::exception& e) {
+        problems += QString::fromStdString(e.what());
+    }
+    QMetaObject::invokeMethod(
+        this, [this, result, problems] { done(result, problems); }, Qt::QueuedConnection);
+}
+
+void Loader::done(const std::optional<Opened>& result, const QStringList& problems) {
+    thread_.join();
+    if (next_) {
+        const experiment::Request request = *next_;
+        next_.reset();
+        load(request);
+    } else if (result) {
+        Q_EMIT opened(*result);
+    } else {
+        Q_EMIT refused(problems);
+    }
+}
+
+}  // namespace dihaptic::gui

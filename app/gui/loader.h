@@ -1,0 +1,45 @@
+// Reads and checks files in a thread of its own: a mesh may take a while to cut.
+#pragma once
+
+#include <QObject>
+#include <optional>
+#include <thread>
+
+#include "device_panel.h"
+#include "experiment/plan.h"
+#include "view/scene_view.h"
+
+namespace dihaptic::gui {
+
+/// A file that is good, and what there is to show of it before it runs.
+struct Opened {
+    experiment::Plan plan;
+    servo::Frame frame;  ///< the first
+    std::vector<DevicePanel::Device> devices;
+    std::vector<view::Workspace> workspaces;
+};
+
+class Loader : public QObject {
+    Q_OBJECT
+
+  public:
+    using QObject::QObject;
+    ~Loader() override;
+
+    /// What was asked for before and is not done yet is dropped.
+    void load(const experiment::Request& request);
+    bool loading() const { return thread_.joinable(); }
+
+  Q_SIGNALS:
+    void opened(const dihaptic::gui::Opened& opened);
+    void refused(const QStringList& problems);
+
+  private:
+    void run(const experiment::Request& request);
+    void done(const std::optional<Opened>& result, const QStringList& problems);
+
+    std::thread thread_;
+    std::optional<experiment::Request> next_;
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,49 @@
+#include "mouse_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dihaptic::gui {
+namespace {
+
+/// Where a hand at a desk can be [m].
+const Vec3 kLeast(-0.3, -0.25, 0.005);
+const Vec3 kMost(0.3, 0.25, 0.4);
+constexpr double kWidest = 0.16;  // [m]
+
+}  // namespace
+
+void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int height,
+                     bool in_depth) {
+    const Vec3 sight = (camera.look_at - camera.position).normalized();
+    // seen from above there is no left in the sight: left is the world's
+    Vec3 away(sight.x(), sight.y(), 0);
+    away = away.norm() > 1e-6 ? Vec3(away.normalized()) : Vec3(0, 1, 0);
+    const Vec3 right = away.cross(Vec3::UnitZ());
+    const double distance = std::max(0.01, (goal_.centre - camera.position).dot(sight));
+    const double scale = 2 * distance * std::tan(camera.field_of_view / 2) / std::max(1, height);
+    const Vec3 up = in_depth ? away : Vec3::UnitZ();
+    goal_.centre += scale * (pixels.x() * right - pixels.y() * up);
+    goal_.centre = goal_.centre.cwiseMax(kLeast).cwiseMin(kMost);
+}
+
+void MouseHand::turn(const QPointF& pixels) {
+    goal_.yaw += kTurn * pixels.x();
+    goal_.roll = std::clamp(goal_.roll + kTurn * pixels.y(), -M_PI / 2, M_PI / 2);
+}
+
+void MouseHand::wheel(double notches) {
+    close(notches * kNotch);
+}
+
+void MouseHand::squeeze(Squeeze keys, double h) {
+    if (keys == Squeeze::close) close(h * kKeySpeed);
+    if (keys == Squeeze::open) close(-h * kKeySpeed);
+}
+
+void MouseHand::close(double way) {
+    if (way > 0 && grip_ > kMostGrip) return;  // and to let go takes effect at once
+    goal_.aperture = std::clamp(goal_.aperture - way, 0.0, kWidest);
+}
+
+}  // namespace dihaptic::gui

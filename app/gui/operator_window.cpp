@@ -1,0 +1,376 @@
+#include "operator_window.h"
+
+#include <QCloseEvent>
+#include <QDesktopServices>
+#include <QDir>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenuBar>
+#include <QSettings>
+#include <QShortcut>
+#include <QTime>
+#include <QUrl>
+
+#include "theme.h"
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr int kRefresh = 16;            // [ms]: sixty pictures a second
+constexpr double kLongestStep = 0.033;  // of a hand whose grip is known as of the last picture [s]
+
+const QString kMouseHelp =
+    "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
+    "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
+    "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.   Escape: force off.";
+
+}  // namespace
+
+OperatorWindow::OperatorWindow(QString out)
+    : out_(std::move(out)),
+      scene_(new SceneWidget),
+      session_(new SessionPanel),
+      plots_(new PlotsPanel),
+      devices_(new DevicePanel),
+      tuning_(new TuningPanel),
+      log_(new QPlainTextEdit) {
+    setWindowTitle("Dihaptic");
+    setCentralWidget(scene_);
+    make_docks();
+    make_menus();
+
+    connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
+    connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
+    connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
+    connect(session_, &SessionPanel::choice_changed, this, &OperatorWindow::reload);
+    connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
+    connect(session_, &SessionPanel::stop_requested, this, &OperatorWindow::stop);
+    connect(session_, &SessionPanel::pause_requested, this, [this](bool paused) {
+        if (!runner_.running()) return;
+        runner_.set_paused(paused);
+        log(paused ? "paused: force is off" : "goes on");
+        update_state();
+    });
+    connect(tuning_, &TuningPanel::proxy_chosen, this, &OperatorWindow::reload);
+    connect(tuning_, &TuningPanel::solver_chosen, this, [this](dynamics::Solver solver) {
+        if (!runner_.running()) return;
+        runner_.set_solver(solver);
+        log(QString("contact solver: %1").arg(enum_name(solver).data()));
+    });
+    connect(tuning_, &TuningPanel::tuned, this, [this](const haptics::Tuning& tuning) {
+        if (!runner_.running()) return;
+        runner_.set_tuning(tuning);
+        log(QString("coupling: %1, %2 N/m, %3, smoothing %4")
+                .arg(enum_name(tuning.kind).data())
+                .arg(tuning.stiffness)
+                .arg(tuning.damping < 0 ? QString("k h / 2")
+                                        : QString("%1 N s/m").arg(tuning.damping))
+                .arg(tuning.smoothing));
+    });
+    connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
+    connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
+    connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
+    connect(&runner_, &SessionRunner::finishing_progressed, session_, &SessionPanel::set_finishing);
+    reload_.setSingleShot(true);
+    connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
+    connect(&reload_, &QTimer::timeout, this, &OperatorWindow::reload);
+    connect(&timer_, &QTimer::timeout, this, &OperatorWindow::refresh);
+    timer_.start(kRefresh);
+    since_refresh_.start();
+    restore();
+    update_state();
+}
+
+OperatorWindow::~OperatorWindow() = default;
+
+void OperatorWindow::make_docks() {
+    log_->setReadOnly(true);
+    log_->setMaximumBlockCount(5000);
+    log_->setAccessibleName("Log");
+    const auto add = [&](const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
+        auto* dock = new QDockWidget(title);
+        dock->setObjectName(title);  // by which its place is remembered
+        dock->setWidget(widget);
+        addDockWidget(area, dock);
+        return dock;
+    };
+    add("Session", session_, Qt::RightDockWidgetArea);
+    add("Tuning", tuning_, Qt::RightDockWidgetArea);
+    QDockWidget* plots = add("Plots", plots_, Qt::RightDockWidgetArea);
+    QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
+    QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
+    resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
+    resizeDocks({plots}, {380}, Qt::Horizontal);
+}
+
+void OperatorWindow::make_menus() {
+    QMenu* file = menuBar()->addMenu("&File");
+    file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
+    file->addAction("&Folder of sessions", this, [this] {
+        QDir().mkpath(out_);
+        QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
+    });
+    file->addSeparator();
+    file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
+
+    QMenu* session = menuBar()->addMenu("&Session");
+    session->addAction("&Start", QKeySequence(Qt::Key_F5), this, &OperatorWindow::start);
+    session->addAction("&Pause, or go on", QKeySequence(Qt::Key_F6), this, [this] {
+        if (runner_.running()) Q_EMIT session_->pause_requested(!runner_.paused());
+    });
+    session->addAction("S&top", QKeySequence(Qt::Key_F7), this, &OperatorWindow::stop);
+    session->addAction("&Force off", QKeySequence(Qt::Key_Escape), this,
+                       &OperatorWindow::force_off);
+
+    view_menu_ = menuBar()->addMenu("&View");
+    camera_menu_ = view_menu_->addMenu("C&amera");
+    view_menu_->addAction("&Reset the camera", QKeySequence(Qt::Key_Home), scene_,
+                          &SceneWidget::reset_camera);
+    const auto layer = [&](const QString& name, bool SceneWidget::Layers::*which) {
+        QAction* action = view_menu_->addAction(name);
+        action->setCheckable(true);
+        connect(action, &QAction::toggled, this, [this, which](bool on) {
+            SceneWidget::Layers layers = scene_->layers();
+            layers.*which = on;
+            scene_->set_layers(layers);
+        });
+    };
+    view_menu_->addSeparator();
+    layer("&Handles", &SceneWidget::Layers::handles);
+    layer("&Forces", &SceneWidget::Layers::forces);
+    layer("C&ontacts", &SceneWidget::Layers::contacts);
+    layer("&Grip axis", &SceneWidget::Layers::grip_axis);
+    layer("P&ath of the object", &SceneWidget::Layers::path);
+    layer("&Workspaces", &SceneWidget::Layers::workspaces);
+    view_menu_->addSeparator();
+    subject_action_ = view_menu_->addAction("&Subject's window");
+    subject_action_->setCheckable(true);
+    connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
+    QAction* dark = view_menu_->addAction("&Dark");
+    dark->setCheckable(true);
+    dark->setChecked(QSettings().value("dark", false).toBool());
+    connect(dark, &QAction::toggled, this, [](bool on) {
+        set_dark(on);
+        QSettings().setValue("dark", on);
+    });
+    QMenu* panels = view_menu_->addMenu("Pa&nels");
+    for (const QDockWidget* dock : findChildren<QDockWidget*>())
+        panels->addAction(dock->toggleViewAction());
+}
+
+void OperatorWindow::restore() {
+    const QSettings settings;
+    if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1400, 900);
+    restoreState(settings.value("docks").toByteArray());
+}
+
+void OperatorWindow::choose_file() {
+    const QString start = file_.isEmpty() ? QString("experiments") : QFileInfo(file_).path();
+    const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
+                                                      "Scenes and experiments (*.yaml)");
+    if (!file.isEmpty()) open(file);
+}
+
+experiment::Request OperatorWindow::request() const {
+    experiment::Request request;
+    request.file = file_.toStdString();
+    request.rig = session_->rig().toStdString();
+    request.mouse = session_->by_mouse();
+    if (!tuning_->proxy().isEmpty())
+        request.set.push_back("proxy.kind=" + tuning_->proxy().toStdString());
+    return request;
+}
+
+void OperatorWindow::open(const QString& file) {
+    file_ = file;
+    if (const QStringList watched = watcher_.files(); !watched.isEmpty())
+        watcher_.removePaths(watched);
+    watcher_.addPath(file);
+    QStringList rigs;
+    for (const QFileInfo& rig :
+         QDir(QFileInfo(file).dir().filePath("../rigs")).entryInfoList({"*.yaml"}))
+        rigs += rig.filePath();
+    session_->set_rigs(rigs);
+    reload();
+}
+
+void OperatorWindow::reload() {
+    if (file_.isEmpty() || runner_.running()) return;
+    // an editor that replaces the file ends its being watched
+    if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
+    loader_.load(request());
+    update_state();
+}
+
+void OperatorWindow::opened(const Opened& opened) {
+    if (runner_.running()) return;
+    plan_ = opened.plan;
+    frame_ = opened.frame;
+    complaint_.clear();
+    for (const Problem& warning : plan_->warnings)
+        log(QString::fromStdString(warning.text()), true);
+    scene_->set_scene(plan_->scene, frame_, opened.workspaces);
+    if (subject_) subject_->scene().set_scene(plan_->scene, frame_);
+    plots_->set_scene(plan_->scene);
+    tuning_->set_settings(plan_->settings);
+    devices_->set_devices(opened.devices);
+    camera_menu_->clear();
+    for (const view::Camera& camera : scene_->cameras()) {
+        camera_menu_->addAction(QString::fromStdString(camera.name), this,
+                                [this, name = camera.name] { scene_->set_camera(name); });
+    }
+    const QString title = QString::fromStdString(plan_->title);
+    log(QString("opened %1: %2").arg(file_, title));
+    session_->set_file(file_);
+    setWindowTitle(title + " - Dihaptic");
+    update_state();
+    if (start_when_opened_) start();
+}
+
+void OperatorWindow::refused(const QStringList& problems) {
+    start_when_opened_ = false;
+    complaint_ = problems.front();
+    for (const QString& problem : problems) log(problem, true);
+    if (plan_) log("What was open stays as it is.");
+    update_state();
+}
+
+void OperatorWindow::start() {
+    start_when_opened_ = loader_.loading();
+    if (!plan_ || runner_.running() || loader_.loading()) return;
+    experiment::RunOptions options;
+    options.out = out_.toStdString();
+    options.command = "dihaptic gui " + file_.toStdString();
+    options.participant.id = session_->participant().toStdString();
+    try {
+        runner_.start(experiment::make_plan(request()), options);
+    } catch (const Error& e) {
+        log(QString::fromStdString(e.what()), true);
+        return;
+    }
+    const experiment::Plan& plan = runner_.plan();
+    tuning_->set_settings(plan.settings);
+    if (plan.mouse) {
+        mouse_.emplace(plan.mouse->goal());
+        scene_->set_hand(&*mouse_);
+        scene_->set_help(kMouseHelp);
+    }
+    log("started: " + QString::fromStdString(plan.title));
+    update_state();
+}
+
+void OperatorWindow::stop() {
+    if (runner_.running()) runner_.end();
+}
+
+void OperatorWindow::force_off() {
+    if (!runner_.running()) return;
+    runner_.force_off();
+    log("force off", true);
+}
+
+void OperatorWindow::session_ended(const SessionEnd& end) {
+    mouse_.reset();
+    scene_->set_hand(nullptr);
+    scene_->set_help("");
+    for (const QString& message : end.messages) log(message, !end.good);
+    if (!end.folder.isEmpty()) log("recorded in " + end.folder);
+    update_state();
+    if (closing_) close();
+}
+
+void OperatorWindow::refresh() {
+    const double h = static_cast<double>(since_refresh_.restart()) * 1e-3;
+    if (!runner_.running()) return;
+    while (const auto sample = runner_.take_sample()) plots_->add(*sample);
+    const servo::Frame& frame = runner_.frame();
+    if (frame.sequence >= 0) {
+        if (mouse_) move_hand(h);
+        show_frame(frame);
+    }
+    if (runner_.finishing()) update_state();
+}
+
+void OperatorWindow::show_frame(const servo::Frame& frame) {
+    scene_->show_frame(frame);
+    if (subject_) subject_->scene().show_frame(frame);
+    devices_->show_frame(frame);
+    if (runner_.finishing()) return;
+    const auto& phases = runner_.plan().driver->phases();
+    const bool has_phase = static_cast<size_t>(frame.phase) < phases.size();
+    session_->set_progress(
+        seconds(frame.time),
+        mouse_ ? std::numeric_limits<double>::infinity() : runner_.plan().driver->duration(),
+        has_phase ? QString::fromStdString(phases[static_cast<size_t>(frame.phase)].name) : "");
+}
+
+void OperatorWindow::move_hand(double h) {
+    if (!mouse_ || !runner_.running()) return;
+    const servo::Frame& frame = runner_.frame();
+    if (frame.sequence < 0) return;
+    mouse_->set_grip(frame.grip_force);
+    mouse_->squeeze(scene_->keys(), std::min(h, kLongestStep));
+    runner_.plan().mouse->follow(mouse_->goal(), seconds(frame.time));
+}
+
+void OperatorWindow::show_subject_window(bool shown) {
+    if (!shown) {
+        subject_.reset();
+        return;
+    }
+    subject_ = std::make_unique<SubjectWindow>();
+    if (plan_) {
+        subject_->scene().set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
+    }
+    connect(
+        subject_.get(), &SubjectWindow::closed, this,
+        [this] { subject_action_->setChecked(false); }, Qt::QueuedConnection);
+    subject_->show_beside(*this);
+}
+
+SessionPanel::State OperatorWindow::state() const {
+    using State = SessionPanel::State;
+    if (runner_.finishing()) return State::finishing;
+    if (runner_.running()) return runner_.paused() ? State::paused : State::running;
+    return plan_ && !loader_.loading() ? State::ready : State::nothing;
+}
+
+QString OperatorWindow::banner() const {
+    if (runner_.running()) return runner_.paused() ? "Paused: press F6 to go on" : "";
+    if (loader_.loading()) return "Opening " + file_ + " ...";
+    if (!complaint_.isEmpty()) return complaint_;
+    return plan_ ? "Press F5 to start" : "Open a scene or an experiment: Ctrl+O";
+}
+
+void OperatorWindow::update_state() {
+    session_->set_state(state());
+    scene_->set_banner(banner());
+    tuning_->set_running(runner_.running());
+}
+
+void OperatorWindow::log(const QString& text, bool problem) {
+    const QString time = QTime::currentTime().toString("HH:mm:ss");
+    QString html = text.toHtmlEscaped();
+    html.replace("\n", "<br>");
+    if (problem) html = "<b>" + html + "</b>";
+    log_->appendHtml(time + "  " + html);
+}
+
+void OperatorWindow::closeEvent(QCloseEvent* event) {
+    if (runner_.running()) {
+        // its files first: the window goes when they are written
+        closing_ = true;
+        runner_.end();
+        log("ending the session ...");
+        event->ignore();
+        return;
+    }
+    QSettings settings;
+    settings.setValue("geometry", saveGeometry());
+    settings.setValue("docks", saveState());
+    subject_.reset();
+    event->accept();
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,59 @@
+#include "plots_panel.h"
+
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "view/colours.h"
+
+namespace dihaptic::gui {
+namespace {
+
+/// As it is in the picture.
+QColor screen_colour(const Vec3& linear) {
+    const auto srgb = [](double x) {  // IEC 61966-2-1
+        return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    };
+    return QColor::fromRgbF(static_cast<float>(srgb(linear.x())),
+                            static_cast<float>(srgb(linear.y())),
+                            static_cast<float>(srgb(linear.z())));
+}
+
+}  // namespace
+
+PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {}
+
+void PlotsPanel::set_scene(const scene::Scene& scene) {
+    for (StripChart* chart : {grasp_, fingers_, heights_}) delete chart;
+    const int object = scene.object_index();
+    has_object_ = object >= 0;
+    std::vector<StripChart::Curve> fingers;
+    for (const std::string& name : scene::finger_names(scene)) {
+        if (fingers.size() == experiment::CurveSample::kFingers) break;
+        fingers.push_back(
+            {QString::fromStdString(name), screen_colour(view::finger_colour(fingers.size()))});
+    }
+    fingers_count_ = fingers.size();
+    std::vector<StripChart::Curve> heights = fingers;
+    if (has_object_) {
+        heights.push_back({QString::fromStdString(scene.bodies[static_cast<size_t>(object)].name),
+                           screen_colour(view::body_colour(scene, static_cast<size_t>(object)))});
+    }
+    grasp_ =
+        new StripChart("Grasp", "N", {{"grip force", "#d55e00"}, {"load force", "#0072b2"}}, 1);
+    fingers_ = new StripChart("Force on the finger", "N", fingers, 1);
+    heights_ = new StripChart("Height", "mm", heights, 50);
+    for (StripChart* chart : {grasp_, fingers_, heights_}) layout_->addWidget(chart, 1);
+}
+
+void PlotsPanel::add(const experiment::CurveSample& sample) {
+    if (grasp_ == nullptr) return;
+    grasp_->add(sample.time, {sample.grip_force, sample.load_force});
+    const auto count = static_cast<std::ptrdiff_t>(fingers_count_);
+    fingers_->add(sample.time, {sample.forces.begin(), sample.forces.begin() + count});
+    std::vector<double> heights(sample.heights.begin(), sample.heights.begin() + count);
+    if (has_object_) heights.push_back(sample.object_height);
+    for (double& height : heights) height *= 1e3;
+    heights_->add(sample.time, heights);
+}
+
+}  // namespace dihaptic::gui

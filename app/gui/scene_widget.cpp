@@ -1,0 +1,217 @@
+#include "scene_widget.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+
+#include "base/diagnostics.h"
+#include "view/displayed.h"
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr double kOrbit = 0.006;  // [rad/pixel]
+constexpr size_t kPath = 300;     // pictures: five seconds
+
+}  // namespace
+
+SceneWidget::SceneWidget(QWidget* parent)
+    : QOpenGLWidget(parent), banner_(new QLabel(this)), help_(new QLabel(this)) {
+    setAccessibleName("Scene");
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setMinimumSize(320, 240);
+    for (QLabel* label : {banner_, help_}) {
+        label->setAttribute(Qt::WA_TransparentForMouseEvents);
+        label->hide();
+    }
+    banner_->setStyleSheet(
+        "background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; font-size: 20px; "
+        "border-radius: 8px;");
+    help_->setStyleSheet(
+        "background: rgba(255, 255, 255, 190); color: #20242a; padding: 8px 12px; border-radius: "
+        "6px;");
+}
+
+SceneWidget::~SceneWidget() {
+    release();
+}
+
+void SceneWidget::release() {
+    if (!view_) return;
+    makeCurrent();
+    view_.reset();
+    doneCurrent();
+}
+
+void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame,
+                            std::vector<view::Workspace> workspaces) {
+    release();
+    workspaces_ = std::move(workspaces);
+    path_.clear();
+    scene_ = scene;
+    frame_ = frame;
+    cameras_ = view::cameras(scene_);
+    camera_ = cameras_.front();
+    update();
+}
+
+void SceneWidget::show_frame(const servo::Frame& frame) {
+    if (frame.time < frame_.time) path_.clear();
+    frame_ = frame;
+    const int object = scene_.object_index();
+    if (object >= 0) {
+        path_.push_back(view::displayed_body(frame, static_cast<size_t>(object)).p);
+        while (path_.size() > kPath) path_.pop_front();
+    }
+    update();
+}
+
+void SceneWidget::set_layers(const Layers& layers) {
+    layers_ = layers;
+    update();
+}
+
+void SceneWidget::set_hand(MouseHand* hand) {
+    hand_ = hand;
+    keys_ = MouseHand::Squeeze::none;
+    setCursor(hand_ != nullptr ? Qt::CrossCursor : Qt::OpenHandCursor);
+    if (hand_ != nullptr) setFocus();
+}
+
+void SceneWidget::set_camera(const std::string& name) {
+    camera_ = view::find_camera(cameras_, name);
+    update();
+}
+
+void SceneWidget::reset_camera() {
+    if (!cameras_.empty()) set_camera(camera_.name);
+}
+
+void SceneWidget::set_banner(const QString& text) {
+    if (banner_->text() == text) return;
+    banner_->setText(text);
+    banner_->setVisible(!text.isEmpty());
+    place_labels();
+}
+
+void SceneWidget::set_help(const QString& text) {
+    help_->setText(text);
+    help_->setVisible(!text.isEmpty());
+    place_labels();
+}
+
+void SceneWidget::place_labels() {
+    banner_->setWordWrap(false);
+    banner_->adjustSize();
+    if (banner_->width() > width() - 40) {
+        banner_->setWordWrap(true);
+        banner_->setFixedWidth(width() - 40);
+        banner_->adjustSize();
+    } else {
+        banner_->setMinimumWidth(0);
+        banner_->setMaximumWidth(QWIDGETSIZE_MAX);
+    }
+    help_->adjustSize();
+    banner_->move((width() - banner_->width()) / 2, 24);
+    help_->move(12, height() - help_->height() - 12);
+}
+
+void SceneWidget::resizeEvent(QResizeEvent* event) {
+    QOpenGLWidget::resizeEvent(event);
+    place_labels();
+}
+
+void SceneWidget::paintGL() {
+    if (cameras_.empty()) return;
+    try {
+        if (!view_) view_ = std::make_unique<view::SceneView>(scene_);
+        const std::vector<Vec3> path(path_.begin(), path_.end());
+        view::Overlays overlays;
+        overlays.handles = layers_.handles;
+        overlays.forces = layers_.forces;
+        overlays.contacts = layers_.contacts;
+        overlays.grip_axis = layers_.grip_axis;
+        if (layers_.path) overlays.path = path;
+        if (layers_.workspaces) overlays.workspaces = workspaces_;
+        const double scale = devicePixelRatioF();
+        shown_ = view_->draw(frame_, camera_, static_cast<int>(width() * scale),
+                             static_cast<int>(height() * scale), overlays);
+    } catch (const Error& e) {
+        cameras_.clear();
+        Q_EMIT failed(e.what());
+    }
+}
+
+void SceneWidget::enterEvent(QEnterEvent* event) {
+    pointer_ = event->position();
+}
+
+void SceneWidget::mousePressEvent(QMouseEvent* event) {
+    pointer_ = event->position();
+}
+
+void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
+    const QPointF way = event->position() - pointer_;
+    pointer_ = event->position();
+    const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
+    const bool left = event->buttons().testFlag(Qt::LeftButton);
+    const bool orbit = event->buttons().testFlag(Qt::RightButton) || (left && hand_ == nullptr);
+    const bool pan = event->buttons().testFlag(Qt::MiddleButton) || (orbit && shift);
+    if (pan) {
+        camera_ = view::panned(camera_, way.x() / height(), -way.y() / height());
+    } else if (orbit) {
+        camera_ = view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y());
+    } else if (hand_ != nullptr) {
+        setFocus();  // keys are the hand's where the pointer is
+        if (left) {
+            hand_->turn(way);
+        } else {
+            hand_->move(way, camera_, height(), shift);
+        }
+        Q_EMIT hand_moved();
+        return;
+    }
+    update();
+}
+
+void SceneWidget::wheelEvent(QWheelEvent* event) {
+    const double notches = event->angleDelta().y() / 120.0;
+    if (hand_ != nullptr && !event->modifiers().testFlag(Qt::ControlModifier)) {
+        hand_->wheel(-notches);
+        Q_EMIT hand_moved();
+    } else {
+        camera_ = view::zoomed(camera_, std::pow(0.9, notches));
+        update();
+    }
+    event->accept();
+}
+
+bool SceneWidget::set_key(const QKeyEvent& event, bool down) {
+    if (hand_ == nullptr) return false;
+    MouseHand::Squeeze key = MouseHand::Squeeze::none;
+    if (event.key() == Qt::Key_Space) key = MouseHand::Squeeze::close;
+    if (event.key() == Qt::Key_V) key = MouseHand::Squeeze::open;
+    if (key == MouseHand::Squeeze::none) return false;
+    if (event.isAutoRepeat()) return true;
+    if (down) {
+        keys_ = key;
+    } else if (keys_ == key) {
+        keys_ = MouseHand::Squeeze::none;
+    }
+    return true;
+}
+
+void SceneWidget::keyPressEvent(QKeyEvent* event) {
+    if (!set_key(*event, true)) QOpenGLWidget::keyPressEvent(event);
+}
+
+void SceneWidget::keyReleaseEvent(QKeyEvent* event) {
+    if (!set_key(*event, false)) QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void SceneWidget::focusOutEvent(QFocusEvent* event) {
+    keys_ = MouseHand::Squeeze::none;
+    QOpenGLWidget::focusOutEvent(event);
+}
+
+}  // namespace dihaptic::gui

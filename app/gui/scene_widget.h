@@ -1,0 +1,91 @@
+// The scene as it is now, seen through a camera that the mouse moves; or the mouse moves the hand.
+#pragma once
+
+#include <QLabel>
+#include <QOpenGLWidget>
+#include <deque>
+#include <memory>
+
+#include "mouse_hand.h"
+#include "view/scene_view.h"
+
+namespace dihaptic::gui {
+
+class SceneWidget : public QOpenGLWidget {
+    Q_OBJECT
+
+  public:
+    explicit SceneWidget(QWidget* parent = nullptr);
+    ~SceneWidget() override;
+
+    /// What frames are of from now on, the first of them, and where the devices can go.
+    void set_scene(const scene::Scene& scene, const servo::Frame& frame,
+                   std::vector<view::Workspace> workspaces = {});
+    /// The newest frame; drawn with the screen's next picture.
+    void show_frame(const servo::Frame& frame);
+    /// While it is set, the mouse moves this hand; null: the camera.
+    void set_hand(MouseHand* hand);
+    /// Keys that squeeze, as they are held now.
+    MouseHand::Squeeze keys() const { return keys_; }
+
+    const std::vector<view::Camera>& cameras() const { return cameras_; }
+    void set_camera(const std::string& name);
+    void reset_camera();
+    /// What is drawn besides the scene; `paths`: of the object, in the last seconds.
+    struct Layers {
+        bool handles = false;
+        bool forces = false;
+        bool contacts = false;
+        bool grip_axis = false;
+        bool path = false;
+        bool workspaces = false;
+    };
+    void set_layers(const Layers& layers);
+    const Layers& layers() const { return layers_; }
+    /// Of the last picture.
+    const view::Shown& shown() const { return shown_; }
+    /// Large, over the picture; empty: nothing.
+    void set_banner(const QString& text);
+    void set_help(const QString& text);
+
+    QSize sizeHint() const override { return {900, 640}; }
+
+  Q_SIGNALS:
+    /// The hand has a new goal.
+    void hand_moved();
+    /// OpenGL cannot draw: why, and what to do.
+    void failed(const QString& why);
+
+  protected:
+    void paintGL() override;
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void enterEvent(QEnterEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+
+  private:
+    void release();
+    bool set_key(const QKeyEvent& event, bool down);
+    void place_labels();
+
+    scene::Scene scene_;
+    servo::Frame frame_;
+    std::unique_ptr<view::SceneView> view_;
+    std::vector<view::Camera> cameras_;
+    view::Camera camera_;
+    Layers layers_;
+    std::vector<view::Workspace> workspaces_;
+    std::deque<Vec3> path_;
+    view::Shown shown_;
+    MouseHand* hand_ = nullptr;
+    MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
+    QPointF pointer_;
+    QLabel* banner_;
+    QLabel* help_;
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,103 @@
+#include "session_panel.h"
+
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QRegularExpressionValidator>
+#include <QVBoxLayout>
+#include <cmath>
+
+namespace dihaptic::gui {
+
+SessionPanel::SessionPanel(QWidget* parent)
+    : QWidget(parent),
+      file_(new QLabel("none")),
+      rig_(new QComboBox),
+      participant_(new QLineEdit),
+      hand_(new QComboBox),
+      open_(new QPushButton("&Open ...")),
+      start_(new QPushButton("Start")),
+      pause_(new QPushButton("Pause")),
+      stop_(new QPushButton("Stop")),
+      progress_(new QProgressBar) {
+    file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    rig_->addItem("as the file says", QString());
+    rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    participant_->setPlaceholderText("e.g. S07");
+    // part of a folder's name
+    participant_->setValidator(
+        new QRegularExpressionValidator(QRegularExpression("[A-Za-z0-9_-]{0,40}"), this));
+    hand_->addItems({"the mouse", "the file's script"});
+    pause_->setCheckable(true);
+    start_->setToolTip("F5");
+    pause_->setToolTip("F6: time stands still, and no force acts");
+    stop_->setToolTip("F7: ends the session in order. Escape switches force off at once.");
+    progress_->setTextVisible(true);
+
+    auto* form = new QFormLayout;
+    auto* file_row = new QHBoxLayout;
+    file_row->addWidget(file_, 1);
+    file_row->addWidget(open_);
+    form->addRow("File", file_row);
+    form->addRow("&Rig", rig_);
+    form->addRow("S&ubject", participant_);
+    form->addRow("&Hand moved by", hand_);
+    auto* buttons = new QHBoxLayout;
+    for (QPushButton* button : {start_, pause_, stop_}) buttons->addWidget(button);
+    auto* layout = new QVBoxLayout(this);
+    layout->addLayout(form);
+    layout->addLayout(buttons);
+    layout->addWidget(progress_);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+
+    connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
+    connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
+    connect(pause_, &QPushButton::clicked, this, &SessionPanel::pause_requested);
+    connect(stop_, &QPushButton::clicked, this, &SessionPanel::stop_requested);
+    connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
+    connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
+    set_state(State::nothing);
+}
+
+void SessionPanel::set_file(const QString& file) {
+    file_->setText(QFileInfo(file).fileName());
+    file_->setToolTip(file);
+}
+
+void SessionPanel::set_rigs(const QStringList& files) {
+    const QString chosen = rig();
+    while (rig_->count() > 1) rig_->removeItem(1);
+    for (const QString& file : files) rig_->addItem(QFileInfo(file).completeBaseName(), file);
+    rig_->setCurrentIndex(std::max(0, rig_->findData(chosen)));
+}
+
+void SessionPanel::set_state(State state) {
+    const bool idle = state == State::nothing || state == State::ready;
+    const bool running = state == State::running || state == State::paused;
+    start_->setEnabled(state == State::ready);
+    pause_->setEnabled(running);
+    pause_->setChecked(state == State::paused);
+    stop_->setEnabled(running);
+    for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
+        choice->setEnabled(idle);
+    if (idle) {
+        progress_->setRange(0, 1);
+        progress_->setValue(0);
+        progress_->setFormat(state == State::ready ? "ready" : "");
+    }
+}
+
+void SessionPanel::set_progress(double now, double end, const QString& phase) {
+    const bool endless = !std::isfinite(end);
+    progress_->setRange(0, 1000);
+    progress_->setValue(endless ? 0 : static_cast<int>(1000 * now / end));
+    progress_->setFormat(endless ? QString("%1 s").arg(now, 0, 'f', 1)
+                                 : QString("%1: %2 s left").arg(phase).arg(end - now, 0, 'f', 1));
+}
+
+void SessionPanel::set_finishing(double share) {
+    progress_->setRange(0, 1000);
+    progress_->setValue(static_cast<int>(1000 * share));
+    progress_->setFormat("writing files: %p %");
+}
+
+}  // namespace dihaptic::gui

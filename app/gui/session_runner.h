@@ -1,0 +1,66 @@
+// Runs sessions in a thread of their own, so that the window never waits for one.
+#pragma once
+
+#include <QObject>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "experiment/session_run.h"
+
+namespace dihaptic::gui {
+
+/// How a session ended.
+struct SessionEnd {
+    QString folder;        ///< of what was recorded; empty: it never began
+    QStringList messages;  ///< what went wrong, with remedies; then what was measured
+    bool good = false;     ///< nothing went wrong
+};
+
+class SessionRunner : public QObject {
+    Q_OBJECT
+
+  public:
+    using QObject::QObject;
+    /// Ends the session in order and waits for its files.
+    ~SessionRunner() override;
+
+    /// One session at a time. `options.live` is the runner's own business.
+    void start(experiment::Plan plan, experiment::RunOptions options);
+    bool running() const { return session_ != nullptr; }
+    /// The ticks are over, and files are being written.
+    bool finishing() const { return running() && session_->finishing; }
+
+    /// Only while running.
+    const experiment::Plan& plan() const { return session_->plan; }
+    const servo::Frame& frame() { return session_->live.frame.read(); }
+    std::optional<experiment::CurveSample> take_sample() { return session_->live.take_sample(); }
+    void set_paused(bool paused) { session_->live.paused = paused; }
+    bool paused() const { return session_->live.paused; }
+    void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
+    void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
+    /// In order; the hand may hold what it holds.
+    void end() { session_->live.ended = true; }
+    /// At once, and the session ends.
+    void force_off() { session_->stop = true; }
+
+  Q_SIGNALS:
+    /// Share of the session's files that is written; in the window's thread, as ended() is.
+    void finishing_progressed(double share);
+    void ended(const dihaptic::gui::SessionEnd& end);
+
+  private:
+    struct Session {
+        experiment::Plan plan;
+        experiment::Live live;
+        std::atomic<bool> stop{false};
+        std::atomic<bool> finishing{false};
+    };
+    SessionEnd run(Session& session, const experiment::RunOptions& options);
+
+    std::unique_ptr<Session> session_;
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::gui

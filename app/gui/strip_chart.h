@@ -1,0 +1,52 @@
+// A chart of the last seconds, as of a pen on a strip of paper: one or more curves, one scale.
+#pragma once
+
+#include <QWidget>
+#include <deque>
+#include <vector>
+
+namespace dihaptic::gui {
+
+class StripChart : public QWidget {
+    Q_OBJECT
+
+  public:
+    static constexpr double kSeconds = 10;
+
+    struct Curve {
+        QString name;
+        QColor colour;
+    };
+    /// `unit`: of all curves; `least_range`: what the scale shows at least.
+    StripChart(QString title, QString unit, std::vector<Curve> curves, double least_range,
+               QWidget* parent = nullptr);
+
+    /// Values at `time` [s], one a curve; NaN leaves a gap. Time that goes back starts anew.
+    void add(double time, const std::vector<double>& values);
+    void clear();
+
+    QSize sizeHint() const override { return {320, 150}; }
+    QSize minimumSizeHint() const override { return {160, 80}; }
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
+  private:
+    struct Sample {
+        double time;
+        std::vector<double> values;
+    };
+    struct Range {
+        double low, high, step;
+    };
+    /// `lines`: at most, across.
+    Range range(int lines) const;
+
+    QString title_;
+    QString unit_;
+    std::vector<Curve> curves_;
+    double least_range_;
+    std::deque<Sample> samples_;
+};
+
+}  // namespace dihaptic::gui

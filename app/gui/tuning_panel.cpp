@@ -1,0 +1,75 @@
+#include "tuning_panel.h"
+
+#include <QFormLayout>
+
+namespace dihaptic::gui {
+namespace {
+
+QDoubleSpinBox* box(double least, double most, double step, int decimals, const QString& unit) {
+    auto* out = new QDoubleSpinBox;
+    out->setRange(least, most);
+    out->setSingleStep(step);
+    out->setDecimals(decimals);
+    out->setSuffix(unit);
+    out->setKeyboardTracking(false);  // a number counts when it is whole
+    return out;
+}
+
+template <class Enum>
+QComboBox* choice() {
+    auto* out = new QComboBox;
+    for (const char* name : enum_names(Enum{})) out->addItem(name);
+    return out;
+}
+
+constexpr double kUnset = -0.1;  // below the least damping, shown in words
+
+}  // namespace
+
+TuningPanel::TuningPanel(QWidget* parent)
+    : QWidget(parent),
+      proxy_(new QComboBox),
+      coupling_(choice<haptics::CouplingKind>()),
+      stiffness_(box(1, 20000, 100, 0, " N/m")),
+      damping_(box(kUnset, 50, 0.1, 1, " N s/m")),
+      smoothing_(box(0.01, 1, 0.05, 2, "")),
+      solver_(choice<dynamics::Solver>()) {
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+    proxy_->addItem("as the file says", QString());
+    for (const char* name : enum_names(scene::ProxyKind{})) proxy_->addItem(name, QString(name));
+    proxy_->setToolTip("of the next session");
+    damping_->setSpecialValueText("k h / 2");
+    smoothing_->setToolTip("share of the new force in the force sent: of the dual spring");
+    auto* form = new QFormLayout(this);
+    form->addRow("Pro&xy", proxy_);
+    form->addRow("&Coupling", coupling_);
+    form->addRow("Stiff&ness", stiffness_);
+    form->addRow("&Damping", damping_);
+    form->addRow("S&moothing", smoothing_);
+    form->addRow("Contact so&lver", solver_);
+    connect(solver_, &QComboBox::activated, this,
+            [this](int index) { Q_EMIT solver_chosen(static_cast<dynamics::Solver>(index)); });
+    connect(coupling_, &QComboBox::activated, this, &TuningPanel::tune);
+    for (QDoubleSpinBox* value : {stiffness_, damping_, smoothing_})
+        connect(value, &QDoubleSpinBox::valueChanged, this, &TuningPanel::tune);
+    connect(proxy_, &QComboBox::activated, this, &TuningPanel::proxy_chosen);
+}
+
+void TuningPanel::set_settings(const servo::Settings& settings) {
+    setting_ = true;
+    const haptics::Tuning tuning = settings.coupling.tuning();
+    coupling_->setCurrentIndex(static_cast<int>(tuning.kind));
+    stiffness_->setValue(tuning.stiffness);
+    damping_->setValue(tuning.damping < 0 ? kUnset : tuning.damping);
+    smoothing_->setValue(tuning.smoothing);
+    solver_->setCurrentIndex(static_cast<int>(settings.dynamics.solver));
+    setting_ = false;
+}
+
+void TuningPanel::tune() {
+    if (setting_) return;
+    Q_EMIT tuned({static_cast<haptics::CouplingKind>(coupling_->currentIndex()),
+                  stiffness_->value(), damping_->value(), smoothing_->value()});
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,289 @@
+"""The operator's window as its user meets it: real mouse and key events, in an X server of its own.
+
+Usage: gui_test.py PROGRAM [SCREENSHOTS], from the project's folder. Pictures of the window go to the folder
+SCREENSHOTS.
+"""
+import glob
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
+SIZE = "1400x900"
+FORCE_OFF, RESUMED = 10, 22  # bits of a frame's status
+
+# a busy machine that leaves the hands without an answer shall not end the session
+SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text() + "\nsettings:\n  safety: {max_pause_ms: 1000}\n"
+
+
+class Window(unittest.TestCase):
+    """Each test has a display, a home and a window of its own."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        read, write = os.pipe()
+        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", SIZE + "x24"],
+                                        pass_fds=[write], stderr=subprocess.DEVNULL)
+        self.addCleanup(self.display.wait)
+        self.addCleanup(self.display.terminate)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            number = pipe.readline().strip()
+        self.environment = dict(os.environ, DISPLAY=":" + number, HOME=self.folder.name, XDG_RUNTIME_DIR=self.folder.name)
+        self.scene = self.folder.name + "/block.yaml"
+        pathlib.Path(self.scene).write_text(SCENE)
+        self.out = self.folder.name + "/sessions"
+        self.window = None
+
+    def open(self, file=None):
+        self.log = open(self.folder.name + "/log", "w+")
+        self.addCleanup(self.log.close)
+        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, file or self.scene], env=self.environment,
+                                       stdout=self.log, stderr=self.log)
+        self.addCleanup(self.window.wait)
+        self.addCleanup(self.window.kill)
+        name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", " - Dihaptic$"))
+        self.name = name.split()[-1]
+        # there is no window manager that would
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *SIZE.split("x"),
+                     "windowfocus", self.name, "mousemove", "450", "450")
+        time.sleep(1)
+
+    def xdotool(self, *words):
+        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True).stdout
+
+    def key(self, *keys):
+        for key in keys:
+            self.xdotool("key", key)
+            time.sleep(0.2)
+
+    def hold(self, key, seconds):
+        self.xdotool("keydown", key)
+        time.sleep(seconds)
+        self.xdotool("keyup", key)
+
+    def move(self, x, y, steps):
+        """The pointer, sixty times a second, as a hand would."""
+        for _ in range(steps):
+            self.xdotool("mousemove_relative", "--", str(x), str(y))
+            time.sleep(0.016)
+
+    def wait(self, what, condition, seconds=60):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            value = condition()
+            if value:
+                return value
+            if self.window is not None and self.window.poll() is not None:
+                break
+            time.sleep(0.05)
+        self.log.seek(0)
+        self.fail(f"waited in vain for {what}: {self.log.read()}")
+
+    def screenshot(self, name):
+        pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i",
+                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True)
+
+    def recording(self):
+        """Folder of the session that runs, or the last one."""
+        return self.wait("a session", lambda: sorted(glob.glob(self.out + "/*/")))[-1]
+
+    def start(self):
+        before = len(glob.glob(self.out + "/*/raw.log"))
+        self.key("F5")
+        self.wait("the start", lambda: len(glob.glob(self.out + "/*/raw.log")) > before)
+        time.sleep(0.3)
+
+    def ended(self, state):
+        """The recording of the session that has just ended, in this state."""
+        folder = self.recording()
+        info = pathlib.Path(folder + "session.yaml")
+        self.wait("state: " + state, lambda: "state: " + state in info.read_text())
+        return h5py.File(folder + "session.nwb", "r")
+
+    def series(self, file, name):
+        return file[f"acquisition/{name}/data"][:]
+
+    def status(self, file, bit):
+        """Whether each tick has that bit."""
+        return (self.series(file, "status").astype(int) >> bit & 1) == 1
+
+    def replay(self):
+        """Every force of the last recording, to the bit."""
+        check = subprocess.run([PROGRAM, "replay", self.recording()], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
+
+    def quit(self):
+        self.key("ctrl+q")
+        self.assertEqual(self.window.wait(60), 0)
+
+
+class Mouse(Window):
+    OPEN, CLOSE = "4", "5"  # X's buttons for the wheel
+
+    def wheel(self, way, notches):
+        for _ in range(notches):
+            self.xdotool("click", way)
+            time.sleep(0.02)
+        time.sleep(0.5)
+
+    def test_grips_and_lifts_while_the_solver_changes(self):
+        self.open()
+        self.screenshot("opened")
+        self.start()
+        self.hold("space", 3)
+        self.move(0, -4, 40)
+        time.sleep(0.5)
+        self.screenshot("lifted")
+        self.key("alt+n", "ctrl+a")
+        self.xdotool("type", "2000\n")
+        time.sleep(0.5)
+        self.key("alt+c", "End")  # not through the dual spring, which shakes when it is so stiff
+        time.sleep(0.4)
+        for _ in range(3):  # through all solvers
+            self.key("alt+l", "Up")
+            time.sleep(0.4)
+        self.key("F7")
+        with self.ended("complete") as file:
+            solver = self.series(file, "solver")
+            self.assertEqual(sorted(set(solver)), [0, 1, 2, 3])
+            self.assertEqual(sorted(set(self.series(file, "coupling"))), [0, 2])
+            stiffness = self.series(file, "stiffness")
+            self.assertEqual((stiffness[0], stiffness[-1]), (1000, 2000))
+            changed = np.flatnonzero(stiffness != stiffness[0])[0]
+            height = self.series(file, "block_position")[:, 2]
+            self.assertGreater(height[changed:].min(), 0.05)
+        self.replay()
+        self.quit()
+
+    def test_lets_go(self):
+        self.open()
+        self.start()
+        self.wheel(self.CLOSE, 18)  # 54 mm
+        self.move(0, -4, 30)
+        time.sleep(0.3)
+        self.wheel(self.OPEN, 18)
+        time.sleep(0.6)
+        self.key("F7")
+        with self.ended("complete") as file:
+            height = self.series(file, "block_position")[:, 2]
+            self.assertGreater(height.max(), 0.04)
+            self.assertAlmostEqual(height[-1], 0.02, delta=0.001)
+
+    def test_turns_by_a_drag(self):
+        self.open()
+        self.start()
+        self.wheel(self.CLOSE, 19)
+        self.move(0, -4, 20)
+        self.xdotool("mousedown", "1")
+        self.move(4, 0, 20)
+        self.xdotool("mouseup", "1")
+        time.sleep(0.5)
+        self.screenshot("turned")
+        self.key("F7")
+        with self.ended("complete") as file:
+            w, x, y, z = self.series(file, "block_orientation")[-1]
+            self.assertAlmostEqual(2 * np.arctan2(z, w), 0.64, delta=0.15)  # 80 pixels
+
+
+class Sessions(Window):
+    def test_run_a_script_to_its_end(self):
+        self.open()
+        self.key("alt+h", "Down")
+        self.start()
+        time.sleep(1.5)
+        self.screenshot("script")
+        with self.ended("complete") as file:
+            # ticks that a busy machine misses are left out
+            self.assertGreater(len(self.series(file, "solver")), 2700)
+            self.assertLess(len(self.series(file, "solver")), 3002)
+        self.quit()
+
+    def test_go_on_after_a_pause(self):
+        self.open()
+        self.start()
+        self.key("F6")
+        time.sleep(0.3)
+        self.screenshot("paused")
+        self.key("F6")
+        time.sleep(0.5)
+        self.key("F7")
+        with self.ended("complete") as file:
+            self.assertEqual(self.status(file, RESUMED).sum(), 1)
+
+    def test_end_by_escape_with_force_off(self):
+        self.open()
+        self.start()
+        self.key("Escape")
+        with self.ended("interrupted") as file:
+            self.assertTrue(self.status(file, FORCE_OFF)[-1])
+        self.quit()
+
+    def test_are_whole_when_the_window_is_closed(self):
+        self.open()
+        self.start()
+        time.sleep(1)
+        self.quit()
+        with self.ended("complete") as file:
+            self.assertGreater(len(self.series(file, "solver")), 900)
+        self.replay()
+
+
+class Looks(Window):
+    def test_has_a_subjects_window_and_is_dark_and_remembers_it(self):
+        self.open()
+        self.key("alt+v", "d")  # View, Dark
+        self.key("alt+v", "s")
+        subject = self.wait("the subject's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        self.key("F5")
+        time.sleep(1)
+        self.screenshot("subject")
+        self.xdotool("windowclose", subject)
+        self.key("F7")
+        with self.ended("complete"):
+            pass
+        self.screenshot("dark")
+        self.quit()
+        self.assertIn("dark=true", (pathlib.Path(self.folder.name) / ".config/dihaptic/dihaptic.conf").read_text())
+
+
+    def test_draws_what_is_not_to_be_seen_in_the_world(self):
+        scene = pathlib.Path("scenes/tools.yaml").read_text().replace("../meshes", os.getcwd() + "/meshes")
+        pathlib.Path(self.scene).write_text(scene)
+        self.open()
+        for layer in "hfcgaw":
+            self.key("alt+v", layer)
+        self.key("alt+h", "Down")
+        self.key("F5")
+        time.sleep(4)
+        self.screenshot("layers")
+
+
+class Files(Window):
+    def test_that_go_bad_leave_what_was_open_and_say_why(self):
+        self.open()
+        pathlib.Path(self.scene).write_text(SCENE.replace("mass_g: 100", "mas_g: 100"))
+        time.sleep(1.5)
+        self.screenshot("bad-file")
+        self.key("F5")
+        time.sleep(1)
+        self.assertEqual(glob.glob(self.out + "/*"), [])
+        pathlib.Path(self.scene).write_text(SCENE)
+        time.sleep(1.5)
+        self.start()
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()
