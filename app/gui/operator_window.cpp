@@ -17,8 +17,8 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;            // [ms]: sixty pictures a second
-constexpr double kLongestStep = 0.033;  // of a hand whose grip is known as of the last picture [s]
+constexpr int kRefresh = 16;          // [ms]: sixty pictures a second
+constexpr double kLongestStep = 0.1;  // of a hand whose grip is known as of the last picture [s]
 
 const QString kMouseHelp =
     "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
@@ -64,8 +64,7 @@ OperatorWindow::OperatorWindow(QString out)
         log(QString("coupling: %1, %2 N/m, %3, smoothing %4")
                 .arg(enum_name(tuning.kind).data())
                 .arg(tuning.stiffness)
-                .arg(tuning.damping < 0 ? QString("k h / 2")
-                                        : QString("%1 N s/m").arg(tuning.damping))
+                .arg(tuning.damping ? QString("%1 N s/m").arg(*tuning.damping) : QString("k h / 2"))
                 .arg(tuning.smoothing));
     });
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);

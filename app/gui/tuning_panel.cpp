@@ -60,7 +60,7 @@ void TuningPanel::set_settings(const servo::Settings& settings) {
     const haptics::Tuning tuning = settings.coupling.tuning();
     coupling_->setCurrentIndex(static_cast<int>(tuning.kind));
     stiffness_->setValue(tuning.stiffness);
-    damping_->setValue(tuning.damping < 0 ? kUnset : tuning.damping);
+    damping_->setValue(tuning.damping.value_or(kUnset));
     smoothing_->setValue(tuning.smoothing);
     solver_->setCurrentIndex(static_cast<int>(settings.dynamics.solver));
     setting_ = false;
@@ -68,8 +68,10 @@ void TuningPanel::set_settings(const servo::Settings& settings) {
 
 void TuningPanel::tune() {
     if (setting_) return;
+    const double damping = damping_->value();
     Q_EMIT tuned({static_cast<haptics::CouplingKind>(coupling_->currentIndex()),
-                  stiffness_->value(), damping_->value(), smoothing_->value()});
+                  stiffness_->value(), damping < 0 ? std::nullopt : std::optional(damping),
+                  smoothing_->value()});
 }
 
 }  // namespace dihaptic::gui

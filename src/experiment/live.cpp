@@ -40,8 +40,8 @@ std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) 
     const double share = left_ > h ? h / left_ : 1;
     left_ -= h;
     next.stiffness = now.stiffness + share * (goal->stiffness - now.stiffness);
-    if (goal->damping >= 0 && now.damping >= 0)
-        next.damping = now.damping + share * (goal->damping - now.damping);
+    if (goal->damping && now.damping)
+        next.damping = *now.damping + share * (*goal->damping - *now.damping);
     if (share == 1) next = *goal;
     return next;
 }

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <chrono>
+#include <cmath>
 
 #include "base/field_writer.h"
 #include "experiment/phase_director.h"
@@ -107,8 +108,10 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         phases(last, handles, commands);
         commands.force_off = (recorded->status & servo::kStopped) != 0;
         commands.resume = (recorded->status & servo::kResumed) != 0;
-        commands.tuning = {static_cast<haptics::CouplingKind>(recorded->coupling),
-                           recorded->stiffness, recorded->damping, recorded->smoothing};
+        commands.tuning = {
+            static_cast<haptics::CouplingKind>(recorded->coupling), recorded->stiffness,
+            std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
+            recorded->smoothing};
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);
     };
     const auto begin = Wall::now();

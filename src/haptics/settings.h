@@ -19,9 +19,9 @@ constexpr auto enum_names(CouplingKind) {
 /// What may change while a session runs.
 struct Tuning {
     CouplingKind kind = CouplingKind::implicit;
-    double stiffness = 0;  ///< k [N/m]
-    double damping = 0;    ///< c [N*s/m]; negative: k h / 2
-    double smoothing = 0;  ///< alpha
+    double stiffness = 0;           ///< k [N/m]
+    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2
+    double smoothing = 0;           ///< alpha
 
     bool operator==(const Tuning&) const = default;
 };
@@ -68,11 +68,11 @@ struct CouplingSettings {
         v("smoothing", smoothing, Field::number().positive().at_most(1));
     }
 
-    Tuning tuning() const { return {kind, stiffness, damping.value_or(-1), smoothing}; }
+    Tuning tuning() const { return {kind, stiffness, damping, smoothing}; }
     void set(const Tuning& tuning) {
         kind = tuning.kind;
         stiffness = tuning.stiffness;
-        damping = tuning.damping < 0 ? std::nullopt : std::optional(tuning.damping);
+        damping = tuning.damping;
         smoothing = tuning.smoothing;
     }
 

@@ -154,7 +154,7 @@ struct Frame {
     double load_force = 0;  ///< tangential contact forces along gravity, summed over the fingers
     int32_t coupling = 0;   ///< in force: index into haptics::CouplingKind
     double stiffness = 0;   ///< k, the same
-    double damping = 0;     ///< c, the same; negative: k h / 2
+    double damping = 0;     ///< c, the same; NaN: k h / 2
     double smoothing = 0;   ///< alpha, the same
     int32_t solver = 0;     ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;

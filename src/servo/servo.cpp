@@ -263,7 +263,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     const haptics::Tuning tuning = settings_.coupling.tuning();
     frame_.coupling = static_cast<int32_t>(tuning.kind);
     frame_.stiffness = tuning.stiffness;
-    frame_.damping = tuning.damping;
+    frame_.damping = tuning.damping.value_or(kUnmeasured);
     frame_.smoothing = tuning.smoothing;
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
