@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "base/field_writer.h"
-#include "experiment/phase_director.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::experiment {
@@ -87,13 +86,13 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                        rig::poses(rig, scene::finger_names(scene)));
     servo.activate();
 
-    PhaseDirector phases(head.phases, settings.tick());
-    const servo::Director director = [&](const servo::Frame& last,
-                                         std::span<const haptics::Handle> handles,
+    const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
                                          servo::Commands& commands) {
-        phases(last, handles, commands);
         commands.force_off = (recorded->status & servo::kStopped) != 0;
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);
+        commands.trial = recorded->trial;
+        commands.phase = recorded->phase;
+        commands.task = recorded->task;
     };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {

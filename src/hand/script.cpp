@@ -5,49 +5,13 @@
 
 #include <algorithm>
 
+#include "hand/places.h"
 #include "model/minimum_jerk.h"
 
 namespace dihaptic::hand {
-namespace {
-
-/// Without a word on it, fingers stand on alternate sides along x; a single finger is the hand.
-std::vector<FingerPlace> default_places(const std::vector<std::string>& names) {
-    std::vector<FingerPlace> places;
-    for (size_t i = 0; i < names.size(); ++i) {
-        FingerPlace place;
-        place.name = names[i];
-        if (names.size() > 1) place.side = i % 2 == 0 ? Vec3(-1, 0, 0) : Vec3(1, 0, 0);
-        places.push_back(place);
-    }
-    return places;
-}
-
-}  // namespace
 
 ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>& fingers) {
-    fingers_ = default_places(fingers);
-    for (const FingerPlace& place : spec.fingers) {
-        const auto found = std::find_if(fingers_.begin(), fingers_.end(),
-                                        [&](const FingerPlace& f) { return f.name == place.name; });
-        if (found == fingers_.end()) {
-            throw Error(
-                place.place, "name",
-                fmt::format("the hand's finger '{}' is not among the scene's fingers", place.name),
-                fmt::format("Known: {}.", fmt::join(fingers, ", ")));
-        }
-        if (const auto same = std::count_if(spec.fingers.begin(), spec.fingers.end(),
-                                            [&](const auto& f) { return f.name == place.name; });
-            same > 1) {
-            throw Error(place.place, "name", fmt::format("'{}' is given twice", place.name),
-                        "Keep one of the two.");
-        }
-        if (fingers.size() > 1 && place.side.norm() == 0) {
-            throw Error(place.place, "side", fmt::format("'{}' has no direction", place.name),
-                        "Write where it is from the hand's centre, e.g. side: [-1, 0, 0].");
-        }
-        *found = place;
-        if (found->side.norm() > 0) found->side.normalize();
-    }
+    fingers_ = finger_places(spec, fingers);
     if (spec.tremor.low > spec.tremor.high) {
         throw Error(spec.place, "tremor",
                     fmt::format("its band goes from {:g} Hz down to {:g} Hz", spec.tremor.low,
