@@ -11,7 +11,7 @@
 #include "experiment/plan.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
-#include "view/displayed.h"
+#include "servo/displayed.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -135,7 +135,7 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
 
 void Drawer::follow(const servo::Frame& frame) {
     if (!path_wanted_ || object_ < 0) return;
-    const Vec3 p = view::displayed_body(frame, static_cast<size_t>(object_)).p;
+    const Vec3 p = servo::displayed_body(frame, static_cast<size_t>(object_)).p;
     constexpr double kStep = 5e-4;  // [m]
     if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
 }

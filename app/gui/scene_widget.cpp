@@ -4,7 +4,7 @@
 #include <QMouseEvent>
 
 #include "base/diagnostics.h"
-#include "view/displayed.h"
+#include "servo/displayed.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -60,7 +60,7 @@ void SceneWidget::show_frame(const servo::Frame& frame) {
     frame_ = frame;
     const int object = scene_.object_index();
     if (object >= 0) {
-        path_.push_back(view::displayed_body(frame, static_cast<size_t>(object)).p);
+        path_.push_back(servo::displayed_body(frame, static_cast<size_t>(object)).p);
         while (path_.size() > kPath) path_.pop_front();
     }
     update();

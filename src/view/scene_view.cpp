@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/diagnostics.h"
+#include "servo/displayed.h"
 #include "view/colours.h"
-#include "view/displayed.h"
 #include "view/gl.h"
 #include "view/shaders.h"
 #include "view/shadow_map.h"
@@ -168,10 +168,10 @@ struct SceneView::Parts {
             if (r < most) needed = std::max(needed, r);
         };
         for (size_t i = 0; i < bodies.size(); ++i) {
-            if (!bodies[i].ground) include(bodies[i], displayed_body(frame, i).p);
+            if (!bodies[i].ground) include(bodies[i], servo::displayed_body(frame, i).p);
         }
         for (size_t i = 0; i < fingers.size(); ++i)
-            include(fingers[i], displayed_proxy(frame, i).p);
+            include(fingers[i], servo::displayed_proxy(frame, i).p);
         return start_radius * std::exp2(std::ceil(2 * std::log2(needed / start_radius)) / 2);
     }
 
@@ -200,12 +200,14 @@ struct SceneView::Parts {
                      const std::function<void(const Thing&)>& prepare) const {
         for (size_t i = 0; i < bodies.size(); ++i) {
             prepare(bodies[i]);
-            program.set("world_from_model", gl::matrix(displayed_body(frame, i)));
+            program.set("world_from_model",
+                        placed(servo::displayed_body(frame, i),
+                               Vec3::Constant(servo::displayed_size(frame, i))));
             bodies[i].model.draw();
         }
         for (size_t i = 0; i < fingers.size(); ++i) {
             prepare(fingers[i]);
-            program.set("world_from_model", gl::matrix(displayed_proxy(frame, i)));
+            program.set("world_from_model", gl::matrix(servo::displayed_proxy(frame, i)));
             fingers[i].model.draw();
         }
     }
@@ -217,6 +219,7 @@ struct SceneView::Parts {
     };
 
     void draw_overlays(const servo::Frame& frame, const Overlays& overlays);
+    void draw_targets(const servo::Frame& frame) const;
     void draw_ghosts(const servo::Frame& frame) const;
 };
 
@@ -292,6 +295,23 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     return {frame.sequence, frame.time};
 }
 
+/// Seen through, so that what is in a target is seen.
+void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
+    surface.set("gloss", 0.4);
+    surface.set("alpha", 0.45);
+    surface.set("albedo", ink("#d55e00"));
+    glDepthMask(GL_FALSE);
+    glEnable(GL_CULL_FACE);
+    for (size_t i = 0; i < frame.task.targets.size(); ++i) {
+        surface.set("world_from_model",
+                    placed({Quat::Identity(), servo::displayed_target(frame, i)},
+                           Vec3::Constant(frame.task.targets[i].radius)));
+        ball.draw();
+    }
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_TRUE);
+}
+
 /// Over everything: what a finger presses, its handle is in.
 void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     glDepthFunc(GL_ALWAYS);
@@ -301,7 +321,7 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     surface.set("alpha", 0.35);
     for (size_t i = 0; i < fingers.size(); ++i) {
         surface.set("albedo", fingers[i].colour);
-        surface.set("world_from_model", gl::matrix(displayed_handle(frame, i)));
+        surface.set("world_from_model", gl::matrix(servo::displayed_handle(frame, i)));
         fingers[i].model.draw();
     }
     glDisable(GL_CULL_FACE);
@@ -337,9 +357,9 @@ void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& 
     }
     if (overlays.grip_axis && fingers.size() > 1) {
         Vec3 others = Vec3::Zero();
-        for (size_t i = 1; i < fingers.size(); ++i) others += displayed_proxy(frame, i).p;
-        add_line(displayed_proxy(frame, 0).p, others / static_cast<double>(fingers.size() - 1),
-                 0.0006, ink("#7b4ea3"));
+        for (size_t i = 1; i < fingers.size(); ++i) others += servo::displayed_proxy(frame, i).p;
+        add_line(servo::displayed_proxy(frame, 0).p,
+                 others / static_cast<double>(fingers.size() - 1), 0.0006, ink("#7b4ea3"));
     }
     for (const Workspace& workspace : overlays.workspaces) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -360,6 +380,7 @@ void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& 
     surface.set("fade", 0.0);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_targets(frame);
     if (!drawings.empty()) {
         surface.set("gloss", 0.4);
         const auto draw_all = [&] {

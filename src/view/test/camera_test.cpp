@@ -24,7 +24,7 @@ Eigen::Vector2d seen(const Camera& camera, const Vec3& p_W) {
     return clip.head<2>() / clip.w();
 }
 
-TEST(Camera, what_it_looks_at_is_in_the_middle_and_the_vertical_upright) {
+TEST(Camera, WhatItLooksAtIsInTheMiddleAndTheVerticalUpright) {
     const Camera camera = in_front();
     EXPECT_LT(seen(camera, camera.look_at).norm(), 1e-12);
     const Eigen::Vector2d above = seen(camera, camera.look_at + Vec3(0, 0, 0.1));
@@ -33,21 +33,21 @@ TEST(Camera, what_it_looks_at_is_in_the_middle_and_the_vertical_upright) {
     EXPECT_GT(seen(camera, camera.look_at + Vec3(0.1, 0, 0)).x(), 0);
 }
 
-TEST(Camera, the_field_of_view_goes_from_bottom_to_top) {
+TEST(Camera, TheFieldOfViewGoesFromBottomToTop) {
     const Camera camera = in_front();
     const Vec3 up = view_pose(camera).R * Vec3::UnitY();
     const double edge = distance(camera) * std::tan(camera.field_of_view / 2);
     EXPECT_NEAR(seen(camera, camera.look_at + edge * up).y(), 1, 1e-12);
 }
 
-TEST(Camera, straight_down_the_persons_far_side_is_up) {
+TEST(Camera, StraightDownThePersonsFarSideIsUp) {
     Camera camera = in_front();
     camera.position = camera.look_at + Vec3(0, 0, 0.5);
     EXPECT_GT(seen(camera, camera.look_at + Vec3(0, 0.1, 0)).y(), 0.1);
     EXPECT_GT(seen(camera, camera.look_at + Vec3(0.1, 0, 0)).x(), 0.1);
 }
 
-TEST(Camera, orbits_keep_the_distance_and_come_back) {
+TEST(Camera, OrbitsKeepTheDistanceAndComeBack) {
     const Camera camera = in_front();
     const Camera turned = orbited(camera, 0.7, 0.3);
     EXPECT_NEAR(distance(turned), distance(camera), 1e-12);
@@ -56,7 +56,7 @@ TEST(Camera, orbits_keep_the_distance_and_come_back) {
     EXPECT_LT((orbited(camera, 2 * kPi, 0).position - camera.position).norm(), 1e-12);
 }
 
-TEST(Camera, an_orbit_over_the_top_stops_there_and_remembers_where_it_came_from) {
+TEST(Camera, AnOrbitOverTheTopStopsThereAndRemembersWhereItCameFrom) {
     const Camera turned = orbited(in_front(), 0.7, 0);
     const Camera top = orbited(turned, 0, 10);
     EXPECT_NEAR(top.position.z() - top.look_at.z(), distance(turned), 1e-9);
@@ -65,7 +65,7 @@ TEST(Camera, an_orbit_over_the_top_stops_there_and_remembers_where_it_came_from)
     EXPECT_NEAR(std::atan2(d.x(), -d.y()), 0.7, 1e-6);
 }
 
-TEST(Camera, a_pan_moves_the_scene_with_the_mouse) {
+TEST(Camera, APanMovesTheSceneWithTheMouse) {
     const Camera camera = in_front();
     const Camera moved = panned(camera, 0.1, 0.2);
     // what was in the middle went a tenth of the height right and a fifth up
@@ -74,14 +74,14 @@ TEST(Camera, a_pan_moves_the_scene_with_the_mouse) {
     EXPECT_NEAR(at.y(), 2 * 0.2, 1e-12);
 }
 
-TEST(Camera, zooming_stays_within_reason) {
+TEST(Camera, ZoomingStaysWithinReason) {
     const Camera camera = in_front();
     EXPECT_NEAR(distance(zoomed(camera, 0.5)), distance(camera) / 2, 1e-12);
     EXPECT_NEAR(distance(zoomed(camera, 0)), 0.01, 1e-12);
     EXPECT_NEAR(distance(zoomed(camera, 1e9)), 100, 1e-9);
 }
 
-TEST(Camera, every_scene_has_front_above_and_side_and_a_file_may_replace_them) {
+TEST(Camera, EverySceneHasFrontAboveAndSideAndAFileMayReplaceThem) {
     scene::Scene scene;
     Camera own = in_front();
     own.name = "above";

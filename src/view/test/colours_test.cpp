@@ -30,7 +30,7 @@ Vec3 lab(const Vec3& rgb) {
             200 * (f(xyz.y()) - f(xyz.z()))};
 }
 
-TEST(Colours, fingers_and_the_block_differ_for_every_kind_of_colour_vision) {
+TEST(Colours, FingersAndTheBlockDifferForEveryKindOfColourVision) {
     std::vector<Vec3> colours{linear_colour("#3b7dd8"), linear_colour("#c9c4b8")};
     for (size_t i = 0; i < 5; ++i) colours.push_back(finger_colour(i));
     for (const Mat3& sees : {Mat3(Mat3::Identity()), without_red(), without_green()}) {
@@ -46,7 +46,7 @@ TEST(Colours, fingers_and_the_block_differ_for_every_kind_of_colour_vision) {
     }
 }
 
-TEST(Colours, bodies_without_one_get_one_each) {
+TEST(Colours, BodiesWithoutOneGetOneEach) {
     scene::Scene scene;
     scene.bodies.resize(3);
     scene.bodies[2].fixed = true;

@@ -115,7 +115,7 @@ Shadow shadow_of_block_at(double height) {
     return out;
 }
 
-TEST(SceneView, the_shadow_of_a_floating_block_moves_as_the_light_has_it_and_softens) {
+TEST(SceneView, TheShadowOfAFloatingBlockMovesAsTheLightHasItAndSoftens) {
     const Vec3 light = SceneView::light();
     double last = 0;
     for (const double height : {0.065, 0.10, 0.16}) {
@@ -130,7 +130,7 @@ TEST(SceneView, the_shadow_of_a_floating_block_moves_as_the_light_has_it_and_sof
 }
 
 /// Under a plate the table is dark everywhere, whatever the edge of another plate above it does.
-TEST(SceneView, little_light_bleeds_through_two_layers) {
+TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     const scene::Body lower = box("lower", {0.4, 0.4, 0.004}, {0, 0, 0.06});
     const Vec3 light = SceneView::light();
     const Vec3 middle = lower.position - light * (lower.position.z() / light.z());
@@ -149,7 +149,7 @@ TEST(SceneView, little_light_bleeds_through_two_layers) {
 }
 
 /// The table stands so steep that light only grazes it.
-TEST(SceneView, a_table_in_grazing_light_has_no_acne) {
+TEST(SceneView, ATableInGrazingLightHasNoAcne) {
     const Vec3 light = SceneView::light();
     const auto look = [&](double above_horizon) {
         // turned about x until the light comes from so low
@@ -251,7 +251,7 @@ struct Held {
     Camera camera() const { return find_camera(cameras(scene), "front"); }
 };
 
-TEST(SceneView, pictures_are_like_stored_ones) {
+TEST(SceneView, PicturesAreLikeStoredOnes) {
     const Held held;
     expect_like(picture(held.scene, held.frame, held.camera(), 192, 120), "held-block");
     const std::vector<Vec3> path{{0, 0, 0.02}, {0.03, 0, 0.05}, {0, 0, 0.07}};
@@ -269,7 +269,7 @@ TEST(SceneView, pictures_are_like_stored_ones) {
     expect_like(picture(bead, frame, find_camera(cameras(bead), "side"), 192, 120), "bead");
 }
 
-TEST(SceneView, every_shape_is_drawn) {
+TEST(SceneView, EveryShapeIsDrawn) {
     for (const auto& [kind, name] : {std::pair{scene::ShapeKind::sphere, "sphere"},
                                      {scene::ShapeKind::capsule, "capsule"},
                                      {scene::ShapeKind::cylinder, "cylinder"}}) {
@@ -286,7 +286,7 @@ TEST(SceneView, every_shape_is_drawn) {
     }
 }
 
-TEST(SceneView, each_overlay_shows_and_leaves_nothing) {
+TEST(SceneView, EachOverlayShowsAndLeavesNothing) {
     const Held held;
     const Offscreen offscreen = software_offscreen(192, 120);
     SceneView view(held.scene);
@@ -314,7 +314,7 @@ TEST(SceneView, each_overlay_shows_and_leaves_nothing) {
     EXPECT_EQ(look({}).rgb, plain.rgb);
 }
 
-TEST(SceneView, stamps_what_it_shows_and_leaves_the_target_bound) {
+TEST(SceneView, StampsWhatItShowsAndLeavesTheTargetBound) {
     const Held held;
     const Offscreen offscreen = software_offscreen(64, 48);
     SceneView view(held.scene);
@@ -329,7 +329,7 @@ TEST(SceneView, stamps_what_it_shows_and_leaves_the_target_bound) {
 }
 
 /// A body whose place a damaged log does not tell is left out; the others are drawn as ever.
-TEST(SceneView, draws_what_is_known) {
+TEST(SceneView, DrawsWhatIsKnown) {
     Held held;
     const Vec3 nan = Vec3::Constant(std::nan(""));
     held.frame.bodies[1].X_WB.p = nan;
@@ -340,7 +340,34 @@ TEST(SceneView, draws_what_is_known) {
     EXPECT_EQ(without.rgb, away.rgb);
 }
 
-TEST(Image, is_written_whole_or_not_at_all) {
+/// What an experiment moves is drawn where it says, as if it were there.
+TEST(SceneView, DrawsTheDisplayedWorld) {
+    const Held held;
+    servo::Frame moved = held.frame;
+    moved.contacts.clear();
+    servo::Frame mapped = moved;
+    servo::VisualMap map;
+    map.moves = servo::kMovesObject;
+    map.object = 1;
+    map.scale = {1, 1, 1.25};
+    mapped.task.visual.push_back(map);
+    moved.bodies[1].X_WB.p.z() *= 1.25;
+    EXPECT_EQ(picture(held.scene, mapped, held.camera(), 96, 64).rgb,
+              picture(held.scene, moved, held.camera(), 96, 64).rgb);
+}
+
+TEST(SceneView, DrawsTargets) {
+    Held held;
+    const Image without = picture(held.scene, held.frame, held.camera(), 96, 64);
+    held.frame.task.targets.push_back({0, {0.06, 0, 0.05}, 0.01});
+    const Image with = picture(held.scene, held.frame, held.camera(), 96, 64);
+    size_t redder = 0;
+    for (size_t i = 0; i < with.rgb.size(); i += 3) redder += with.rgb[i] > with.rgb[i + 1] + 40;
+    EXPECT_GT(redder, 20U);
+    EXPECT_NE(with.rgb, without.rgb);
+}
+
+TEST(Image, IsWrittenWholeOrNotAtAll) {
     const Image image{2, 1, {1, 2, 3, 4, 5, 6}};
     const std::string file =
         (std::filesystem::temp_directory_path() / "dihaptic-image-test.png").string();

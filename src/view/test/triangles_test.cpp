@@ -44,7 +44,7 @@ void expect_normals_outward(const Triangles& t) {
     }
 }
 
-TEST(Triangles, enclose_nearly_the_volume_of_each_shape_and_none_outside) {
+TEST(Triangles, EncloseNearlyTheVolumeOfEachShapeAndNoneOutside) {
     for (const scene::Shape& shape :
          {scene::Shape::box({0.04, 0.06, 0.08}), scene::Shape::sphere(0.03),
           lying(scene::ShapeKind::capsule), lying(scene::ShapeKind::cylinder)}) {
@@ -57,7 +57,7 @@ TEST(Triangles, enclose_nearly_the_volume_of_each_shape_and_none_outside) {
     }
 }
 
-TEST(Triangles, a_concave_mesh_is_drawn_itself_not_its_hull) {
+TEST(Triangles, AConcaveMeshIsDrawnItselfNotItsHull) {
     Diagnostics diagnostics;
     const scene::Scene scene = scene::read_scene("scenes/tools.yaml", diagnostics);
     const scene::Shape& cup = scene.bodies[static_cast<size_t>(scene.find("cup"))].shape;
@@ -68,7 +68,7 @@ TEST(Triangles, a_concave_mesh_is_drawn_itself_not_its_hull) {
     EXPECT_NEAR(share(mug), 1, 0.02);  // with a handle of rounded boxes
 }
 
-TEST(Triangles, a_convex_mesh_is_drawn_as_it_is_felt) {
+TEST(Triangles, AConvexMeshIsDrawnAsItIsFelt) {
     Diagnostics diagnostics;
     const scene::Scene scene = scene::read_scene("scenes/tools.yaml", diagnostics);
     const scene::Shape& fingertip = scene.fingers.front().shape;
@@ -76,7 +76,7 @@ TEST(Triangles, a_convex_mesh_is_drawn_as_it_is_felt) {
     expect_normals_outward(triangles(fingertip));
 }
 
-TEST(Triangles, a_tube_follows_its_path_through_turns_and_back) {
+TEST(Triangles, ATubeFollowsItsPathThroughTurnsAndBack) {
     const std::vector<Vec3> path{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0.1, 0, 0}};
     const Triangles all = tube(path, 0.001);
     ASSERT_FALSE(all.indices.empty());
