@@ -4,11 +4,17 @@ namespace dihaptic::model {
 namespace {
 
 /// What the process would come to if it left a lasting error of 1.
-double gain(const SingleRate& rate) { return rate.learning / (1 - rate.retention); }
+double gain(const SingleRate& rate) {
+    return rate.learning / (1 - rate.retention);
+}
 
-bool forgets_nothing(const SingleRate& rate) { return rate.retention >= 1 && rate.learning > 0; }
+bool forgets_nothing(const SingleRate& rate) {
+    return rate.retention >= 1 && rate.learning > 0;
+}
 
-double closed_loop(double gain) { return gain / (1 + gain); }
+double closed_loop(double gain) {
+    return gain / (1 + gain);
+}
 
 }  // namespace
 

@@ -42,7 +42,8 @@ constexpr double safety_margin(double grip, double load, double friction) {
     return (grip - minimum_grip(load, friction)) / grip;
 }
 
-/// Grip force of somebody who holds a load with a safety margin below 1: minimum / (1 - margin) [N].
+/// Grip force of somebody who holds a load with a safety margin below 1: minimum / (1 - margin)
+/// [N].
 constexpr double grip_with_margin(double load, double friction, double margin) {
     return minimum_grip(load, friction) / (1 - margin);
 }

@@ -2,15 +2,16 @@
 //
 //     p(x) = gamma + (1 - gamma - lambda) F(x; t, s)
 //
-// with the guess rate gamma and the lapse rate lambda. The sigmoid F has a threshold t and a shape s:
+// with the guess rate gamma and the lapse rate lambda. The sigmoid F has a threshold t and a shape
+// s:
 //
 //     normal         Phi((x - t) / s)                 F(t) = 0.5       s: standard deviation
 //     logistic       1 / (1 + exp(-(x - t) / s))      F(t) = 0.5       s: scale
 //     weibull        1 - exp(-(x / t)^s),  x > 0      F(t) = 1 - 1/e   s: slope, beta
 //     weibull_log10  1 - exp(-10^(s (x - t)))         the same of log10 x: x and t are logarithms
 //
-// x and t have the unit of the level; so has s of the first two. The last two have a slope without a
-// unit. Source: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
+// x and t have the unit of the level; so has s of the first two. The last two have a slope without
+// a unit. Source: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
 #pragma once
 
 namespace dihaptic::model {

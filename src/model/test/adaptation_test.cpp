@@ -36,8 +36,8 @@ Figures figures(const TwoRate& rates) {
     const auto peak = std::max_element(x.begin() + 240, x.end());
     const auto reached =
         std::find_if(x.begin() + 64, x.end(), [&](double y) { return y >= 0.8 * x[223]; });
-    return {x[223], x[240], *peak, x.back(), reached - x.begin() - 64 + 1,
-            peak - x.begin() - 240 + 1};
+    return {
+        x[223], x[240], *peak, x.back(), reached - x.begin() - 64 + 1, peak - x.begin() - 240 + 1};
 }
 
 TEST(TwoRate, GivesTheFiguresOfSmithsValuesToThePrintedDigit) {
