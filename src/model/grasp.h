@@ -31,6 +31,23 @@ constexpr double minimum_grip(double load, double friction) {
     return load / (2 * friction);
 }
 
+/// Grip over load below which two digits slip: 1 / (2 mu).
+constexpr double slip_ratio(double friction) {
+    return minimum_grip(1, friction);
+}
+
+/// Share of a grip force that is beyond what the load needs: (grip - minimum) / grip. Negative: it
+/// slips.
+constexpr double safety_margin(double grip, double load, double friction) {
+    return (grip - minimum_grip(load, friction)) / grip;
+}
+
+/// Grip force of somebody who holds a load with a safety margin below 1: minimum / (1 - margin)
+/// [N].
+constexpr double grip_with_margin(double load, double friction, double margin) {
+    return minimum_grip(load, friction) / (1 - margin);
+}
+
 /// Highest stiffness that a spring sampled every h and held for h renders against a handle with
 /// damping b without giving out energy: 2 b / h (Colgate and Schenkel 1997, no virtual damping)
 /// [N/m].

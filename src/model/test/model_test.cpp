@@ -104,5 +104,20 @@ TEST(Grasp, ClosedForms) {
     EXPECT_DOUBLE_EQ(passive_stiffness(3, 1e-3), 6000);
 }
 
+TEST(Grasp, SafetyMargin) {
+    const double g = 9.81;
+    // per digit, with a margin of 0.40: sandpaper, suede, silk (Westling and Johansson 1984)
+    const double friction[] = {1.2, 0.7, 0.35};
+    const double hold[][3] = {{1.4, 2.3, 4.7}, {2.7, 4.7, 9.3}, {5.4, 9.3, 18.7}};
+    const double mass[] = {0.2, 0.4, 0.8};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            EXPECT_NEAR(grip_with_margin(mass[i] * g, friction[j], 0.4), hold[i][j], 0.051);
+    EXPECT_DOUBLE_EQ(safety_margin(grip_with_margin(2, 0.7, 0.3), 2, 0.7), 0.3);
+    EXPECT_EQ(safety_margin(minimum_grip(2, 0.7), 2, 0.7), 0);
+    EXPECT_LT(safety_margin(1, 2, 0.7), 0);
+    EXPECT_DOUBLE_EQ(slip_ratio(0.5), 1);
+}
+
 }  // namespace
 }  // namespace dihaptic::model

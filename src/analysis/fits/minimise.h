@@ -1,0 +1,43 @@
+// The least value of a smooth function of a few bounded variables, without derivatives: Powell's
+// BOBYQA (2009), a trust region around a quadratic through earlier points, as NLopt has it.
+// Deterministic.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace dihaptic::analysis {
+
+struct Variable {
+    double low = 0;
+    double high = 1;  ///< > low
+};
+
+struct Minimum {
+    std::vector<double> x;
+    double value = 0;
+};
+
+using Cost = std::function<double(std::span<const double>)>;
+
+/// From a start inside the bounds, to about `tolerance` times their distances. `cost` does not
+/// throw.
+Minimum minimise(const Cost& cost, std::span<const Variable> variables, std::vector<double> start,
+                 double tolerance = 1e-7);
+
+/// 95 % point of chi-squared with one degree of freedom: how far twice the log likelihood falls at
+/// the ends of a 95 % profile interval.
+inline constexpr double kChiSquared95 = 3.841458820694124;
+
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+/// Where a profile, least at `best` and rising to both sides, passes `limit`; or the end of the
+/// range where it does not. To half a percent of the distance from `best`.
+Interval profile_interval(const std::function<double(double)>& profile, double best,
+                          const Variable& range, double limit);
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,170 @@
+#include "analysis/fits/psychometric_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/diagnostics.h"
+#include "base/random.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+using model::Psychometric;
+using model::Sigmoid;
+
+/// The 2AFC example of psignifit's manual: 13 levels of 90 trials.
+const std::vector<LevelCount> kExample = {
+    {0.0010, 45, 90}, {0.0015, 50, 90}, {0.0020, 44, 90}, {0.0025, 44, 90}, {0.0030, 52, 90},
+    {0.0035, 53, 90}, {0.0040, 62, 90}, {0.0045, 64, 90}, {0.0050, 76, 90}, {0.0060, 79, 90},
+    {0.0070, 88, 90}, {0.0080, 90, 90}, {0.0100, 90, 90}};
+
+TEST(PsychometricFit, OfACumulativeGaussianToThePrintedDigit) {
+    const auto fit = fit_psychometric(kExample, {.sigmoid = Sigmoid::normal, .max_lapse = 0});
+    EXPECT_NEAR(fit.function.threshold, 0.004648, 5e-7);
+    EXPECT_NEAR(fit.function.shape, 0.001416, 5e-7);
+    EXPECT_NEAR(fit.negative_log_likelihood, 565.955, 5e-4);
+    EXPECT_EQ(fit.function.lapse, 0);
+    EXPECT_FALSE(fit.shape_unknown);
+}
+
+TEST(PsychometricFit, OfAWeibullToThePrintedDigit) {
+    const auto fit = fit_psychometric(kExample, {.sigmoid = Sigmoid::weibull, .max_lapse = 0});
+    EXPECT_NEAR(fit.function.threshold, 0.005156, 5e-7);
+    EXPECT_NEAR(fit.function.shape, 3.6688, 5e-5);
+    EXPECT_NEAR(fit.negative_log_likelihood, 565.860, 5e-4);
+}
+
+TEST(PsychometricFit, OfALogarithmIsTheSame) {
+    auto logarithms = kExample;
+    for (auto& c : logarithms) c.level = std::log10(c.level);
+    const auto linear = fit_psychometric(kExample, {.sigmoid = Sigmoid::weibull});
+    const auto log = fit_psychometric(logarithms, {.sigmoid = Sigmoid::weibull_log10});
+    EXPECT_NEAR(linear.negative_log_likelihood, log.negative_log_likelihood, 1e-9);
+    EXPECT_NEAR(std::log10(linear.function.threshold), log.function.threshold, 1e-6);
+}
+
+TEST(PsychometricFit, HasNoDevianceWhereItPassesThroughAllShares) {
+    // two levels, two parameters: solved by inverting the sigmoid
+    const std::vector<LevelCount> counts = {{1, 20, 100}, {3, 90, 100}};
+    const auto fit =
+        fit_psychometric(counts, {.sigmoid = Sigmoid::logistic, .guess = 0, .max_lapse = 0});
+    const double a = std::log(0.2 / 0.8), b = std::log(0.9 / 0.1);
+    EXPECT_NEAR(fit.function.shape, 2 / (b - a), 1e-5);
+    EXPECT_NEAR(fit.function.threshold, 1 - a * 2 / (b - a), 1e-5);
+    EXPECT_NEAR(fit.deviance, 0, 1e-8);
+}
+
+TEST(PsychometricFit, DevianceIsTwiceTheLogLikelihoodRatio) {
+    const auto fit = fit_psychometric(kExample, {});
+    double deviance = 0;
+    for (const auto& c : kExample) {
+        const double p = fit.function.probability(c.level);
+        if (c.yes > 0) deviance += 2 * c.yes * std::log(c.yes / (c.trials * p));
+        const int no = c.trials - c.yes;
+        if (no > 0) deviance += 2 * no * std::log(no / (c.trials * (1 - p)));
+    }
+    EXPECT_NEAR(fit.deviance, deviance, 1e-8);
+}
+
+/// Answers at nine levels, `trials` at each.
+std::vector<LevelCount> answers(const Psychometric& f, int trials, Random& random) {
+    std::vector<LevelCount> counts;
+    for (double z = -2; z <= 2.01; z += 0.5) {
+        const double x = f.threshold + z * f.sd();
+        int yes = 0;
+        for (int i = 0; i < trials; ++i) yes += random.uniform(0, 1) < f.probability(x) ? 1 : 0;
+        counts.push_back({x, yes, trials});
+    }
+    return counts;
+}
+
+TEST(PsychometricFit, RecoversWhatWasPutIn) {
+    const std::vector<std::pair<Psychometric, bool>> functions = {
+        {{Sigmoid::normal, 2, 0.5, 0.5, 0.02}, false},
+        {{Sigmoid::normal, -1, 3, 0.02, 0.02}, true},
+        {{Sigmoid::logistic, 0, 1, 0, 0.03}, false},
+        {{Sigmoid::weibull, 0.3, 2.5, 0.5, 0.01}, false},
+        {{Sigmoid::weibull_log10, -1, 3.5, 0.25, 0.02}, false}};
+    Random random(1, "observers");
+    for (const auto& [f, guess_is_lapse] : functions) {
+        double threshold = 0, shape = 0, lapse = 0;
+        const int people = 40;
+        for (int i = 0; i < people; ++i) {
+            const auto fit = fit_psychometric(
+                answers(f, 200, random),
+                {.sigmoid = f.sigmoid, .guess = f.guess, .guess_is_lapse = guess_is_lapse});
+            threshold += fit.function.threshold / people;
+            shape += fit.function.shape / people;
+            lapse += fit.function.lapse / people;
+        }
+        const int s = static_cast<int>(f.sigmoid);
+        EXPECT_NEAR(threshold, f.threshold, 0.05 * f.sd()) << s;
+        EXPECT_NEAR(shape / f.shape, 1, 0.05) << s;
+        EXPECT_NEAR(lapse, f.lapse, 0.01) << s;
+    }
+}
+
+TEST(PsychometricFit, SaysWhenTheShapeCannotBeKnown) {
+    const std::vector<LevelCount> step = {{1, 0, 20}, {2, 0, 20}, {3, 20, 20}, {4, 20, 20}};
+    const auto fit = fit_psychometric(step, {.guess = 0, .max_lapse = 0});
+    EXPECT_TRUE(fit.shape_unknown);
+    EXPECT_GT(fit.function.threshold, 2);
+    EXPECT_LT(fit.function.threshold, 3);
+}
+
+TEST(PsychometricFit, CountsAnswersByLevel) {
+    const std::vector<Answer> series = {{2, true}, {1, false}, {2, false}, {1, false}, {2, true}};
+    const auto counts = count(series);
+    ASSERT_EQ(counts.size(), 2U);
+    EXPECT_EQ(counts[0].level, 1);
+    EXPECT_EQ(counts[0].yes, 0);
+    EXPECT_EQ(counts[1].yes, 2);
+    EXPECT_EQ(counts[1].trials, 3);
+}
+
+TEST(Bootstrap, HoldsTheFitAndRepeats) {
+    const PsychometricFitSettings settings;
+    const auto fit = fit_psychometric(kExample, settings);
+    const auto first = bootstrap(kExample, fit, settings, 200, 1);
+    const auto again = bootstrap(kExample, fit, settings, 200, 1);
+    EXPECT_EQ(first.threshold.low, again.threshold.low);
+    EXPECT_LT(first.threshold.low, fit.function.threshold);
+    EXPECT_GT(first.threshold.high, fit.function.threshold);
+    EXPECT_LT(first.shape.low, fit.function.shape);
+    EXPECT_GT(first.shape.high, fit.function.shape);
+    EXPECT_GE(first.lapse.low, 0);
+    EXPECT_LE(first.lapse.high, 0.05);
+    EXPECT_NE(bootstrap(kExample, fit, settings, 200, 2).threshold.low, first.threshold.low);
+}
+
+TEST(Bootstrap, DevianceTellsGoodFitsFromBad) {
+    const PsychometricFitSettings settings{.guess = 0, .max_lapse = 0.02};
+    Random random(4, "observers");
+    const auto good = answers({Sigmoid::normal, 0, 1, 0, 0.01}, 100, random);
+    EXPECT_GT(bootstrap(good, fit_psychometric(good, settings), settings, 200, 1).deviance_share,
+              0.05);
+    // someone who answers the other way at a level of the middle
+    auto bad = good;
+    bad[2].yes = bad[2].trials - bad[2].yes;
+    EXPECT_LT(bootstrap(bad, fit_psychometric(bad, settings), settings, 200, 1).deviance_share,
+              0.01);
+}
+
+TEST(PsychometricFit, RefusesWhatCannotBeFitted) {
+    const auto refused = [](std::vector<LevelCount> counts, PsychometricFitSettings s = {}) {
+        EXPECT_THROW(fit_psychometric(counts, s), Error);
+    };
+    refused({});
+    refused({{1, 1, 2}});
+    refused({{1, 1, 2}, {1, 2, 2}});
+    refused({{1, 3, 2}, {2, 1, 2}});
+    refused({{1, 0, 0}, {2, 1, 2}});
+    refused({{NAN, 1, 2}, {2, 1, 2}});
+    refused({{0, 1, 2}, {2, 1, 2}}, {.sigmoid = Sigmoid::weibull});
+    refused({{1, 1, 2}, {2, 1, 2}}, {.guess = 0.96});
+    refused({{1, 1, 2}, {2, 1, 2}}, {.max_lapse = -0.1});
+}
+
+}  // namespace
+}  // namespace dihaptic::analysis

@@ -1,0 +1,38 @@
+// Psychometric functions: how likely "yes" (or "correct") is at a stimulus level x,
+//
+//     p(x) = gamma + (1 - gamma - lambda) F(x; t, s)
+//
+// with the guess rate gamma and the lapse rate lambda. The sigmoid F has a threshold t and a shape
+// s:
+//
+//     normal         Phi((x - t) / s)                 F(t) = 0.5       s: standard deviation
+//     logistic       1 / (1 + exp(-(x - t) / s))      F(t) = 0.5       s: scale
+//     weibull        1 - exp(-(x / t)^s),  x > 0      F(t) = 1 - 1/e   s: slope, beta
+//     weibull_log10  1 - exp(-10^(s (x - t)))         the same of log10 x: x and t are logarithms
+//
+// x and t have the unit of the level; so has s of the first two. The last two have a slope without
+// a unit. Source: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
+#pragma once
+
+namespace dihaptic::model {
+
+enum class Sigmoid { normal, logistic, weibull, weibull_log10 };
+
+struct Psychometric {
+    Sigmoid sigmoid = Sigmoid::normal;
+    double threshold = 0;
+    double shape = 1;  ///< > 0
+    double guess = 0;  ///< probability of "yes" far below threshold
+    double lapse = 0;  ///< probability of "no" far above
+
+    /// Of "yes" at a level, in [guess, 1 - lapse].
+    double probability(double level) const;
+    /// The inverse: the level at which "yes" has this probability. NaN unless it lies between guess
+    /// and 1 - lapse.
+    double level(double probability) const;
+    /// Standard deviation of the distribution whose cumulative function is the sigmoid [as the
+    /// level].
+    double sd() const;
+};
+
+}  // namespace dihaptic::model
