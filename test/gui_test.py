@@ -135,15 +135,15 @@ class Mouse(Window):
         for _ in range(notches):
             self.xdotool("click", way)
             time.sleep(0.02)
-        time.sleep(0.5)
+        time.sleep(1.5)  # a busy machine takes its time
 
     def test_grips_and_lifts_while_the_solver_changes(self):
         self.open()
         self.screenshot("opened")
         self.start()
-        self.hold("space", 3)
+        self.wheel(self.CLOSE, 19)
         self.move(0, -4, 40)
-        time.sleep(0.5)
+        time.sleep(1.5)
         self.screenshot("lifted")
         self.key("alt+n", "ctrl+a")
         self.xdotool("type", "2000\n")
@@ -166,9 +166,10 @@ class Mouse(Window):
         self.replay()
         self.quit()
 
-    def test_lets_go(self):
+    def test_squeezes_by_a_key_and_lets_go(self):
         self.open()
         self.start()
+        self.hold("space", 0.5)
         self.wheel(self.CLOSE, 18)  # 54 mm
         self.move(0, -4, 30)
         time.sleep(0.3)
@@ -235,7 +236,7 @@ class Sessions(Window):
         time.sleep(1)
         self.quit()
         with self.ended("complete") as file:
-            self.assertGreater(len(self.series(file, "solver")), 900)
+            self.assertGreater(len(self.series(file, "solver")), 300)
         self.replay()
 
 
