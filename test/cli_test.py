@@ -40,7 +40,7 @@ class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
-                    ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"]]
+                    ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -62,6 +62,13 @@ class Commands(unittest.TestCase):
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn("map.svg: error: cannot be written. Name another file by --map", result.stderr)
+
+    def test_a_window_needs_a_screen(self):
+        nowhere = {name: value for name, value in os.environ.items()
+                   if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+        result = dihaptic("gui", env=nowhere)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("there is no screen to open a window on", result.stderr)
 
     def test_version(self):
         self.assertRegex(dihaptic("--version").stdout, r"^dihaptic \d+\.\d+\.\d+\n$")

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -14,6 +15,14 @@ constexpr const char* kProgram = "dihaptic-gui";
 
 /// Becomes the window's program, which lies beside this one.
 void run(const std::string& file, const std::string& out) {
+    const auto is_set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value != nullptr && *value != '\0';
+    };
+    if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("QT_QPA_PLATFORM")) {
+        throw Error("there is no screen to open a window on",
+                    "Start it on a desktop, or log in by ssh -X; dihaptic run needs none.");
+    }
     const std::string program =
         (std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram).string();
     std::vector<std::string> words{kProgram, "--out", out};
