@@ -36,6 +36,8 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     }
     item.X_BM = solid.X_BM;
     item.inertia = solid.inertia;
+    item.mass = solid.mass;
+    item.moves = linear;
     item.parts = collision_parts(shape, item.X_BM);
 
     btRigidBody::btRigidBodyConstructionInfo info(
@@ -152,8 +154,7 @@ BodyIndex World::find(const std::string& name) const {
 }
 
 double World::friction(BodyIndex a, BodyIndex b) const {
-    return impl_->friction[static_cast<size_t>(a.value) * impl_->items.size() +
-                           static_cast<size_t>(b.value)];
+    return impl_->friction_of(static_cast<size_t>(a.value), static_cast<size_t>(b.value));
 }
 
 std::span<const size_t> World::stepped() const {
@@ -179,6 +180,23 @@ double World::mass(BodyIndex body) const {
 void World::set_mass(BodyIndex body, double mass) noexcept {
     btRigidBody& b = *impl_->items[static_cast<size_t>(body.value)].body;
     if (b.getMass() != mass) b.setMassProps(mass, b.getLocalInertia());
+}
+
+void World::set_properties(BodyIndex body, const BodyProperties& properties) noexcept {
+    const auto i = static_cast<size_t>(body.value);
+    Impl::Item& item = impl_->items[i];
+    if (item.properties == properties || !item.can_move) return;
+    item.properties = properties;
+    // Bullet knows one mass, and a factor by axis on what forces and impulses do. With the least of
+    // the masses the factors are at most 1, and its sweeps converge. Gravity comes as a force: so
+    // the factor must not change the weight.
+    const double least = properties.mass.minCoeff();
+    btRigidBody& b = *item.body;
+    b.setMassProps(least * item.mass, to_bullet(properties.turning * item.inertia));
+    b.setLinearFactor(item.moves * to_bullet(Vec3(least * properties.mass.cwiseInverse())));
+    b.updateInertiaTensor();
+    item.heaviness = properties.weight / least;
+    impl_->wake(i, states_);
 }
 
 void World::set_velocity(BodyIndex body, const Vec3& v_WB) noexcept {

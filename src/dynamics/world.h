@@ -31,6 +31,15 @@ struct BodyState {
     bool awake = true;         ///< false: asleep or fixed; the state does not change
 };
 
+/// What a body's properties are times those of the scene.
+struct BodyProperties {
+    Vec3 mass = Vec3::Ones();  ///< its inertia along the world's axes
+    double weight = 1;
+    double turning = 1;   ///< its moments of inertia
+    double friction = 1;  ///< its coefficients with all others
+    bool operator==(const BodyProperties&) const = default;
+};
+
 /// What a step could not do as asked.
 enum class StepStatus : unsigned {
     ok = 0,
@@ -81,6 +90,8 @@ class World {
 
     /// The mass that the next steps see [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
+    /// The properties of a body of the scene from the next step on; it wakes when they change.
+    void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
     /// The same for a proxy that turns: inertia about P [kg*m^2], angular velocity [rad/s].
     void set_inertia(BodyIndex proxy, double inertia) noexcept;

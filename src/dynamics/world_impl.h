@@ -37,6 +37,10 @@ struct World::Impl {
         bool can_move = false;
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
+        double mass = 0;
+        btVector3 moves;  // Bullet's linear factor
+        BodyProperties properties;
+        double heaviness = 1;  // its weight over the mass that Bullet knows, and over gravity
         std::vector<std::unique_ptr<CollisionPart>> parts;
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
@@ -65,6 +69,10 @@ struct World::Impl {
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
              const btVector3& linear, const btVector3& angular, bool about_origin = false);
+    double friction_of(size_t a, size_t b) const {
+        return friction[a * items.size() + b] * items[a].properties.friction *
+               items[b].properties.friction;
+    }
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
@@ -73,6 +81,8 @@ struct World::Impl {
     void group_contacts();
     contact::SolveStats solve(double h);
     contact::SolveStats solve_batch(double h);
+    /// Bullet's sweeps apply a body's linear factor twice: while they run it has to be its root.
+    void square_root_factors(bool rooted);
     void integrate_positions(double h, std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);

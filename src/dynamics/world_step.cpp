@@ -79,7 +79,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         Item& item = items[i];
         btRigidBody& body = *item.body;
         Vec3 acceleration = item.force * body.getInvMass();
-        if (!item.is_proxy) acceleration += gravity;
+        if (!item.is_proxy) acceleration += item.heaviness * gravity;
         body.setLinearVelocity(body.getLinearVelocity() +
                                h * to_bullet(acceleration) * body.getLinearFactor());
         const btVector3 turn = body.getInvInertiaTensorWorld() * to_bullet(item.torque);
@@ -100,12 +100,11 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
 }
 
 void World::Impl::prepare_contacts() {
-    const size_t count = items.size();
     for (btPersistentManifold* manifold : collision->manifolds()) {
         const auto a = static_cast<size_t>(manifold->getBody0()->getUserIndex());
         const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
-            manifold->getContactPoint(i).m_combinedFriction = friction[a * count + b];
+            manifold->getContactPoint(i).m_combinedFriction = friction_of(a, b);
             // Bullet's solver knows no torsion
             const bool torsion = settings.solver != Solver::sequential_impulse;
             torsion_radius(manifold->getContactPoint(i)) =
@@ -193,10 +192,22 @@ contact::SolveStats World::Impl::solve_batch(double h) {
         }
         stats.fallback = true;  // too large a group: Bullet's solver grows with it
     }
+    square_root_factors(true);
     stats.iterations = sequential_impulse.solve(batch_bodies, batch_contacts, settings, h,
                                                 collision->dispatcher());
+    square_root_factors(false);
     stats.residual = problem.judge(batch_contacts);
     return stats;
+}
+
+void World::Impl::square_root_factors(bool rooted) {
+    for (btCollisionObject* object : batch_bodies) {
+        const Item& item = items[static_cast<size_t>(object->getUserIndex())];
+        if (item.properties.mass == Vec3::Constant(item.properties.mass.x())) continue;
+        const Vec3 factor = item.properties.mass.minCoeff() * item.properties.mass.cwiseInverse();
+        item.body->setLinearFactor(item.moves *
+                                   to_bullet(rooted ? Vec3(factor.cwiseSqrt()) : factor));
+    }
 }
 
 void World::Impl::integrate_positions(double h, std::vector<BodyState>& states) {

@@ -1,4 +1,4 @@
-// Who says what phase it is: the time. A session and its replay ask the same one.
+// Who says what phase it is: the time.
 #pragma once
 
 #include <vector>

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/field_writer.h"
-#include "experiment/phase_director.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::experiment {
@@ -101,11 +100,8 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
                        rig::poses(rig, scene::finger_names(scene)));
     servo.activate();
 
-    PhaseDirector phases(head.phases, settings.tick());
-    const servo::Director director = [&](const servo::Frame& last,
-                                         std::span<const haptics::Handle> handles,
+    const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
                                          servo::Commands& commands) {
-        phases(last, handles, commands);
         commands.force_off = (recorded->status & servo::kStopped) != 0;
         commands.resume = (recorded->status & servo::kResumed) != 0;
         commands.tuning = {
@@ -113,6 +109,9 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
             std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
             recorded->smoothing};
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);
+        commands.trial = recorded->trial;
+        commands.phase = recorded->phase;
+        commands.task = recorded->task;
     };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {

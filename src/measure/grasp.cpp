@@ -179,7 +179,7 @@ std::pair<double, double> measure_torque(const BenchSetup& setup) {
         [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * tick;
             if (now >= begin - tick / 2 && now < begin + 0.2 - tick / 2) {
-                commands.load({block, Vec3::Zero(), Vec3(0.02, 0, 0)});
+                servo::add(commands.task.loads, {block.value, Vec3::Zero(), Vec3(0.02, 0, 0)});
             }
         });
     const size_t start = trace.between(begin, begin).first - 1;
@@ -218,7 +218,7 @@ double measure_torsion_limit(const BenchSetup& base) {
         [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
             if (now < begin || let_go > 0) return;
-            commands.load({{1}, Vec3::Zero(), Vec3(torque_at(now), 0, 0)});
+            servo::add(commands.task.loads, {1, Vec3::Zero(), Vec3(torque_at(now), 0, 0)});
         });
     return let_go / limit;
 }
@@ -232,7 +232,7 @@ double measure_soft_turn(const BenchSetup& setup, double share) {
         [&](const servo::Frame& frame) { trace.add(frame); },
         [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
-            if (now >= begin && now < begin + 1) commands.load({{1}, Vec3::Zero(), torque});
+            if (now >= begin && now < begin + 1) servo::add(commands.task.loads, {1, Vec3::Zero(), torque});
         });
     return degrees(trace.turn(trace.between(begin, begin + 1)));
 }

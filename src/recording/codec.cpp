@@ -148,8 +148,13 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.turns.resize(layout.turns);
     frame.bodies.resize(layout.bodies);
     frame.contacts.resize(contacts);
-    std::vector<std::byte> bytes(1024 + 512 * layout.fingers + 256 * layout.turns +
-                                 256 * layout.bodies + 256 * contacts);
+    frame.task.visual.resize(1);
+    frame.task.targets.resize(servo::TaskFrame::kMostTargets);
+    frame.task.properties.resize(servo::TaskFrame::kMostProperties);
+    frame.task.loads.resize(servo::TaskFrame::kMostLoads);
+    frame.task.placements.resize(layout.bodies);
+    std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +
+                                 384 * layout.bodies + 256 * contacts);
     return encode(frame, bytes, Bodies::all);
 }
 

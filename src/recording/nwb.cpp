@@ -89,6 +89,29 @@ class Series {
     hdf5::Rows rows_;
 };
 
+/// One item of a list as numbers, with their names.
+class RowMaker {
+  public:
+    template <class T>
+    void operator()(const char* name, const T& value, const char* unit) {
+        const std::string with_unit =
+            unit == std::string("1") ? name : fmt::format("{} [{}]", name, unit);
+        if constexpr (std::is_same_v<T, Vec3>) {
+            for (int i = 0; i < 3; ++i) row.push_back(value[i]);
+            names += ", " + with_unit + " x y z";
+        } else if constexpr (std::is_same_v<T, Quat>) {
+            for (const double part : {value.w(), value.x(), value.y(), value.z()})
+                row.push_back(part);
+            names += ", " + with_unit + " w x y z";
+        } else {
+            row.push_back(static_cast<double>(value));
+            names += ", " + with_unit;
+        }
+    }
+    std::vector<double> row;
+    std::string names;
+};
+
 /// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
 /// them.
 class FrameExporter {
@@ -105,6 +128,7 @@ class FrameExporter {
     }
     void close() {
         for (Series& series : series_) series.close(head_.tick, regular_ ? nullptr : &times_);
+        for (auto& [name, list] : lists_) list.series.close(head_.tick, &list.times);
         if (contacts_) contacts_->close(head_.tick, &contact_times_);
     }
 
@@ -142,6 +166,27 @@ class FrameExporter {
             servo::BodyFrame::visit(bodies[i], *this);
         }
         prefix_.clear();
+    }
+    /// Lists of a task: a series each, with a row an item, once there is one.
+    template <class T>
+    void each(const char* name, const std::vector<T>& items) {
+        for (const T& item : items) {
+            RowMaker maker;
+            T::visit(item, maker);
+            auto found = lists_.find(name);
+            if (found == lists_.end()) {
+                const std::string what =
+                    fmt::format("A row for each item of the tick's {}: {}.", name,
+                                maker.names.substr(2));
+                found = lists_
+                            .emplace(name, List{Series(acquisition_, fmt::format("task_{}", name),
+                                                       maker.row.size(), "n/a", what, false),
+                                                {}})
+                            .first;
+            }
+            found->second.series.add(maker.row.data());
+            found->second.times.push_back(times_.back());
+        }
     }
     void each(const char*, const std::vector<servo::ContactFrame>& contacts) {
         for (const servo::ContactFrame& c : contacts) {
@@ -198,6 +243,11 @@ class FrameExporter {
     size_t next_ = 0;
     std::vector<double> times_;
     bool regular_ = true;
+    struct List {
+        Series series;
+        std::vector<double> times;
+    };
+    std::map<std::string, List> lists_;
     std::optional<Series> contacts_;
     std::vector<double> contact_times_;
 };

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/geometry.h"
+#include "servo/task_frame.h"
 
 namespace dihaptic::servo {
 
@@ -162,6 +163,7 @@ struct Frame {
     double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|
     double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
+    TaskFrame task;
     std::vector<FingerFrame> fingers;
     std::vector<TurnFrame> turns;   ///< of those whose devices measure orientation, in order
     std::vector<BodyFrame> bodies;  ///< of the scene
@@ -190,6 +192,7 @@ struct Frame {
         v("solver_residual", f.solver_residual, "1");
         v("lateness", f.lateness, "s");
         v("tick_duration", f.tick_duration, "s");
+        TaskFrame::visit(f.task, v);
         v.each("fingers", f.fingers);
         v.each("turns", f.turns);
         v.changed("bodies", f.bodies, f.changed);

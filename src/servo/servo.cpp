@@ -110,6 +110,7 @@ void Servo::activate() {
     frame_ = {};
     frame_.sequence = -1;
     reserve(frame_);
+    commands_.task.reserve(frame_.bodies.size());
     devices_->activate();
     active_ = true;
     stopped_ = false;
@@ -120,6 +121,7 @@ void Servo::reserve(Frame& frame) const {
     frame.turns.resize(turning_.size());
     frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
     frame.changed.reserve(frame.bodies.size());
+    frame.task.reserve(frame.bodies.size());
     frame.contacts.reserve(64 + 8 * static_cast<size_t>(world_.size()));
 }
 
@@ -149,7 +151,7 @@ void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcep
 
 const Frame& Servo::tick(Time now, const Director& director) noexcept {
     measure(now);
-    commands_.load_count = 0;
+    commands_.task.clear();
     commands_.stop = false;
     commands_.force_off = false;
     commands_.resume = false;
@@ -162,15 +164,16 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     if (commands_.resume) soft_start_.restart();
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
 
+    order_bodies();
     for (size_t i = 0; i < fingers_.size(); ++i)
         fingers_[i].begin_tick(world_, handles_[i], settings_.step());
     dynamics::StepStatus step = dynamics::StepStatus::ok;
     if (steps_now()) {
         const double h = settings_.step();
         if (commands_.solver) world_.set_solver(*commands_.solver);
-        for (int i = 0; i < commands_.load_count; ++i) {
-            const Commands::Load& load = commands_.loads[static_cast<size_t>(i)];
-            world_.apply(load.body, load.force_W, load.torque_W);
+        for (const LoadFrame& load : commands_.task.loads) {
+            if (load.body < world_.scene_size())
+                world_.apply({load.body}, load.force_W, load.torque_W);
         }
         for (size_t i = 0; i < fingers_.size(); ++i)
             fingers_[i].before_step(world_, handles_[i], h);
@@ -222,6 +225,7 @@ void Servo::make_forces(Time now) noexcept {
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.flags);
+        force.felt_W.force += field_on(i);
         asked = asked || !force.felt_W.is_zero();
     }
     const bool allowed = switch_held();
@@ -240,6 +244,31 @@ void Servo::make_forces(Time now) noexcept {
     }
 }
 
+void Servo::order_bodies() noexcept {
+    const TaskFrame& task = commands_.task;
+    for (const PlacementFrame& placement : task.placements)
+        world_.set_pose({placement.body}, placement.X_WB);
+    const auto ordered = [&](const PropertiesFrame& before) {
+        return std::any_of(task.properties.begin(), task.properties.end(),
+                           [&](const PropertiesFrame& now) { return now.body == before.body; });
+    };
+    for (const PropertiesFrame& before : frame_.task.properties) {
+        if (!ordered(before)) world_.set_properties({before.body}, {});
+    }
+    for (const PropertiesFrame& now : task.properties) {
+        world_.set_properties({now.body}, {now.mass_scale, now.weight_scale, now.turning_scale,
+                                           now.friction_scale});
+    }
+}
+
+Vec3 Servo::field_on(size_t finger) const noexcept {
+    Vec3 force = Vec3::Zero();
+    for (const LoadFrame& load : commands_.task.loads) {
+        if (load.body == fingers_[finger].proxy().value) force += load.force_W;
+    }
+    return force;
+}
+
 bool Servo::switch_held() const noexcept {
     if (settings_.safety.dead_man_finger.empty()) return true;
     if (dead_man_ < 0) return false;  // nobody holds a switch that is not there
@@ -252,6 +281,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.time = now;
     frame_.trial = commands.trial;
     frame_.phase = commands.phase;
+    frame_.task = commands.task;
     frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
     if (overrun_) frame_.status |= kOverrun;
     if (commands.resume) frame_.status |= kResumed;

@@ -7,7 +7,6 @@
 // The force that is written belongs to the positions that were read in the same tick.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,18 +32,7 @@ struct Commands {
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
 
-    struct Load {
-        dynamics::BodyIndex body;
-        Vec3 force_W = Vec3::Zero();   ///< at the centre of mass [N]
-        Vec3 torque_W = Vec3::Zero();  ///< [N*m]
-    };
-    std::array<Load, 8> loads;  ///< on bodies, in the coming step
-    int load_count = 0;
-
-    void load(const Load& load) noexcept {
-        if (load_count < static_cast<int>(loads.size()))
-            loads[static_cast<size_t>(load_count++)] = load;
-    }
+    TaskFrame task;  ///< of this tick alone: it is empty before the director is asked
 };
 
 /// The owner's part of a tick: sees the last Frame and the handles as just read. It runs inside the
@@ -97,6 +85,10 @@ class Servo {
   private:
     void measure(Time now) noexcept;
     void make_forces(Time now) noexcept;
+    /// Puts bodies where they are ordered to be, and gives them their properties.
+    void order_bodies() noexcept;
+    /// Force of the fields on a handle.
+    Vec3 field_on(size_t finger) const noexcept;
     bool switch_held() const noexcept;
     /// Whether the world steps in this tick, whose Frame is not made yet.
     bool steps_now() const noexcept {

@@ -150,7 +150,7 @@ TEST(Servo, AllocatesNothingAfterActivation) {
             const Director director = [](const Frame&, std::span<const haptics::Handle>,
                                          Commands& commands) {
                 commands.phase = 1;
-                commands.load({{1}, {0, 0, 0.01}, Vec3::Zero()});
+                add(commands.task.loads, {1, {0, 0, 0.01}, Vec3::Zero()});
             };
             const testing::AllocationGuard guard;
             for (int i = 0; i < 1100; ++i)
@@ -207,7 +207,7 @@ TEST(Servo, TellsThatABodyDiverged) {
     Grasp grasp;
     grasp.run(0, 0.05);
     const Director push = [&](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
-        commands.load({dynamics::BodyIndex{1}, {1e300, 0, 0}, Vec3::Zero()});
+        add(commands.task.loads, {1, {1e300, 0, 0}, Vec3::Zero()});
     };
     uint32_t status = 0;
     for (int i = 0; i < 1000 && (status & kNotFinite) == 0; ++i)
@@ -227,7 +227,7 @@ TEST(Servo, DynamicsMayBeSlower) {
 TEST(Servo, LoadsOfTheDirectorActOnBodies) {
     Grasp grasp;
     const Director push = [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
-        commands.load({{1}, {0, 0, 2 * 0.1 * 9.81}, Vec3::Zero()});
+        add(commands.task.loads, {1, {0, 0, 2 * 0.1 * 9.81}, Vec3::Zero()});
     };
     for (int i = 0; i < 100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), push);
     const Frame& frame = grasp.servo->tick(std::chrono::milliseconds(100), push);
