@@ -232,7 +232,8 @@ double measure_soft_turn(const BenchSetup& setup, double share) {
         [&](const servo::Frame& frame) { trace.add(frame); },
         [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
-            if (now >= begin && now < begin + 1) servo::add(commands.task.loads, {1, Vec3::Zero(), torque});
+            if (now >= begin && now < begin + 1)
+                servo::add(commands.task.loads, {1, Vec3::Zero(), torque});
         });
     return degrees(trace.turn(trace.between(begin, begin + 1)));
 }

@@ -149,7 +149,8 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
             if (!recorder.on) return;
             const double share = (time - begin) / (end - begin);
             for (const auto& [body, shaking] : shakings)
-                servo::add(commands.task.loads, {body.value, share * shaking.force(time), share * shaking.torque(time)});
+                servo::add(commands.task.loads,
+                           {body.value, share * shaking.force(time), share * shaking.torque(time)});
         });
     return out;
 }

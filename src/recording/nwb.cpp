@@ -175,9 +175,8 @@ class FrameExporter {
             T::visit(item, maker);
             auto found = lists_.find(name);
             if (found == lists_.end()) {
-                const std::string what =
-                    fmt::format("A row for each item of the tick's {}: {}.", name,
-                                maker.names.substr(2));
+                const std::string what = fmt::format("A row for each item of the tick's {}: {}.",
+                                                     name, maker.names.substr(2));
                 found = lists_
                             .emplace(name, List{Series(acquisition_, fmt::format("task_{}", name),
                                                        maker.row.size(), "n/a", what, false),

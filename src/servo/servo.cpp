@@ -256,8 +256,8 @@ void Servo::order_bodies() noexcept {
         if (!ordered(before)) world_.set_properties({before.body}, {});
     }
     for (const PropertiesFrame& now : task.properties) {
-        world_.set_properties({now.body}, {now.mass_scale, now.weight_scale, now.turning_scale,
-                                           now.friction_scale});
+        world_.set_properties(
+            {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale});
     }
 }
 

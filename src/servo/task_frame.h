@@ -1,5 +1,5 @@
-// What a task does in a tick: what it shows, what it perturbs, what became of the trial. Its director
-// orders it, the Frame records it, and a replay orders it again.
+// What a task does in a tick: what it shows, what it perturbs, what became of the trial. Its
+// director orders it, the Frame records it, and a replay orders it again.
 //
 // Perturbations act at three places:
 //   visual map        true pose to displayed pose, of what it names
@@ -24,13 +24,13 @@ enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 }
 ///
 /// and a body turned by R as well, so that a rotated hand still touches what is rotated with it.
 struct VisualMap {
-    uint32_t moves = 0;                  ///< Moves
-    int32_t object = -1;                 ///< the body that kMovesObject means
-    Vec3 p_WC = Vec3::Zero();            ///< centre c [m]
-    Vec3 scale = Vec3::Ones();           ///< along the world's axes
-    Quat R = Quat::Identity();           ///< after scaling
-    Vec3 along_W = Vec3::Zero();         ///< unit direction of the ray; zero: none
-    double size = 1;                     ///< the object's displayed size over its true one
+    uint32_t moves = 0;           ///< Moves
+    int32_t object = -1;          ///< the body that kMovesObject means
+    Vec3 p_WC = Vec3::Zero();     ///< centre c [m]
+    Vec3 scale = Vec3::Ones();    ///< along the world's axes
+    Quat R = Quat::Identity();    ///< after scaling
+    Vec3 along_W = Vec3::Zero();  ///< unit direction of the ray; zero: none
+    double size = 1;              ///< the object's displayed size over its true one
 
     Vec3 displayed(const Vec3& p_W) const noexcept {
         const Vec3 arm = p_W - p_WC;

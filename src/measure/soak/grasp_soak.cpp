@@ -52,9 +52,9 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
                                           servo::Commands& commands) {
             contacts = 0;
             const double size = setup.mass * 5;
-            servo::add(commands.task.loads, {1,
-                           size * Vec3(push.normal(), push.normal(), push.normal()),
-                           0.005 * size * Vec3(push.normal(), push.normal(), push.normal())});
+            servo::add(commands.task.loads,
+                       {1, size * Vec3(push.normal(), push.normal(), push.normal()),
+                        0.005 * size * Vec3(push.normal(), push.normal(), push.normal())});
         };
         bench.run(
             [&](const servo::Frame& frame) {

@@ -227,8 +227,8 @@ TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
         Desk desk(true, 0.5, {0.1, 0, 0});
         double farthest = 0;
         for (int i = 0; i < 500; ++i) {
-            const Frame& frame = desk.tick(
-                [&](const Frame&, Commands& c) { add(c.task.visual, map); });
+            const Frame& frame =
+                desk.tick([&](const Frame&, Commands& c) { add(c.task.visual, map); });
             const Vec3 arm = frame.fingers[0].p_WH - centre;
             Vec3 expected = centre + map.R * map.scale.cwiseProduct(arm);
             if (map.along_W != Vec3::Zero()) expected = centre + arm.norm() * map.along_W;
@@ -237,9 +237,10 @@ TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
             farthest = std::max(farthest, arm.norm());
         }
         EXPECT_NEAR(farthest, 0.1, 0.002);
-        return displayed_handle(desk.tick([&](const Frame&, Commands& c) {
-                   add(c.task.visual, map);
-               }), 0).p - centre;
+        return displayed_handle(
+                   desk.tick([&](const Frame&, Commands& c) { add(c.task.visual, map); }), 0)
+                   .p -
+               centre;
     };
     VisualMap map;
     map.moves = kMovesProxies;
