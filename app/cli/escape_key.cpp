@@ -14,7 +14,7 @@ constexpr int kWait = 20;  // between two looks at whether the session is over [
 
 }  // namespace
 
-EscapeKey::EscapeKey(std::atomic<bool>& pressed) {
+EscapeKey::EscapeKey(std::atomic<bool>& pressed, std::atomic<char>& key) {
     const bool ours = isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp();
     if (!ours || tcgetattr(STDIN_FILENO, &before_) != 0) return;
     termios keys = before_;
@@ -25,7 +25,7 @@ EscapeKey::EscapeKey(std::atomic<bool>& pressed) {
     keys.c_cc[VSUSP] = _POSIX_VDISABLE;
     if (tcsetattr(STDIN_FILENO, TCSANOW, &keys) != 0) return;
     listens_ = true;
-    thread_ = std::thread([this, &pressed] { listen(pressed); });
+    thread_ = std::thread([this, &pressed, &key] { listen(pressed, key); });
 }
 
 EscapeKey::~EscapeKey() {
@@ -38,7 +38,7 @@ void EscapeKey::restore() noexcept {
     if (listens_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
 }
 
-void EscapeKey::listen(std::atomic<bool>& pressed) {
+void EscapeKey::listen(std::atomic<bool>& pressed, std::atomic<char>& key) {
     while (!done_.load()) {
         pollfd input{STDIN_FILENO, POLLIN, 0};
         if (poll(&input, 1, kWait) <= 0) continue;
@@ -48,6 +48,8 @@ void EscapeKey::listen(std::atomic<bool>& pressed) {
         // arrows and function keys begin with it: they stop as well, which harms nobody
         if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
             pressed.store(true);
+        else
+            key.store(keys[static_cast<size_t>(count - 1)]);
     }
 }
 

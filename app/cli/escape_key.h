@@ -11,9 +11,9 @@ namespace dihaptic::cli {
 
 class EscapeKey {
   public:
-    /// Sets `pressed` when Escape is. Does nothing when standard input is no terminal, or another
-    /// program's at the moment.
-    explicit EscapeKey(std::atomic<bool>& pressed);
+    /// Sets `pressed` when Escape is, and `key` to any other. Does nothing when standard input is
+    /// no terminal, or another program's at the moment.
+    EscapeKey(std::atomic<bool>& pressed, std::atomic<char>& key);
     ~EscapeKey();
     EscapeKey(const EscapeKey&) = delete;
     EscapeKey& operator=(const EscapeKey&) = delete;
@@ -22,7 +22,7 @@ class EscapeKey {
     void restore() noexcept;
 
   private:
-    void listen(std::atomic<bool>& pressed);
+    void listen(std::atomic<bool>& pressed, std::atomic<char>& key);
 
     bool listens_ = false;
     termios before_{};

@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     cli::add_run(app);
     cli::add_replay(app);
     cli::add_recover(app);
+    cli::add_resume(app);
     cli::add_check(app);
     cli::add_bench(app);
     cli::add_tune(app);

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 
 #include "base/plural.h"
@@ -25,14 +27,63 @@ struct Options {
     std::string proxy;
     double rate = 0;
     std::string clock = "virtual";
+    bool simulate = false;
 };
 
+/// "trial 12 of 96"
+std::string trial_at(const experiment::Plan& plan, double share) {
+    if (!plan.task) return "";
+    const size_t all = plan.task->trials.size();
+    const auto done = static_cast<size_t>(share * static_cast<double>(all));
+    return fmt::format("trial {} of {}", std::min(all, done + 1), all);
+}
+
+/// The terminal's keys, on the real clock.
+class Console {
+  public:
+    explicit Console(experiment::RunOptions& run) {
+        if (run.clock != experiment::Clock::real) return;
+        escape_.emplace(stop_requested, key_);
+        run.keys = &key_;
+        run.stuck = [this](const std::string& message) {
+            escape_->restore();
+            fmt::print(stderr, "\nerror: {}\n", message);
+            std::_Exit(kFailed);  // the thread that is stuck would keep an orderly end waiting
+        };
+    }
+
+  private:
+    std::atomic<char> key_{0};
+    std::optional<EscapeKey> escape_;
+};
+
+/// What is not known of the person yet, asked for on a terminal; in words, never refused there.
+void ask(recording::Participant& participant) {
+    if (isatty(STDIN_FILENO) == 0) return;
+    const auto question = [](const char* text, std::string& answer) {
+        if (!answer.empty()) return;
+        fmt::print("{}: ", text);
+        std::fflush(stdout);
+        std::getline(std::cin, answer);
+    };
+    question("participant, e.g. S07", participant.id);
+    question("age in years", participant.age);
+    question("sex (F, M, O, or U: not told)", participant.sex);
+    question("handedness (right, left, both)", participant.handedness);
+}
+
 void run_one(const Options& options) {
-    const experiment::Plan plan = experiment::make_plan(options.request);
+    run_plan(experiment::make_plan(options.request), options.run);
+}
+
+}  // namespace
+
+void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
+    const Console console(run);
     if (plan.movement) print_movement(*plan.movement, 12);
-    if (options.run.clock == experiment::Clock::real) {
+    if (run.clock == experiment::Clock::real) {
         // before an hour of somebody's time, not after it
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
@@ -43,13 +94,16 @@ void run_one(const Options& options) {
     experiment::RunResult result;
     {
         ProgressLine line("running");
-        result = experiment::run_session(plan, options.run, stop_requested,
-                                         [&](double share) { line.show(share); });
+        result = experiment::run_session(plan, run, stop_requested, [&](double share) {
+            line.show(share, trial_at(plan, share));
+        });
     }
     const analysis::SessionFigures figures = finish(result);
     print_summary(figures, plan, result);
     if (result.interrupted || figures.failed()) exit_code = kFailed;
 }
+
+namespace {
 
 /// One movement of a batch: its row, printed and kept.
 std::vector<Table::Cell> run_movement(const Options& options, const std::string& name) {
@@ -112,7 +166,8 @@ std::vector<Table::Cell> run_movement(const Options& options, const std::string&
 
 /// A folder of movements: a session each, and a summary row each. The summary is written anew after
 /// every movement: whatever becomes of the next, it has those before.
-void run_batch(const Options& options) {
+void run_batch(Options& options) {
+    const Console console(options.run);
     std::vector<std::string> files;
     for (const auto& entry : fs::directory_iterator(options.request.movement)) {
         if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
@@ -183,18 +238,17 @@ void run(Options& options) {
         options.request.set.push_back("coupling.kind=" + options.coupling);
     if (!options.proxy.empty()) options.request.set.push_back("proxy.kind=" + options.proxy);
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
+    if (options.simulate && options.clock == "real")
+        throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
     options.run.clock =
         options.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
     options.run.command = command_line();
-    std::optional<EscapeKey> escape;
-    if (options.run.clock == experiment::Clock::real) {
-        escape.emplace(stop_requested);
-        options.run.stuck = [&](const std::string& message) {
-            escape->restore();
-            fmt::print(stderr, "\nerror: {}\n", message);
-            std::_Exit(kFailed);  // the thread that is stuck would keep an orderly end waiting
-        };
-    }
+    options.request.simulate = options.simulate;
+    const bool trials =
+        experiment::kind_of(options.request.file) == experiment::FileKind::experiment;
+    if (trials && !options.simulate && options.run.clock == experiment::Clock::real)
+        ask(options.run.participant);
+    options.request.participant = options.run.participant.id;
     if (fs::is_directory(options.request.movement)) {
         run_batch(options);
     } else {
@@ -212,7 +266,14 @@ void add_run(CLI::App& app) {
         "--movement", options->request.movement,
         "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
+    command->add_flag("--simulate", options->simulate,
+                      "a simulated hand on simulated devices does it, on the virtual clock");
     command->add_option("--participant", options->run.participant.id, "participant's identifier");
+    command->add_option("--age", options->run.participant.age, "participant's age in years");
+    command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")
+        ->check(CLI::IsMember({"F", "M", "O", "U"}));
+    command->add_option("--handedness", options->run.participant.handedness, "right, left or both")
+        ->check(CLI::IsMember({"right", "left", "both"}));
     command->add_option(
         "--solver", options->solver,
         "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
@@ -235,6 +296,8 @@ void add_run(CLI::App& app) {
     command->footer(
         "\nExamples:\n"
         "  dihaptic run experiments/lift-block.yaml\n"
+        "  dihaptic run experiments/visuomotor-rotation.yaml --simulate --participant S07 --seed "
+        "7\n"
         "  dihaptic run scenes/frictionless-plane.yaml --clock real\n"
         "  dihaptic run experiments/reach-to-grasp.yaml --movement trial01.csv --participant S07\n"
         "  dihaptic run experiments/lift-block.yaml --set coupling.stiffness_N_m=600 --set "

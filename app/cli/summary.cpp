@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "base/plural.h"
@@ -78,8 +80,60 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
     }
 }
 
-void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
-                   const experiment::RunResult& result) {
+namespace {
+
+/// A row a block: its trials' outcomes, and the mean angle of the hand.
+void print_trials(const Table& trials) {
+    const auto column = [&](const char* name) {
+        const auto found = std::find_if(trials.columns.begin(), trials.columns.end(),
+                                        [&](const auto& c) { return c.name == name; });
+        return static_cast<size_t>(found - trials.columns.begin());
+    };
+    const auto text = [](const Table::Cell& cell) {
+        const auto* value = std::get_if<double>(&cell);
+        return value != nullptr ? fmt::format("{:g}", *value) : std::get<std::string>(cell);
+    };
+    struct Block {
+        std::string label;
+        std::map<std::string, int> outcomes;
+        double sum = 0;
+        int measured = 0;
+    };
+    std::vector<std::pair<std::string, Block>> blocks;  // by number and kind of trial
+    for (const auto& row : trials.rows) {
+        const std::string number = text(row[column("block_num")]);
+        const std::string kind = text(row[column("kind")]);
+        const std::string key = number + kind;
+        auto found = std::find_if(blocks.begin(), blocks.end(),
+                                  [&](const auto& block) { return block.first == key; });
+        if (found == blocks.end()) {
+            const std::string label =
+                fmt::format("{:>3s} {:10s} {:12s} {:12s}", number, text(row[column("round")]),
+                            text(row[column("block")]), kind);
+            found = blocks.insert(blocks.end(), {key, {label, {}, 0, 0}});
+        }
+        Block& block = found->second;
+        ++block.outcomes[text(row[column("outcome")])];
+        const auto* angle = std::get_if<double>(&row[column("hand_angle_deg")]);
+        if (angle == nullptr || std::isnan(*angle)) continue;
+        block.sum += *angle;
+        ++block.measured;
+    }
+    fmt::print("\n{:>3s} {:10s} {:12s} {:12s} {:>10s}  outcomes\n", "", "round", "block", "kind",
+               "hand deg");
+    for (const auto& [key, block] : blocks) {
+        std::string outcomes;
+        for (const auto& [name, count] : block.outcomes)
+            outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", count, name);
+        const double mean = block.measured > 0 ? block.sum / block.measured : NAN;
+        fmt::print("{} {:>10s}  {}\n", block.label, number(mean, 2), outcomes);
+    }
+    fmt::print(
+        "\nhand: mean angle of the handle from the target's direction, in trials.csv one by "
+        "one\n");
+}
+
+void print_phases(const analysis::SessionFigures& figures) {
     const bool turns = !figures.phases.empty() && !std::isnan(figures.phases.front().peak_torque);
     fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
                "phase", "from s", "to s", "grip N", "peak N", "load N", "finger N", "peak N",
@@ -99,6 +153,17 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
         "the object's weight{}\n\n",
         turns ? "; torque: largest on any handle, mean" : "");
     print_episodes(figures);
+}
+
+}  // namespace
+
+void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
+                   const experiment::RunResult& result) {
+    if (figures.trials) {
+        print_trials(*figures.trials);
+    } else {
+        print_phases(figures);
+    }
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
         if (ticks == 0) continue;

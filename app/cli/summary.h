@@ -12,6 +12,9 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
 /// What a recorded movement had wrong with it.
 void print_movement(const experiment::MovementReport& report, size_t most_lines);
 
+/// Runs a plan and tells of it.
+void run_plan(const experiment::Plan& plan, experiment::RunOptions run);
+
 /// Finishes the session's files, with progress.
 analysis::SessionFigures finish(const experiment::RunResult& result);
 

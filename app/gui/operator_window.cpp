@@ -176,6 +176,7 @@ experiment::Request OperatorWindow::request() const {
     request.file = file_.toStdString();
     request.rig = session_->rig().toStdString();
     request.mouse = session_->by_mouse();
+    request.participant = session_->participant().toStdString();
     if (!tuning_->proxy().isEmpty())
         request.set.push_back("proxy.kind=" + tuning_->proxy().toStdString());
     return request;

@@ -1,6 +1,16 @@
 #include "analysis/events.h"
 
+#include <fmt/format.h>
+
 namespace dihaptic::analysis {
+namespace {
+
+std::string listed(const std::vector<std::string>& names, int32_t i) {
+    const auto at = static_cast<size_t>(i);
+    return at < names.size() ? names[at] : std::to_string(i);
+}
+
+}  // namespace
 
 EventFinder::EventFinder(const recording::LogHead& head, int object,
                          std::vector<std::string> phases)
@@ -20,6 +30,21 @@ void EventFinder::add(const servo::Frame& frame) {
         events_.push_back({now, frame.trial, what, std::move(detail)});
     };
 
+    if (frame.trial != trial_ || frame.task.attempt != attempt_) {
+        trial_ = frame.trial;
+        attempt_ = frame.task.attempt;
+        if (attempt_ > 0) say("trial", fmt::format("attempt {}", attempt_));
+    }
+    const servo::TaskFrame& task = frame.task;
+    const bool perturbed = !(task.visual.empty() && task.properties.empty() && task.loads.empty());
+    if (perturbed != perturbed_) say("perturbation", perturbed ? "on" : "off");
+    perturbed_ = perturbed;
+    if (task.marker != 0) say("marker", std::to_string(task.marker));
+    if (task.message != message_ && task.message >= 0)
+        say("message", listed(head_.messages, task.message));
+    message_ = task.message;
+    if (!task.placements.empty()) say("put back", fmt::format("{} bodies", task.placements.size()));
+    if (task.outcome >= 0) say("outcome", listed(head_.outcomes, task.outcome));
     if (frame.phase != phase_) {
         phase_ = frame.phase;
         const auto i = static_cast<size_t>(phase_);

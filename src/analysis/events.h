@@ -12,7 +12,8 @@ namespace dihaptic::analysis {
 struct Event {
     double time = 0;  ///< [s]
     int trial = 0;
-    std::string name;    ///< "touch", "release", "lift-off", "replaced", "phase", "limit"
+    std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit"; of a task
+                       ///< "trial", "perturbation", "marker", "message", "put back", "outcome"
     std::string detail;  ///< who, whom, or what
 };
 
@@ -33,6 +34,10 @@ class EventFinder {
     std::vector<char> touching_;  // by finger, by body
     bool seen_ = false;           // a frame before this one
     bool supported_ = false;      // in it, the object pressed on something that is no finger
+    int trial_ = 0;
+    int attempt_ = 0;
+    int message_ = -1;
+    bool perturbed_ = false;
     int phase_ = -1;
     uint32_t status_ = 0;
     std::vector<Event> events_;

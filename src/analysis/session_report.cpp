@@ -9,10 +9,12 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
+#include "analysis/trials.h"
 #include "base/plural.h"
 #include "recording/nwb.h"
 #include "recording/raw_log.h"
@@ -30,6 +32,7 @@ struct Reading {
     SessionFigures figures;
     std::vector<Event> events;
     Table fault;
+    std::optional<TrialFinder> trials;  ///< of a task
 };
 
 PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -95,9 +98,19 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
     SessionFigures& figures = out.figures;
     figures.status_ticks.assign(servo::kStatusBits, 0);
 
+    if (has_trials(folder)) out.trials.emplace(folder, log.head().fingers);
+
     int trial = 0;
+    int attempt = 0;
     int phase = -1;
     size_t first = 0;
+    const auto end_trial = [&] {
+        if (object >= 0 && !trace.samples().empty()) {
+            const std::vector<Episode> episodes = find_episodes(trace, facts);
+            figures.episodes.insert(figures.episodes.end(), episodes.begin(), episodes.end());
+        }
+        trace = GraspTrace(object, log.head().tick);
+    };
     const auto close_phase = [&] {
         const Range range{first, trace.samples().size()};
         if (phase < 0 || range.size() == 0) return;
@@ -108,13 +121,17 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         figures.phases.push_back(figure);
     };
     while (const servo::Frame* frame = log.next()) {
-        if (frame->phase != phase || frame->trial != trial) {
+        const bool next_trial = frame->trial != trial || frame->task.attempt != attempt;
+        if (frame->phase != phase || next_trial) {
             close_phase();
+            if (next_trial) end_trial();  // objects are put back
             phase = frame->phase;
+            attempt = frame->task.attempt;
             trial = frame->trial;
             first = trace.samples().size();
         }
         trace.add(*frame);
+        if (out.trials) out.trials->add(*frame);
         events.add(*frame);
         fault.add(*frame);
         ++figures.frames;
@@ -126,10 +143,10 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         if (progress && figures.frames % 5000 == 0) progress(log.share());
     }
     close_phase();
+    end_trial();
     figures.log = log.health();
     figures.tick = log.head().tick;
     figures.fingers = log.head().fingers;
-    if (object >= 0) figures.episodes = find_episodes(trace, facts);
     out.events = events.events();
     out.fault = fault.table();
     return out;
@@ -270,6 +287,8 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
                                                           {"episodes.csv", "stop_time"},
                                                           {"events.csv", "time_s"}};
     for (const auto& [name, column] : tables) {
+        // it also has the times of the sessions that this one goes on with
+        if (std::string_view(name) == "trials.csv" && has_trials(folder)) continue;
         const double last = last_time(folder.file(name), column);
         if (last > figures.duration + figures.tick / 2) {
             keep(name, fmt::format("it goes to {:.3f} s; the log ends at {:.3f} s", last,
@@ -335,17 +354,19 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
 
     recording::NwbContent content;
     content.info = info;
-    content.trials = trial_table(figures, info);
+    content.trials = reading.trials ? reading.trials->table(info) : trial_table(figures, info);
     content.phases = phase_table(figures);
     content.settings = read_settings(folder);
     recording::write_nwb(folder, content, part(0.4, 1));
-    write_csv(content.trials, folder.file("trials.csv"));
+    SessionFigures out = figures;
+    if (reading.trials) out.trials = with_earlier(content.trials, folder);
+    write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
     write_csv(episode_table(figures), folder.file("episodes.csv"));
     write_csv(event_table(reading.events), folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.write_info(info);
-    return figures;
+    return out;
 }
 
 }  // namespace dihaptic::analysis

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct PhaseFigures {
 
 struct SessionFigures {
     std::vector<PhaseFigures> phases;
+    std::optional<Table> trials;       ///< of a task, those of earlier parts of the session too
     std::vector<Episode> episodes;     ///< of the object
     std::vector<std::string> fingers;  ///< names
     int64_t frames = 0;

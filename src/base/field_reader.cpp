@@ -101,7 +101,7 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
                                                                   : "a list";
         diagnostics_.error(
             given.node->place, given.key, fmt::format("must be a number, is {}", shown),
-            field.quantity == Quantity::none ? ""
+            field.quantity == Quantity::none ? "Write a number."
                                              : "Write the number alone; its unit is in the key.");
         return std::nullopt;
     }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "experiment/task.h"
 #include "hand/movement.h"
 #include "hand/spec.h"
 #include "servo/settings.h"
@@ -41,6 +42,7 @@ struct Experiment {
     std::string rig;    ///< file, relative to this one; empty: ideal simulated devices
     std::optional<hand::HandSpec> hand;  ///< in place of the scene's
     std::optional<MovementSpec> movement;
+    std::optional<Task> task;  ///< trials, in place of the hand's script
     Node settings;
     Place place;
 
@@ -51,6 +53,7 @@ struct Experiment {
         v("rig", rig);
         v("hand", hand);
         v("movement", movement);
+        v("task", task);
         v("settings", settings);
         if constexpr (requires { v.place(); }) place = v.place();
     }

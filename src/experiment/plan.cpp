@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/table.h"
+#include "experiment/task_director.h"
+#include "experiment/task_hand.h"
 #include "model/grasp.h"
 
 namespace dihaptic::experiment {
@@ -260,6 +263,90 @@ void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnosti
         "Make it lighter: it cannot be felt as it is.");
 }
 
+/// A field on a handle that the loop cannot hold calmly: as a coupling's stiffness and damping.
+void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    double stiffness = 0;
+    double damping = 0;
+    int stiffest = 0;
+    int most_damped = 0;
+    for (const TaskPlan::Cell& cell : plan.task->cells) {
+        for (const Perturbation& perturbation : cell.perturbations) {
+            const auto field = perturbation.on_handle();
+            if (field && field->stiffness > stiffness) {
+                stiffness = field->stiffness;
+                stiffest = field->finger;
+            }
+            if (field && std::abs(field->damping) > damping) {
+                damping = std::abs(field->damping);
+                most_damped = field->finger;
+            }
+        }
+    }
+    const auto period = [&](const devices::DeviceInfo& info) {
+        return plan.settings.tick() + 2 * info.delay;
+    };
+    const devices::DeviceInfo& stiff = devices.info(stiffest);
+    if (const double limit = model::passive_stiffness(stiff.damping, period(stiff));
+        stiff.damping > 0 && stiffness > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "stiffness",
+            fmt::format("a channel of {:g} N/m is above {:.0f} N/m (2 b / T), up to which the "
+                        "hand's damping of {:g} N*s/m surely keeps {} calm",
+                        stiffness, limit, stiff.damping, stiff.model),
+            "Lower it, or look whether the handle shakes.");
+    }
+    const devices::DeviceInfo& damped = devices.info(most_damped);
+    if (const double limit = 2 * damped.mass / period(damped); damped.mass > 0 && damping > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "damping",
+            fmt::format("a field of {:g} N*s/m is more than a handle of {:g} g can bear: about "
+                        "{:.0f} N*s/m (2 m / T)",
+                        damping, damped.mass * 1e3, limit),
+            "Lower it.");
+    }
+}
+
+/// The trials, and the hand that does them.
+void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnostics& diagnostics) {
+    auto made = std::make_shared<TaskPlan>(plan_task(task, plan.scene, diagnostics));
+    const int number = participant_number(request.participant);
+    if (needs_number(task) && number < 0) {
+        diagnostics.error(
+            task.place, "participant",
+            request.participant.empty()
+                ? "the order of the trials depends on the participant's number"
+                : fmt::format("'{}' ends in no number, and the order of the trials depends on it",
+                              request.participant),
+            "Add e.g. --participant S07.");
+    }
+    diagnostics.throw_if_errors();
+    made->trials = make_trials(task, number, request.seed);
+    plan.task = made;
+}
+
+void make_task_hand(Plan& plan) {
+    plan.seeing = std::make_shared<TaskHand>(plan.task, plan.hand, scene::finger_names(plan.scene));
+    plan.driver = plan.seeing;
+}
+
+void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
+    check_dead_man(plan, diagnostics);
+    diagnostics.throw_if_errors();
+    // made once to see what the devices can do; the session makes its own
+    const auto devices = make_servo(plan);
+    resolve_shares(plan, devices->devices(), diagnostics);
+    check_stiffness(plan, devices->devices(), diagnostics);
+    check_damping(plan, devices->devices(), diagnostics);
+    check_limits(plan, devices->devices(), diagnostics);
+    check_proxy(plan, diagnostics);
+    check_torsion(plan, diagnostics);
+    check_grip(plan, devices->devices(), diagnostics);
+    check_fields(plan, devices->devices(), diagnostics);
+    diagnostics.throw_if_errors();
+    plan.warnings = diagnostics.problems();
+}
+
 /// What is wrong with a movement in any experiment. Its axes are the experiment's business: they
 /// make no difference here.
 void check_movement(const std::string& file, Diagnostics& diagnostics) {
@@ -312,6 +399,7 @@ Plan make_plan(const Request& request) {
         diagnostics.throw_if_errors();
         scene_file = beside(request.file, experiment.scene);
     }
+    plan.scene_folder = fs::path(scene_file).parent_path().string();
     plan.scene = scene::read_scene(scene_file, diagnostics);
     diagnostics.throw_if_errors();
     plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
@@ -324,6 +412,9 @@ Plan make_plan(const Request& request) {
         // a mouse can turn the hand, which is felt where orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
+    const auto real = [](const rig::Device& device) { return device.backend != "simulated"; };
+    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), real))
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
     overlay(plan, plan.scene.settings, diagnostics);
     overlay(plan, plan.rig.settings, diagnostics);
     overlay(plan, experiment.settings, diagnostics);
@@ -342,10 +433,20 @@ Plan make_plan(const Request& request) {
         throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
+    if (experiment.task) {
+        if (experiment.movement) {
+            diagnostics.error(experiment.movement->place, "movement",
+                              "a task's hand follows its states, not a recorded movement",
+                              "Leave out movement, or task.");
+        }
+        plan_trials(plan, *experiment.task, request, diagnostics);
+    }
     if (request.mouse) {
         plan.mouse =
             std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
         plan.driver = plan.mouse;
+    } else if (plan.task) {
+        make_task_hand(plan);
     } else if (!movement.empty()) {
         plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
                                      plan.scene, plan.movement, diagnostics);
@@ -355,19 +456,55 @@ Plan make_plan(const Request& request) {
             std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
     }
 
-    check_dead_man(plan, diagnostics);
+    check_with_devices(plan, diagnostics);
+    return plan;
+}
+
+Plan make_rest(const std::string& session, recording::SessionInfo& info) {
+    const auto folder = recording::SessionFolder::open(session);
+    info = folder.read_info();
+    if (!fs::exists(folder.file("task.yaml"))) {
+        throw Error({session, 0}, "", "has no trials that could go on",
+                    "Run the experiment again; dihaptic recover makes the files of what there is.");
+    }
+    Diagnostics diagnostics;
+    diagnostics.add(folder.changed(info.inputs, Severity::error));
     diagnostics.throw_if_errors();
-    // made once to see what the devices can do; the session makes its own
-    const auto devices = make_servo(plan);
-    resolve_shares(plan, devices->devices(), diagnostics);
-    check_stiffness(plan, devices->devices(), diagnostics);
-    check_damping(plan, devices->devices(), diagnostics);
-    check_limits(plan, devices->devices(), diagnostics);
-    check_proxy(plan, diagnostics);
-    check_torsion(plan, diagnostics);
-    check_grip(plan, devices->devices(), diagnostics);
+    Plan plan;
+    plan.file = info.experiment;
+    plan.title = info.title;
+    plan.seed = std::stoull(info.seed);
+    plan.resumes = folder.path();
+    plan.scene_folder = folder.path();
+    plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    plan.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    overlay(plan, read_yaml(folder.file("settings.yaml")), diagnostics);
+    if (plan.scene.hand.kind != Node::Kind::null)
+        read_fields(plan.hand, plan.scene.hand, diagnostics);
+    Task task;
+    read_fields(task, read_yaml(folder.file("task.yaml")), diagnostics);
     diagnostics.throw_if_errors();
-    plan.warnings = diagnostics.problems();
+    auto made = std::make_shared<TaskPlan>(plan_task(task, plan.scene, diagnostics));
+    diagnostics.throw_if_errors();
+    made->trials = read_trial_list(task, folder.file("trial-list.csv"));
+    plan.task = made;
+
+    // trials.csv has a row for each attempt, in the order in which they were made
+    const auto rows = read_csv(folder.file("trials.csv"));
+    const auto column = std::find(rows.front().begin(), rows.front().end(), "outcome");
+    const auto at = static_cast<size_t>(column - rows.front().begin());
+    for (size_t i = 1; i < rows.size(); ++i) {
+        const auto same = [&](const TaskPlan::Outcome& o) { return o.name == rows[i].at(at); };
+        const auto found = std::find_if(made->outcomes.begin(), made->outcomes.end(), same);
+        if (found != made->outcomes.end())
+            plan.done.push_back(static_cast<int>(found - made->outcomes.begin()));
+    }
+    if (TaskDirector(*made, plan.seed, plan.settings.tick(), plan.done).share() >= 1) {
+        throw Error({session, 0}, "", "is complete: every trial is done",
+                    "Run the experiment again for another session.");
+    }
+    make_task_hand(plan);
+    check_with_devices(plan, diagnostics);
     return plan;
 }
 
@@ -405,6 +542,7 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics) {
             case FileKind::experiment: {
                 Request request;
                 request.file = file;
+                request.participant = "1";
                 const Plan plan = make_plan(request);
                 diagnostics.add(plan.warnings);
                 return kind_of(file) == FileKind::scene ? "scene" : "experiment";

@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "experiment/movement.h"
+#include "experiment/seeing_driver.h"
+#include "experiment/task_plan.h"
 #include "hand/mouse.h"
 #include "hand/script.h"
+#include "recording/session.h"
 #include "rig/rig.h"
 #include "scene/scene.h"
 #include "servo/servo.h"
@@ -21,12 +24,15 @@ struct Request {
     std::string movement;          ///< in place of the experiment's
     std::vector<std::string> set;  ///< "coupling.stiffness_N_m=600": settings from the command line
     uint64_t seed = 1;
-    bool mouse = false;  ///< somebody at a screen moves the simulated hand, not the file
+    bool mouse = false;       ///< somebody at a screen moves the simulated hand, not the file
+    std::string participant;  ///< identifier: its number may order the trials
+    bool simulate = false;    ///< simulated devices, whatever the rig has
 };
 
 struct Plan {
     std::string title;
     std::string file;
+    std::string scene_folder;  ///< that the scene's meshes are relative to
     scene::Scene scene;
     rig::Rig rig;
     servo::Settings settings;
@@ -35,6 +41,10 @@ struct Plan {
     std::shared_ptr<const hand::Driver> driver;  ///< shared with the devices that it moves
     std::shared_ptr<hand::MouseDriver> mouse;    ///< the driver, if it is one
     std::optional<MovementReport> movement;
+    std::shared_ptr<const TaskPlan> task;  ///< trials, if the experiment has some
+    std::shared_ptr<SeeingDriver> seeing;  ///< the driver, if it sees
+    std::vector<int> done;                 ///< outcomes of trials that an earlier session ended
+    std::string resumes;                   ///< that session's folder
     std::vector<Problem> warnings;
     uint64_t seed = 1;
 };
@@ -44,6 +54,10 @@ void apply_setting(servo::Settings& settings, const std::string& text);
 
 /// Reads and checks. Throws Error with every problem found.
 Plan make_plan(const Request& request);
+
+/// What is left of a session with trials, from its frozen inputs and its tables. Throws Error when
+/// there is nothing left, or it has no trials.
+Plan make_rest(const std::string& session, recording::SessionInfo& info);
 
 /// Servo on the plan's rig.
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan);

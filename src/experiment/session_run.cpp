@@ -12,6 +12,7 @@
 #include "base/plural.h"
 #include "base/text_file.h"
 #include "experiment/phase_director.h"
+#include "experiment/task_director.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -22,6 +23,10 @@ using Wall = std::chrono::steady_clock;
 double since(Wall::time_point begin) {
     return std::chrono::duration<double>(Wall::now() - begin).count();
 }
+
+/// No session is longer: beyond, a task waits for something that does not come.
+constexpr Time kLongest = std::chrono::hours(12);
+constexpr Time kLongestTimed = std::chrono::hours(1);
 
 std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     std::vector<recording::PhaseInfo> out;
@@ -53,14 +58,6 @@ std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& f
     return names;
 }
 
-std::string scene_folder(const Plan& plan) {
-    // where the scene's meshes are relative to
-    if (kind_of(plan.file) == FileKind::scene) return fs::path(plan.file).parent_path().string();
-    Diagnostics diagnostics;
-    const Experiment experiment = read_experiment(plan.file, diagnostics);
-    return (fs::path(plan.file).parent_path() / fs::path(experiment.scene).parent_path()).string();
-}
-
 Table fault_table(const MovementReport& movement) {
     Table faults;
     faults.columns = {{"start_s", "last good frame before"},
@@ -85,7 +82,7 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
     scene::Scene scene = plan.scene;
     scene.settings = {};  // resolved, in settings.yaml
     scene.hand = write_fields(plan.hand);
-    std::vector<std::string> names = freeze_meshes(scene, scene_folder(plan), folder);
+    std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
     write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
     write_file(to_yaml(write_fields(plan.rig)), folder.file("rig.yaml"));
     write_file(to_yaml(write_fields(plan.settings)), folder.file("settings.yaml"));
@@ -96,6 +93,13 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         names.emplace_back("movement.csv");
         write_csv(fault_table(*plan.movement), folder.file("movement-faults.csv"));
     }
+    if (plan.task) {
+        write_file(to_yaml(write_fields(plan.task->task)), folder.file("task.yaml"));
+        write_csv(frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
+        names.insert(names.end(), {"task.yaml", "trial-list.csv"});
+    }
+    if (!plan.resumes.empty())
+        fs::copy_file(plan.resumes + "/trials.csv", folder.file("trials-before.csv"));
     std::vector<recording::InputFile> inputs;
     inputs.reserve(names.size());
     for (const std::string& name : names) inputs.push_back(folder.input(name));
@@ -115,15 +119,13 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
 /// Calls `progress` about ten times a second from a thread of its own while something runs.
 class Watcher {
   public:
-    Watcher(const std::atomic<int64_t>& reached, Time whole, const Progress& progress) {
+    Watcher(const std::function<double()>& share, const Progress& progress) {
         if (!progress) return;
-        thread_ = std::thread([this, &reached, whole, progress] {
+        thread_ = std::thread([this, share, progress] {
             std::unique_lock lock(mutex_);
             while (!done_) {
                 condition_.wait_for(lock, std::chrono::milliseconds(100));
-                progress(
-                    std::min(1.0, static_cast<double>(reached.load(std::memory_order_relaxed)) /
-                                      static_cast<double>(std::max<int64_t>(1, whole.count()))));
+                progress(std::min(1.0, share()));
             }
         });
     }
@@ -184,6 +186,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         info.devices.push_back(record);
     }
     info.phases = phases_of(*plan.driver);
+    if (plan.task) {
+        for (const TaskPlan::Outcome& outcome : plan.task->outcomes)
+            info.outcomes.push_back(outcome.name);
+        info.messages = plan.task->messages;
+        info.resumes = plan.resumes;
+    }
     for (const Problem& warning : plan.warnings) info.notes.push_back(warning.text());
     if (plan.movement) {
         info.notes.push_back(fmt::format("{:.1f} % of the movement was bridged",
@@ -196,24 +204,34 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         folder.raw_log(), log_head(plan.scene, plan.settings, info),
         real ? recording::Writing::in_thread : recording::Writing::in_place);
     result.lock.emplace(folder);
+    if (plan.seeing) plan.seeing->restart();
     servo->activate();
-    const Time whole = from_seconds(plan.driver->duration());
-    result.timing.reserve(static_cast<size_t>(whole / servo->period()) + 2);
+    const Time whole = plan.task ? kLongest : from_seconds(plan.driver->duration());
+    result.timing.reserve(static_cast<size_t>(std::min(whole, kLongestTimed) / servo->period()) +
+                          2);
     std::atomic<int64_t> reached{0};
     Live* const live = options.live;
     if (live != nullptr) live->prepare(*servo, plan.scene.object_index());
     bool resumed = false;
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
+        if (plan.seeing) plan.seeing->see(frame);
         if (live != nullptr) live->show(frame);
         reached.store(frame.time.count(), std::memory_order_relaxed);
     };
     PhaseDirector phases(info.phases, plan.settings.tick());
+    std::optional<TaskDirector> task;
+    if (plan.task) task.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
     const servo::Director director = [&](const servo::Frame& last,
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
-        phases(last, handles, commands);
-        commands.stop = recorder.failed();
+        if (task) {
+            if (options.keys != nullptr) task->press(options.keys->exchange(0));
+            (*task)(last, handles, commands);
+        } else {
+            phases(last, handles, commands);
+        }
+        commands.stop = commands.stop || recorder.failed();
         commands.force_off = real && stop.load(std::memory_order_relaxed);
         if (live == nullptr) return;
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
@@ -231,7 +249,13 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const auto ended = [&] { return live != nullptr && live->ended; };
     const auto begin = Wall::now();
     {
-        const Watcher watcher(reached, whole, progress);
+        const Watcher watcher(
+            [&] {
+                return task ? task->share()
+                            : static_cast<double>(reached.load(std::memory_order_relaxed)) /
+                                  static_cast<double>(std::max<int64_t>(1, whole.count()));
+            },
+            progress);
         if (real) {
             const std::atomic<bool> never{false};  // the director stops it, by a fault
             const std::atomic<bool>& paused = live != nullptr ? live->paused : never;

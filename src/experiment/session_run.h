@@ -19,6 +19,7 @@ struct RunOptions {
     std::string out = "sessions";  ///< folder that session folders are made in
     std::string command;           ///< as typed, for the record
     recording::Participant participant;
+    std::atomic<char>* keys = nullptr;  ///< the operator's newest key, until a tick takes it
     /// Called from another thread when a call to the devices never returns, and run_session() thus
     /// cannot either: it has to end the program. Gets what to tell.
     std::function<void(const std::string& message)> stuck;

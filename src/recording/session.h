@@ -46,6 +46,7 @@ struct SessionInfo : Setup {
     std::string started;       ///< ISO 8601 with offset
     std::string command;       ///< as typed
     Participant participant;
+    std::string resumes;             ///< folder of the session that this one goes on with
     std::vector<std::string> notes;  ///< warnings given at the start, and what recovering found
     std::string finished;            ///< what became of it, in words
 
@@ -58,6 +59,7 @@ struct SessionInfo : Setup {
         v("started", started);
         v("command", command);
         v("participant", participant);
+        v("resumes", resumes);
         Setup::visit(v);
         v("notes", notes);
         v("finished", finished);

@@ -67,7 +67,9 @@ struct Setup {
     std::string seed;        ///< of everything random
     std::string object;      ///< the body that summaries are about
     std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;  ///< of every trial
+    std::vector<PhaseInfo> phases;      ///< of every trial
+    std::vector<std::string> outcomes;  ///< of trials, as frames count them
+    std::vector<std::string> messages;  ///< shown to the person, as frames count them
     std::vector<InputFile> inputs;
 
     /// How long the session was to be [s]; 0: not known.
@@ -82,6 +84,8 @@ struct Setup {
         v("object", object);
         v("devices", devices);
         v("phases", phases);
+        v("outcomes", outcomes);
+        v("messages", messages);
         v("inputs", inputs);
     }
 };

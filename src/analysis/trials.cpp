@@ -1,0 +1,157 @@
+#include "analysis/trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+
+#include "servo/displayed.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr const char* kList = "trial-list.csv";
+constexpr const char* kBefore = "trials-before.csv";
+constexpr const char* kInterrupted = "interrupted";
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Index of the list's column, or its width.
+size_t column(const std::vector<std::vector<std::string>>& list, const std::string& name) {
+    return static_cast<size_t>(std::find(list[0].begin(), list[0].end(), name) - list[0].begin());
+}
+
+Table::Cell cell(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0' ? Table::Cell(value) : Table::Cell(text);
+}
+
+}  // namespace
+
+double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
+    const Vec3 a = from - from.dot(axis) * axis;
+    const Vec3 b = to - to.dot(axis) * axis;
+    constexpr double kAlong = 1e-9;
+    if (a.norm() <= kAlong * from.norm() || b.norm() <= kAlong * to.norm()) return kNaN;
+    return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+}
+
+bool has_trials(const recording::SessionFolder& folder) {
+    return std::filesystem::exists(folder.file(kList));
+}
+
+TrialFinder::TrialFinder(const recording::SessionFolder& folder,
+                         const std::vector<std::string>& fingers)
+    : list_(read_csv(folder.file(kList))) {
+    const size_t first = column(list_, "reach_finger");
+    if (first == list_[0].size()) return;
+    for (size_t i = 1; i < list_.size(); ++i) {
+        const auto& row = list_[i];
+        const auto number = [&](size_t k) {
+            return first + k < row.size() ? std::strtod(row[first + k].c_str(), nullptr) : kNaN;
+        };
+        const auto vector = [&](size_t k) { return Vec3(number(k), number(k + 1), number(k + 2)); };
+        ReachPlan reach;
+        const auto finger = std::find(fingers.begin(), fingers.end(), row.at(first));
+        reach.finger = finger == fingers.end() ? 0 : static_cast<size_t>(finger - fingers.begin());
+        reach.distance = number(1) * 1e-3;
+        reach.from_W = vector(2) * 1e-3;
+        reach.to_W = vector(5) * 1e-3;
+        reach.axis_W = vector(8);
+        reach.phase = static_cast<int>(number(11));
+        reaches_.push_back(reach);
+    }
+}
+
+void TrialFinder::add(const servo::Frame& frame) {
+    if (frame.trial < 1 || frame.phase == 0) return;  // between trials
+    if (rows_.empty() || rows_.back().trial != frame.trial ||
+        rows_.back().attempt != frame.task.attempt) {
+        Row row;
+        row.trial = frame.trial;
+        row.attempt = frame.task.attempt;
+        row.start = seconds(frame.time);
+        row.peak_grip = row.hand_angle = row.shown_angle = row.reach_time = kNaN;
+        rows_.push_back(row);
+    }
+    Row& row = rows_.back();
+    row.end = seconds(frame.time);
+    if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
+    row.peak_grip = std::fmax(row.peak_grip, frame.grip_force);
+    for (const servo::FingerFrame& finger : frame.fingers)
+        row.peak_force = std::max(row.peak_force, finger.f_sent_W.norm());
+
+    const auto i = static_cast<size_t>(frame.trial - 1);
+    if (i >= reaches_.size() || !std::isnan(row.reach_time)) return;
+    const ReachPlan& reach = reaches_[i];
+    const Vec3 arm = frame.fingers[reach.finger].p_WH - reach.from_W;
+    if (arm.norm() < reach.distance || frame.phase != reach.phase) return;
+    const Vec3 way = reach.to_W - reach.from_W;
+    row.reach_time = row.end;
+    row.hand_angle = angle_about(reach.axis_W, way, arm);
+    const Vec3 shown = servo::displayed_handle(frame, reach.finger).p - reach.from_W;
+    row.shown_angle = angle_about(reach.axis_W, way, shown);
+}
+
+Table TrialFinder::table(const recording::SessionInfo& info) const {
+    Table table;
+    table.columns = {{"start_time", "s"},
+                     {"stop_time", "s"},
+                     {"experiment", "title"},
+                     {"ppid", "participant"},
+                     {"session_num", "number, from 1"}};
+    const size_t listed = column(list_, "reach_finger");
+    for (size_t k = 0; k < listed; ++k) table.columns.push_back({list_[0][k], "of trial-list.csv"});
+    table.columns.insert(
+        table.columns.end(),
+        {{"attempt", "at the trial, from 1"},
+         {"outcome", "what ended it; interrupted: nothing did"},
+         {"peak_grip_N", "largest grip force"},
+         {"peak_force_N", "largest force on any finger"},
+         {"reach_time_s", "from its start until the handle was reach_at_mm from the reach's"},
+         {"hand_angle_deg", "of the handle then, from the target's direction, about the axis"},
+         {"shown_angle_deg", "the same of where the handle was shown"}});
+    for (const Row& r : rows_) {
+        std::vector<Table::Cell> row{r.start, r.end, info.title, info.participant.id, 1.0};
+        const auto i = static_cast<size_t>(r.trial);
+        for (size_t k = 0; k < listed; ++k) {
+            const bool known = i < list_.size() && k < list_[i].size();
+            row.push_back(cell(known ? list_[i][k] : ""));
+        }
+        const auto outcome = static_cast<size_t>(r.outcome);
+        row.emplace_back(static_cast<double>(r.attempt));
+        row.emplace_back(r.outcome >= 0 && outcome < info.outcomes.size()
+                             ? info.outcomes[outcome]
+                             : std::string(kInterrupted));
+        row.insert(row.end(), {r.peak_grip, r.peak_force, r.reach_time - r.start,
+                               r.hand_angle * kDegrees, r.shown_angle * kDegrees});
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
+    if (!std::filesystem::exists(folder.file(kBefore))) return own;
+    const auto before = read_csv(folder.file(kBefore));
+    const size_t outcome = column(before, "outcome");
+    const size_t number = column(before, "session_num");
+    Table table{own.columns, {}};
+    double session = 1;
+    for (size_t i = 1; i < before.size(); ++i) {
+        if (before[i].size() != own.columns.size()) continue;
+        session = std::max(session, std::strtod(before[i][number].c_str(), nullptr));
+        if (before[i][outcome] == kInterrupted) continue;  // done again here
+        std::vector<Table::Cell>& row = table.rows.emplace_back();
+        for (const std::string& text : before[i]) row.push_back(cell(text));
+    }
+    for (std::vector<Table::Cell> row : own.rows) {
+        row[number] = session + 1;
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+}  // namespace dihaptic::analysis

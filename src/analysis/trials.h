@@ -1,0 +1,61 @@
+// Trials of a task, told from the frames: one row for each attempt, with what the frozen list of
+// trials (trial-list.csv) says of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/table.h"
+#include "recording/session.h"
+#include "servo/frame.h"
+
+namespace dihaptic::analysis {
+
+/// Where a reach is measured, of one trial.
+struct ReachPlan {
+    size_t finger = 0;
+    int phase = 0;               ///< in which it is measured
+    double distance = 0;         ///< from its beginning [m]
+    Vec3 from_W = Vec3::Zero();  ///< [m]
+    Vec3 to_W = Vec3::Zero();
+    Vec3 axis_W = Vec3::UnitZ();  ///< that angles are about; unit
+};
+
+/// Signed angle about an axis from one direction to another, both seen along the axis [rad]; NaN
+/// where one of them lies along it.
+double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to);
+
+class TrialFinder {
+  public:
+    /// Throws Error when the session's list of trials cannot be read.
+    TrialFinder(const recording::SessionFolder& folder, const std::vector<std::string>& fingers);
+
+    void add(const servo::Frame& frame);
+    Table table(const recording::SessionInfo& info) const;
+
+  private:
+    struct Row {
+        int trial = 0;
+        int attempt = 0;
+        int outcome = -1;
+        double start = 0;  ///< [s]
+        double end = 0;
+        double peak_grip;
+        double peak_force = 0;
+        double hand_angle;  ///< [rad]
+        double shown_angle;
+        double reach_time;  ///< when the handle was so far [s]
+    };
+    std::vector<std::vector<std::string>> list_;  // trial-list.csv, its header first
+    std::vector<ReachPlan> reaches_;              // by trial; empty: none are measured
+    std::vector<Row> rows_;
+};
+
+/// Puts the finished trials of the sessions that this one goes on with before its own.
+Table with_earlier(const Table& own, const recording::SessionFolder& folder);
+
+/// Whether the session's trials are a task's.
+bool has_trials(const recording::SessionFolder& folder);
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,178 @@
+// Perturbations as an experiment file writes them, and what each orders in a tick.
+//
+// A perturbation acts with a share from 0 to 1, for abrupt and for ramped ones: angles grow in
+// proportion, scales go from 1 in proportion, forces too.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "haptics/coupling.h"
+#include "scene/scene.h"
+#include "servo/frame.h"
+
+namespace dihaptic::experiment {
+
+/// A named sphere: where hands are to be, and what is shown there.
+struct Region {
+    std::string name;
+    Vec3 position = Vec3::Zero();  ///< of its centre [m]
+    double radius = 0.01;          ///< [m]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("position", position, Field::length().within(-100, 100).required());
+        v("radius", radius, Field::length().within(1e-4, 10));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Displayed motion: scaled about a region's centre and rotated about it, or led along the straight
+/// line to another region.
+struct VisualSpec {
+    std::vector<std::string> moves;  ///< proxies, object, target
+    std::string about;               ///< region
+    Vec3 scale = Vec3::Ones();       ///< along the world's axes
+    std::optional<Vec3> axis;        ///< of the rotation
+    double angle = 0;                ///< of it, by the right hand [rad]
+    std::string toward;              ///< region; shown on the line from `about` to it, as far out
+    double size = 1;                 ///< the object's displayed size over its true one
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("moves", moves, Field::text().required());
+        v("about", about, Field::text().required());
+        v("scale", scale, Field::number().within(-10, 10));
+        v("axis", axis);
+        v("angle", angle, Field::of(Quantity::angle).within(-6.3, 6.3));
+        v("toward", toward);
+        v("size", size, Field::number().within(0.1, 10));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A body's properties, times those of the scene.
+struct BodySpec {
+    std::string body;
+    Vec3 mass_scale = Vec3::Ones();  ///< of its inertia along the world's axes; its weight stays
+    double weight_scale = 1;         ///< its inertia stays
+    double density_scale = 1;        ///< of both, and of its moments of inertia
+    double friction_scale = 1;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("body", body, Field::text().required());
+        v("mass_scale", mass_scale, Field::number().within(0.05, 20));
+        v("weight_scale", weight_scale, Field::number().within(-20, 20));
+        v("density_scale", density_scale, Field::number().within(0.05, 20));
+        v("friction_scale", friction_scale, Field::number().within(0, 20));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// viscous: -b v. curl: b e x v. channel: -k d - b v_across, d from the line between two regions.
+enum class FieldKind { viscous, curl, channel };
+constexpr auto enum_names(FieldKind) {
+    return std::array{"viscous", "curl", "channel"};
+}
+
+struct ForceFieldSpec {
+    FieldKind kind = FieldKind::viscous;
+    std::string on;            ///< a finger's handle, or a body
+    double damping = 0;        ///< b [N*s/m]
+    double stiffness = 0;      ///< k, of a channel [N/m]
+    std::optional<Vec3> axis;  ///< e, of a curl
+    std::string from;          ///< of a channel: regions
+    std::string to;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind, Field::text().required());
+        v("on", on, Field::text().required());
+        v("damping", damping, Field::of(Quantity::damping).within(-1000, 1000));
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5));
+        v("axis", axis);
+        v("from", from);
+        v("to", to);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Any of the three, under one name.
+struct PerturbationSpec {
+    std::string name;
+    std::optional<VisualSpec> visual;
+    std::optional<BodySpec> body;
+    std::optional<ForceFieldSpec> field;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("visual", visual);
+        v("body", body);
+        v("field", field);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A perturbation with its names looked up: it neither allocates nor throws.
+class Perturbation {
+  public:
+    Perturbation() = default;
+    /// What is wrong with it goes to `diagnostics`.
+    Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
+                 const scene::Scene& scene, Diagnostics& diagnostics);
+
+    /// Adds what it orders to the tick's list. `regions_W`: their centres [m].
+    void order(double share, std::span<const Vec3> regions_W, const servo::Frame& last,
+               std::span<const haptics::Handle> handles, servo::TaskFrame& out) const noexcept;
+    /// The force of its field on something at p_W with v_W [N].
+    Vec3 force(double share, std::span<const Vec3> regions_W, const Vec3& p_W,
+               const Vec3& v_W) const noexcept;
+    /// Axis of its rotation or its curl; unset: it has none.
+    std::optional<Vec3> axis() const;
+    /// Of a field on a handle: b and k, for what a device can bear; unset: there is none.
+    struct OnHandle {
+        int finger;
+        double damping;    ///< [N*s/m]
+        double stiffness;  ///< [N/m]
+    };
+    std::optional<OnHandle> on_handle() const;
+
+  private:
+    struct Map {
+        uint32_t moves = 0;
+        int object = -1;
+        int about = -1;
+        int toward = -1;
+        Vec3 scale = Vec3::Ones();
+        Vec3 axis = Vec3::UnitZ();
+        double angle = 0;
+        double size = 1;
+    };
+    struct ForceField {
+        FieldKind kind = FieldKind::viscous;
+        int index = -1;  // body, or body count + finger
+        int finger = -1;
+        double damping = 0;
+        double stiffness = 0;
+        Vec3 axis = Vec3::UnitZ();
+        int from = -1;
+        int to = -1;
+    };
+    std::optional<Map> map_;
+    std::optional<servo::PropertiesFrame> properties_;
+    std::optional<ForceField> field_;
+};
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,232 @@
+// The task of an experiment file (docs/files.md): a small state machine that each trial runs
+// through, what perturbs it, and the trials' order.
+#pragma once
+
+#include "experiment/perturbation.h"
+#include "hand/spec.h"
+
+namespace dihaptic::experiment {
+
+/// What ends a state.
+enum class When {
+    inside,    ///< a finger's handle is in a region
+    outside,   ///< it is not
+    touched,   ///< a finger presses a body
+    released,  ///< no finger does
+    gripped,   ///< two fingers do
+    lifted,    ///< a body is above its place by a height
+    still,     ///< the finger, or all, are slower than a speed
+    key,       ///< the operator pressed a key
+    button,    ///< a button of a finger's device is held
+    time,      ///< of the state is over
+};
+constexpr auto enum_names(When) {
+    return std::array{"inside", "outside", "touched", "released", "gripped",
+                      "lifted", "still",   "key",     "button",   "time"};
+}
+
+/// One way out of a state: to another, or out of the trial with an outcome.
+struct Exit {
+    When when = When::time;
+    std::string region;    ///< inside, outside
+    bool shown = false;    ///< inside, outside: judged where the finger is shown
+    std::string body;      ///< touched, released, gripped, lifted
+    std::string finger;    ///< empty: the first; with touched, released, still: any, all, all
+    double height = 0.02;  ///< lifted [m]
+    double speed = 0.02;   ///< still [m/s]
+    double hold = 0;       ///< so long without a break; with time: after so long [s]
+    std::string key;       ///< one letter or digit
+    int button = 0;        ///< counted from 0
+    std::string to;        ///< state
+    std::string outcome;   ///< of the trial, which ends
+    bool redo = false;     ///< the trial is to be done again
+    std::string feedback;  ///< shown until the next message
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("when", when, Field::text().required());
+        v("region", region);
+        v("shown", shown);
+        v("body", body);
+        v("finger", finger);
+        v("height", height, Field::length().within(1e-4, 10));
+        v("speed", speed, Field::of(Quantity::speed).positive());
+        v("hold", hold, Field::of(Quantity::time).within(0, 3600));
+        v("key", key);
+        v("button", button, Field::number().within(0, 31));
+        v("to", to);
+        v("outcome", outcome);
+        v("redo", redo);
+        v("feedback", feedback);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A step of the simulated hand in a state: as a script's, or to a region.
+struct HandStep {
+    double duration = 0;             ///< [s]
+    std::string reach;               ///< region that the hand's centre goes to
+    Vec3 move = Vec3::Zero();        ///< of the centre [m]
+    std::optional<double> aperture;  ///< at the end [m]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("duration", duration, Field::of(Quantity::time).positive().at_most(3600).required());
+        v("reach", reach);
+        v("move", move, Field::length().within(-hand::kFarthest, hand::kFarthest));
+        v("aperture", aperture, Field::length().within(0, hand::kFarthest));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+struct State {
+    std::string name;
+    std::vector<std::string> show;  ///< regions, while it lasts
+    bool perturbed = true;          ///< the trial's perturbation acts
+    std::string message;
+    int marker = 0;              ///< event code on entering; 0: none
+    std::vector<Exit> exits;     ///< the first that is met counts
+    std::vector<HandStep> hand;  ///< what the simulated hand does, from entering it on
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("show", show);
+        v("perturbed", perturbed);
+        v("message", message);
+        v("marker", marker, Field::number().within(0, 255));
+        v("exits", exits);
+        v("hand", hand);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// What a trial differs by: regions and perturbations in place of those of the same name.
+struct Condition {
+    std::string name;
+    std::vector<Region> regions;
+    std::vector<PerturbationSpec> perturbations;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("regions", regions);
+        v("perturbations", perturbations);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+enum class Order { sequential, shuffled, latin_square, counterbalanced };
+constexpr auto enum_names(Order) {
+    return std::array{"sequential", "shuffled", "latin_square", "counterbalanced"};
+}
+
+enum class TrialKind { practice, baseline, perturbed, catch_trial, error_clamp, washout };
+constexpr auto enum_names(TrialKind) {
+    return std::array{"practice", "baseline", "perturbed", "catch", "error_clamp", "washout"};
+}
+
+/// Trials at random places of a block, of another kind.
+struct Insert {
+    TrialKind kind = TrialKind::catch_trial;
+    int count = 1;
+    std::string perturb;  ///< empty: none
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind);
+        v("count", count, Field::number().within(1, 10000).required());
+        v("perturb", perturb);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+struct Block {
+    std::string name;
+    TrialKind kind = TrialKind::baseline;
+    std::vector<std::string> conditions;  ///< empty: all
+    int repeats = 1;                      ///< of all of them
+    Order order = Order::shuffled;        ///< anew in each repeat
+    std::string perturb;                  ///< a perturbation; empty: none
+    int ramp = 0;  ///< trials over which its share rises from 0 to 1; 0: at once
+    std::vector<Insert> insert;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("kind", kind);
+        v("conditions", conditions);
+        v("repeats", repeats, Field::number().within(1, 10000));
+        v("order", order);
+        v("perturb", perturb);
+        v("ramp", ramp, Field::number().within(0, 100000));
+        v("insert", insert);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Where a trial goes that has to be done again.
+enum class Redo { never, next, end_of_block, random };
+constexpr auto enum_names(Redo) {
+    return std::array{"never", "next", "end_of_block", "random"};
+}
+
+/// The hand angle of a reach: between the way to `to` and where the handle is when it is `distance`
+/// from `from`, about `axis`, by the right hand; once in each trial, in one of its states.
+struct ReachMeasure {
+    std::string finger;  ///< empty: the first
+    std::string from;
+    std::string to;
+    std::string during;        ///< state
+    double distance = 0.05;    ///< [m]
+    std::optional<Vec3> axis;  ///< unset: that of the block's perturbation, or z
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("finger", finger);
+        v("from", from, Field::text().required());
+        v("to", to, Field::text().required());
+        v("during", during, Field::text().required());
+        v("distance", distance, Field::length().positive());
+        v("axis", axis);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+struct Task {
+    std::vector<Region> regions;
+    std::vector<PerturbationSpec> perturbations;
+    std::vector<State> states;          ///< the first one begins a trial
+    std::vector<Condition> conditions;  ///< empty: one, without a name
+    std::vector<Condition> rounds;      ///< the blocks are done once for each; empty: once
+    Order round_order = Order::sequential;
+    std::vector<Block> blocks;
+    Redo redo = Redo::end_of_block;
+    int most_attempts = 3;  ///< at a trial
+    std::optional<ReachMeasure> reach;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("regions", regions);
+        v("perturbations", perturbations);
+        v("states", states, Field::text().required());
+        v("conditions", conditions);
+        v("rounds", rounds);
+        v("round_order", round_order);
+        v("blocks", blocks, Field::text().required());
+        v("redo", redo);
+        v("most_attempts", most_attempts, Field::number().within(1, 100));
+        v("reach", reach);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,200 @@
+#include "experiment/task_director.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "servo/displayed.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+constexpr double kAtHome = 1e-6;     // a body is where it belongs [m], [rad]
+constexpr double kClearance = 2e-3;  // between fingers and a body that is put back [m]
+constexpr double kNever = -1;
+
+bool same_pose(const Pose& a, const Pose& b) noexcept {
+    return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
+}
+
+}  // namespace
+
+TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
+                           const std::vector<int>& done)
+    : plan_(plan), tick_(tick), queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed) {
+    for (const int outcome : done) {
+        if (!queue_.empty()) queue_.finish(plan.outcomes[static_cast<size_t>(outcome)].redo);
+    }
+    share_ = static_cast<double>(queue_.done()) / queue_.all();
+    size_t ways = 0;
+    for (const TaskPlan::Stage& stage : plan.stages) ways = std::max(ways, stage.ways.size());
+    since_.assign(ways, kNever);
+}
+
+void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                              servo::Commands& commands) noexcept {
+    const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
+    if (queue_.empty()) {  // of a session that was over when it was resumed
+        commands.stop = true;
+        return;
+    }
+    if (state_ < 0) {
+        if (clear(last)) {
+            for (const TaskPlan::Home& home : plan_.homes) {
+                const bool there =
+                    last.sequence < 0 ||
+                    (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
+                     last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
+                if (!there) add(commands.task.placements, {home.body, home.X_WB});
+            }
+            if (message_ == plan_.move_away) message_ = -1;
+            enter(0, now, commands);
+        } else {
+            message_ = plan_.move_away;
+        }
+    } else if (const TaskPlan::Way* way = way_out(last, handles, now)) {
+        if (way->feedback >= 0) message_ = way->feedback;
+        if (way->state >= 0) {
+            enter(way->state, now, commands);
+        } else {
+            finish(*way, commands);
+            return;
+        }
+    }
+    order(last, handles, commands);
+}
+
+/// Whether nothing is put back where a finger is: it would be pushed out of the body.
+bool TaskDirector::clear(const servo::Frame& last) const noexcept {
+    if (last.sequence < 0) return true;
+    for (const TaskPlan::Home& home : plan_.homes) {
+        if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) continue;
+        for (size_t i = 0; i < last.fingers.size(); ++i) {
+            const Vec3 p_BP = home.X_WB.inverse() * last.fingers[i].p_WP;
+            const double margin = plan_.finger_radius[i] + kClearance;
+            if ((p_BP.array().abs() < home.half_extents.array() + margin).all()) return false;
+        }
+    }
+    return true;
+}
+
+void TaskDirector::enter(int state, double now, servo::Commands& commands) noexcept {
+    state_ = state;
+    entered_ = now;
+    std::fill(since_.begin(), since_.end(), kNever);
+    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
+    if (stage.message >= 0) message_ = stage.message;
+    commands.task.marker = stage.marker;
+}
+
+const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
+                                           std::span<const haptics::Handle> handles,
+                                           double now) noexcept {
+    const char key = key_.exchange(0, std::memory_order_relaxed);
+    const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
+    for (size_t i = 0; i < ways.size(); ++i) {
+        const TaskPlan::Way& way = ways[i];
+        // half a tick: times are sums of ticks, which round
+        if (way.exit.when == When::time) {
+            if (now - entered_ >= way.exit.hold - tick_ / 2) return &way;
+            continue;
+        }
+        if (!holds(way, last, handles, key)) {
+            since_[i] = kNever;
+            continue;
+        }
+        if (since_[i] == kNever) since_[i] = now;
+        if (now - since_[i] >= way.exit.hold - tick_ / 2) return &way;
+    }
+    return nullptr;
+}
+
+bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
+                         std::span<const haptics::Handle> handles, char key) const noexcept {
+    const auto finger = static_cast<size_t>(std::max(0, way.finger));
+    switch (way.exit.when) {
+        case When::inside:
+        case When::outside: {
+            const TaskPlan::Cell& cell = plan_.cell(trial());
+            const auto region = static_cast<size_t>(way.region);
+            Vec3 p_W = handles[finger].p_WH;
+            const servo::VisualMap* map =
+                way.exit.shown ? servo::map_of(last, servo::kMovesProxies) : nullptr;
+            if (map != nullptr) p_W = map->displayed(p_W);
+            const bool inside = (p_W - cell.p_W[region]).norm() <= cell.radius[region];
+            return inside == (way.exit.when == When::inside);
+        }
+        case When::touched:
+            return pressed(last, way.body, way.finger, 1);
+        case When::released:
+            return !pressed(last, way.body, way.finger, 1);
+        case When::gripped:
+            return pressed(last, way.body, -1, 2);
+        case When::lifted:
+            for (const TaskPlan::Home& home : plan_.homes) {
+                if (home.body != way.body) continue;
+                const double z = last.bodies[static_cast<size_t>(way.body)].X_WB.p.z();
+                return z - home.X_WB.p.z() >= way.exit.height;
+            }
+            return false;
+        case When::still:
+            for (size_t i = 0; i < handles.size(); ++i) {
+                const bool counts = way.finger < 0 || i == finger;
+                if (counts && handles[i].v_WH.norm() >= way.exit.speed) return false;
+            }
+            return true;
+        case When::key:
+            return key == way.exit.key.front();
+        case When::button:
+            return (last.fingers[finger].buttons >> way.exit.button & 1u) != 0;
+        case When::time:
+            break;
+    }
+    return false;
+}
+
+/// Whether so many fingers, or the one, press the body.
+bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
+                           int fingers) const noexcept {
+    const auto scene_bodies = static_cast<int>(last.bodies.size());
+    uint32_t which = 0;
+    for (const servo::ContactFrame& contact : last.contacts) {
+        if (contact.normal_force <= 0 || (contact.a != body && contact.b != body)) continue;
+        const int other = (contact.a == body ? contact.b : contact.a) - scene_bodies;
+        if (other >= 0 && other < 32 && (finger < 0 || other == finger)) which |= 1u << other;
+    }
+    return std::popcount(which) >= fingers;
+}
+
+void TaskDirector::finish(const TaskPlan::Way& way, servo::Commands& commands) noexcept {
+    commands.trial = queue_.trial() + 1;
+    commands.phase = state_ + 1;
+    commands.task.attempt = queue_.attempt();
+    commands.task.outcome = way.outcome;
+    commands.task.message = message_;
+    queue_.finish(way.exit.redo);
+    state_ = -1;
+    share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
+    commands.stop = queue_.empty();
+}
+
+void TaskDirector::order(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                         servo::Commands& commands) const noexcept {
+    commands.trial = queue_.trial() + 1;
+    commands.phase = state_ + 1;
+    servo::TaskFrame& out = commands.task;
+    out.attempt = queue_.attempt();
+    out.message = message_;
+    if (state_ < 0) return;
+    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state_)];
+    const TaskPlan::Cell& cell = plan_.cell(trial());
+    for (size_t i = 0; i < cell.p_W.size(); ++i) {
+        if (stage.shown >> i & 1u)
+            add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.radius[i]});
+    }
+    if (stage.perturbed && trial().perturb >= 0) {
+        cell.perturbations[static_cast<size_t>(trial().perturb)].order(trial().share, cell.p_W,
+                                                                       last, handles, out);
+    }
+}
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,51 @@
+// Runs a session's trials inside the tick: which state it is, what it shows and perturbs, what ends
+// it, and which trial is next. It allocates, locks and throws nothing once it is made.
+#pragma once
+
+#include <atomic>
+
+#include "experiment/task_plan.h"
+#include "servo/servo.h"
+
+namespace dihaptic::experiment {
+
+class TaskDirector {
+  public:
+    /// `plan` outlives it. `done`: outcomes of the trials that an earlier part of the session
+    /// ended, in order.
+    TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
+                 const std::vector<int>& done = {});
+
+    void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                    servo::Commands& commands) noexcept;
+
+    /// A key of the operator's, from any thread.
+    void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    /// Share of the trials that are done, from any thread.
+    double share() const noexcept { return share_.load(std::memory_order_relaxed); }
+
+  private:
+    const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
+    bool clear(const servo::Frame& last) const noexcept;
+    void enter(int state, double now, servo::Commands& commands) noexcept;
+    bool holds(const TaskPlan::Way& way, const servo::Frame& last,
+               std::span<const haptics::Handle> handles, char key) const noexcept;
+    bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
+    const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                                 double now) noexcept;
+    void finish(const TaskPlan::Way& way, servo::Commands& commands) noexcept;
+    void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
+               servo::Commands& commands) const noexcept;
+
+    const TaskPlan& plan_;
+    double tick_;
+    TrialQueue queue_;
+    int state_ = -1;      // -1: between trials
+    double entered_ = 0;  // [s]
+    int message_ = -1;
+    std::vector<double> since_;  // by way: when its condition began to hold; -1: it does not [s]
+    std::atomic<char> key_{0};
+    std::atomic<double> share_{0};
+};
+
+}  // namespace dihaptic::experiment

@@ -1,0 +1,382 @@
+#include "experiment/task_plan.h"
+
+#include <cctype>
+#include <cmath>
+#include <set>
+
+#include "experiment/lookup.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+constexpr size_t kMostStates = 64;
+constexpr size_t kMostTrials = 100000;
+constexpr const char* kMoveAway = "Take the hands off the objects";
+
+/// Index of a text in a list, added when it is new; -1 for none.
+int listed(std::vector<std::string>& list, const std::string& text) {
+    if (text.empty()) return -1;
+    const auto found = std::find(list.begin(), list.end(), text);
+    if (found != list.end()) return static_cast<int>(found - list.begin());
+    list.push_back(text);
+    return static_cast<int>(list.size()) - 1;
+}
+
+/// The list with what `others` have in place of what has the same name.
+template <class T>
+std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
+    for (T& item : list) {
+        for (const T& other : others) {
+            if (other.name == item.name) item = other;
+        }
+    }
+    return list;
+}
+
+class Planner {
+  public:
+    Planner(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics)
+        : scene_(scene),
+          diagnostics_(diagnostics),
+          regions_(names_of(task.regions)),
+          bodies_(names_of(scene.bodies)),
+          fingers_(scene::finger_names(scene)) {
+        plan_.task = task;
+    }
+
+    TaskPlan plan() {
+        check_lists();
+        plan_.move_away = listed(plan_.messages, kMoveAway);
+        for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
+        check_ways();
+        make_cells();
+        for (const Block& block : plan_.task.blocks) check_block(block);
+        check_reach();
+        make_homes();
+        return std::move(plan_);
+    }
+
+  private:
+    void error(const Place& place, const std::string& key, const std::string& what,
+               const std::string& remedy) {
+        diagnostics_.error(place, key, what, remedy);
+    }
+
+    void check_lists() {
+        const Task& task = plan_.task;
+        check_names(task.regions, "regions", diagnostics_);
+        check_names(task.perturbations, "perturbations", diagnostics_);
+        check_names(task.states, "states", diagnostics_);
+        check_names(task.conditions, "conditions", diagnostics_);
+        check_names(task.rounds, "rounds", diagnostics_);
+        check_names(task.blocks, "blocks", diagnostics_);
+        if (task.regions.size() > servo::TaskFrame::kMostTargets) {
+            error(task.place, "regions",
+                  fmt::format("there are {}, where {} are the most", task.regions.size(),
+                              servo::TaskFrame::kMostTargets),
+                  "Let conditions move one region about.");
+        }
+        if (task.states.empty()) error(task.place, "states", "there are none", "Add one at least.");
+        if (task.states.size() > kMostStates)
+            error(task.place, "states", fmt::format("there are more than {}", kMostStates), "");
+        if (task.blocks.empty())
+            error(task.place, "blocks", "there are none", "Add one at least, with its trials.");
+        for (const auto* list : {&task.conditions, &task.rounds}) {
+            for (const Condition& condition : *list) check_condition(condition);
+        }
+    }
+
+    void check_condition(const Condition& condition) {
+        for (const Region& region : condition.regions)
+            look_up(regions_, region.name, region.place, "name", "no region of the task",
+                    diagnostics_);
+        for (const PerturbationSpec& spec : condition.perturbations)
+            look_up(names_of(plan_.task.perturbations), spec.name, spec.place, "name",
+                    "no perturbation of the task", diagnostics_);
+    }
+
+    int region(const std::string& name, const Place& place, const char* key) {
+        return look_up(regions_, name, place, key, "no region", diagnostics_);
+    }
+
+    TaskPlan::Stage stage(const State& state) {
+        TaskPlan::Stage out;
+        for (const std::string& name : state.show) {
+            if (const int i = region(name, state.place, "show"); i >= 0) out.shown |= 1u << i;
+        }
+        out.perturbed = state.perturbed;
+        out.message = listed(plan_.messages, state.message);
+        out.marker = state.marker;
+        for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
+        for (const HandStep& step : state.hand) {
+            const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
+            out.hand.push_back({step, reach});
+        }
+        if (state.exits.empty()) {
+            error(state.place, state.name, "never ends",
+                  "Add exits, e.g. - { when: time, hold_s: 5, outcome: too late, redo: yes }.");
+        }
+        return out;
+    }
+
+    TaskPlan::Way way(const Exit& exit) {
+        TaskPlan::Way out;
+        out.exit = exit;
+        const bool any_finger =
+            exit.when == When::touched || exit.when == When::released || exit.when == When::still;
+        if (!exit.finger.empty()) {
+            out.finger = look_up(fingers_, exit.finger, exit.place, "finger",
+                                 "none of the scene's fingers", diagnostics_);
+        } else if (!any_finger) {
+            out.finger = 0;
+        }
+        switch (exit.when) {
+            case When::inside:
+            case When::outside:
+                out.region = region(exit.region, exit.place, "region");
+                break;
+            case When::touched:
+            case When::released:
+            case When::gripped:
+            case When::lifted:
+                out.body = look_up(bodies_, exit.body, exit.place, "body", "no body", diagnostics_);
+                check_body(exit, out.body);
+                break;
+            case When::key:
+                if (exit.key.size() != 1 ||
+                    std::isalnum(static_cast<unsigned char>(exit.key[0])) == 0)
+                    error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
+                          "Write one letter or digit, e.g. key: y.");
+                break;
+            case When::time:
+                if (exit.hold <= 0)
+                    error(exit.place, "hold", "how long is missing", "Add e.g. hold_s: 2.");
+                break;
+            case When::still:
+            case When::button:
+                break;
+        }
+        if (exit.to.empty() == exit.outcome.empty()) {
+            error(exit.place, "to",
+                  exit.to.empty() ? "leads nowhere" : "leads to a state and out of the trial",
+                  "Give it either to: a state, or outcome: what became of the trial.");
+        }
+        if (!exit.to.empty()) {
+            out.state = look_up(names_of(plan_.task.states), exit.to, exit.place, "to", "no state",
+                                diagnostics_);
+        }
+        if (!exit.outcome.empty()) out.outcome = outcome(exit);
+        out.feedback = listed(plan_.messages, exit.feedback);
+        return out;
+    }
+
+    void check_body(const Exit& exit, int body) {
+        if (body < 0) return;
+        if (exit.when == When::lifted && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
+            error(exit.place, "body", fmt::format("'{}' cannot move", exit.body),
+                  "Name a body that can.");
+        if (exit.when == When::gripped && fingers_.size() < 2)
+            error(exit.place, "when", "a grip takes two fingers, and the scene has one",
+                  "Use when: touched.");
+    }
+
+    int outcome(const Exit& exit) {
+        for (size_t i = 0; i < plan_.outcomes.size(); ++i) {
+            if (plan_.outcomes[i].name != exit.outcome) continue;
+            if (plan_.outcomes[i].redo != exit.redo) {
+                error(exit.place, "redo",
+                      fmt::format("'{}' is done again after one exit, and not after another",
+                                  exit.outcome),
+                      "Give the two outcomes different names.");
+            }
+            return static_cast<int>(i);
+        }
+        plan_.outcomes.push_back({exit.outcome, exit.redo});
+        return static_cast<int>(plan_.outcomes.size()) - 1;
+    }
+
+    /// Every state must be on a way from the first one, and on a way out.
+    void check_ways() {
+        const size_t n = plan_.stages.size();
+        std::vector<char> reached(n, 0);
+        std::vector<char> leaves(n, 0);
+        if (n > 0) reached[0] = 1;
+        for (size_t round = 0; round < n; ++round) {
+            for (size_t i = 0; i < n; ++i) {
+                for (const TaskPlan::Way& way : plan_.stages[i].ways) {
+                    if (way.outcome >= 0) leaves[i] = 1;
+                    if (way.state < 0) continue;
+                    const auto to = static_cast<size_t>(way.state);
+                    if (reached[i]) reached[to] = 1;
+                    if (leaves[to]) leaves[i] = 1;
+                }
+            }
+        }
+        for (size_t i = 0; i < n; ++i) {
+            const State& state = plan_.task.states[i];
+            if (!reached[i]) {
+                diagnostics_.warning(state.place, state.name, "no exit leads to this state",
+                                     "Remove it, or lead an exit to it.");
+            } else if (!leaves[i] && !state.exits.empty()) {
+                error(state.place, state.name, "no way leads from here to an outcome",
+                      "Give one of its exits an outcome.");
+            }
+        }
+    }
+
+    void make_cells() {
+        const Condition nothing;
+        const auto or_one = [&](const std::vector<Condition>& list) {
+            return list.empty() ? std::vector<Condition>{nothing} : list;
+        };
+        std::set<std::string> said;  // the same is wrong in every cell
+        for (const Condition& round : or_one(plan_.task.rounds)) {
+            for (const Condition& condition : or_one(plan_.task.conditions)) {
+                TaskPlan::Cell& cell = plan_.cells.emplace_back();
+                const auto regions =
+                    replaced(replaced(plan_.task.regions, round.regions), condition.regions);
+                for (const Region& region : regions) {
+                    cell.p_W.push_back(region.position);
+                    cell.radius.push_back(region.radius);
+                }
+                Diagnostics found;
+                for (const PerturbationSpec& spec :
+                     replaced(replaced(plan_.task.perturbations, round.perturbations),
+                              condition.perturbations)) {
+                    cell.perturbations.emplace_back(spec, regions, scene_, found);
+                }
+                for (const Problem& problem : found.problems()) {
+                    if (said.insert(problem.text()).second) diagnostics_.add({problem});
+                }
+            }
+        }
+    }
+
+    void check_block(const Block& block) {
+        const std::vector<std::string> perturbations = names_of(plan_.task.perturbations);
+        for (const std::string& name : block.conditions)
+            look_up(names_of(plan_.task.conditions), name, block.place, "conditions",
+                    "no condition", diagnostics_);
+        const auto perturbation = [&](const std::string& name, const Place& place) {
+            if (!name.empty())
+                look_up(perturbations, name, place, "perturb", "no perturbation", diagnostics_);
+        };
+        perturbation(block.perturb, block.place);
+        if (block.kind == TrialKind::perturbed && block.perturb.empty())
+            error(block.place, "perturb", "is missing in a perturbed block",
+                  "Name a perturbation, or make it a baseline block.");
+        if (block.ramp > 0 && block.perturb.empty())
+            error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
+        const size_t conditions = block.conditions.empty()
+                                      ? std::max<size_t>(1, plan_.task.conditions.size())
+                                      : block.conditions.size();
+        if (block.order == Order::counterbalanced && conditions > 8)
+            error(block.place, "order", "more than 8 conditions have too many orders",
+                  "Use latin_square.");
+        const size_t trials = conditions * static_cast<size_t>(block.repeats);
+        for (const Insert& insert : block.insert) {
+            perturbation(insert.perturb, insert.place);
+            if (static_cast<size_t>(insert.count) > trials)
+                error(insert.place, "count",
+                      fmt::format("is {}, more than the block's {} trials", insert.count, trials),
+                      "Insert fewer, or raise the block's repeats.");
+        }
+        trials_ += trials * std::max<size_t>(1, plan_.task.rounds.size());
+        if (trials_ > kMostTrials)
+            error(block.place, "repeats",
+                  fmt::format("makes more than {} trials in all", kMostTrials), "Lower it.");
+    }
+
+    void check_reach() {
+        if (!plan_.task.reach) return;
+        const ReachMeasure& reach = *plan_.task.reach;
+        region(reach.from, reach.place, "from");
+        region(reach.to, reach.place, "to");
+        look_up(names_of(plan_.task.states), reach.during, reach.place, "during", "no state",
+                diagnostics_);
+        if (!reach.finger.empty())
+            look_up(fingers_, reach.finger, reach.place, "finger", "none of the scene's fingers",
+                    diagnostics_);
+        if (reach.axis && reach.axis->norm() <= 0)
+            error(reach.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
+    }
+
+    void make_homes() {
+        for (size_t i = 0; i < scene_.bodies.size(); ++i) {
+            const scene::Body& body = scene_.bodies[i];
+            if (!body.moves_at_all()) continue;
+            const bool box = body.shape.kind == scene::ShapeKind::box;
+            const Vec3 half =
+                box ? Vec3(body.shape.size / 2) : Vec3::Constant(scene::extent(body.shape));
+            plan_.homes.push_back({static_cast<int>(i), body.pose(), half});
+        }
+        for (const scene::Finger& finger : scene_.fingers)
+            plan_.finger_radius.push_back(scene::extent(finger.shape) * std::sqrt(3.0) / 2);
+    }
+
+    const scene::Scene& scene_;
+    Diagnostics& diagnostics_;
+    std::vector<std::string> regions_;
+    std::vector<std::string> bodies_;
+    std::vector<std::string> fingers_;
+    size_t trials_ = 0;
+    TaskPlan plan_;
+};
+
+}  // namespace
+
+std::vector<std::string> TaskPlan::phases() const {
+    std::vector<std::string> out{"between trials"};
+    for (const State& state : task.states) out.push_back(state.name);
+    return out;
+}
+
+TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics) {
+    return Planner(task, scene, diagnostics).plan();
+}
+
+Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
+    Table table = trial_list(plan.task, plan.trials);
+    if (!plan.task.reach) return table;
+    const ReachMeasure& reach = *plan.task.reach;
+    const std::vector<std::string> regions = names_of(plan.task.regions);
+    const auto index = [&](const std::string& name) {
+        return static_cast<size_t>(std::find(regions.begin(), regions.end(), name) -
+                                   regions.begin());
+    };
+    table.columns.insert(table.columns.end(), {{"reach_finger", "whose reach is measured"},
+                                               {"reach_at_mm", "from its beginning"},
+                                               {"reach_from_x_mm", ""},
+                                               {"reach_from_y_mm", ""},
+                                               {"reach_from_z_mm", ""},
+                                               {"reach_to_x_mm", ""},
+                                               {"reach_to_y_mm", ""},
+                                               {"reach_to_z_mm", ""},
+                                               {"reach_axis_x", "that angles are about"},
+                                               {"reach_axis_y", ""},
+                                               {"reach_axis_z", ""},
+                                               {"reach_phase", "in which it is measured"}});
+    const std::vector<std::string> phases = plan.phases();
+    const auto during = std::find(phases.begin(), phases.end(), reach.during) - phases.begin();
+    for (size_t i = 0; i < plan.trials.size(); ++i) {
+        const Trial& trial = plan.trials[i];
+        const TaskPlan::Cell& cell = plan.cell(trial);
+        // trials without the block's perturbation are measured as those with it: about the axis of
+        // the round's first perturbation that has one
+        Vec3 axis = Vec3::UnitZ();
+        for (auto p = cell.perturbations.rbegin(); p != cell.perturbations.rend(); ++p)
+            axis = p->axis().value_or(axis);
+        if (reach.axis) axis = reach.axis->normalized();
+        auto& row = table.rows[i];
+        row.emplace_back(reach.finger.empty() ? scene.fingers.front().name : reach.finger);
+        row.emplace_back(reach.distance * 1e3);
+        for (const Vec3& p : {cell.p_W[index(reach.from)], cell.p_W[index(reach.to)]}) {
+            for (int k = 0; k < 3; ++k) row.emplace_back(p[k] * 1e3);
+        }
+        for (int k = 0; k < 3; ++k) row.emplace_back(axis[k]);
+        row.emplace_back(static_cast<double>(during));
+    }
+    return table;
+}
+
+}  // namespace dihaptic::experiment

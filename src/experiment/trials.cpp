@@ -1,0 +1,247 @@
+#include "experiment/trials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "experiment/lookup.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+/// Fisher and Yates.
+void shuffle(std::vector<int>& list, Random& random) {
+    for (size_t i = list.size(); i > 1; --i) {
+        const auto j = static_cast<size_t>(random.uniform(0, static_cast<double>(i)));
+        std::swap(list[i - 1], list[std::min(j, i - 1)]);
+    }
+}
+
+/// 0, n-1, 1, n-2, ... plus the row; rows from n on, for odd n, are mirrored.
+std::vector<int> williams_row(int n, int row) {
+    std::vector<int> out;
+    const bool mirrored = n % 2 == 1 && row % (2 * n) >= n;
+    for (int i = 0; i < n; ++i) {
+        const int zigzag = i % 2 == 0 ? i / 2 : n - 1 - i / 2;
+        out.push_back((zigzag + row) % n);
+    }
+    if (mirrored) std::reverse(out.begin(), out.end());
+    return out;
+}
+
+std::vector<int> permutation(int n, int64_t number) {
+    std::vector<int> left(static_cast<size_t>(n));
+    std::iota(left.begin(), left.end(), 0);
+    std::vector<int64_t> factorial(left.size() + 1, 1);
+    for (size_t i = 1; i < factorial.size(); ++i)
+        factorial[i] = factorial[i - 1] * static_cast<int64_t>(i);
+    number %= factorial.back();
+    std::vector<int> out;
+    for (size_t i = left.size(); i > 0; --i) {
+        const auto pick = static_cast<std::ptrdiff_t>(number / factorial[i - 1]);
+        number %= factorial[i - 1];
+        out.push_back(left[static_cast<size_t>(pick)]);
+        left.erase(left.begin() + pick);
+    }
+    return out;
+}
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// The block's trials, one after the other.
+std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
+                             Random& random) {
+    const std::vector<std::string> perturbations = names_of(task.perturbations);
+    std::vector<int> conditions;
+    for (const std::string& name : block.conditions)
+        conditions.push_back(index_of(names_of(task.conditions), name));
+    if (conditions.empty()) {
+        conditions.resize(std::max<size_t>(1, task.conditions.size()));
+        std::iota(conditions.begin(), conditions.end(), 0);
+    }
+    std::vector<Trial> out;
+    Trial trial;
+    trial.round = round;
+    trial.kind = block.kind;
+    trial.perturb = index_of(perturbations, block.perturb);
+    const int n = static_cast<int>(conditions.size());
+    for (int repeat = 0; repeat < block.repeats; ++repeat) {
+        // a Latin square goes on from repeat to repeat
+        const int row = block.order == Order::latin_square ? number + repeat : number;
+        for (const int i : ordered(n, block.order, row, random)) {
+            trial.condition = conditions[static_cast<size_t>(i)];
+            out.push_back(trial);
+        }
+    }
+    for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
+        out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
+    for (const Insert& insert : block.insert) {
+        const auto places = ordered(static_cast<int>(out.size()), Order::shuffled, 0, random);
+        std::vector<int> which;  // each after another trial, so that none is first
+        for (int k = 0; k < insert.count; ++k)
+            which.push_back(places[static_cast<size_t>(k) % places.size()]);
+        std::sort(which.rbegin(), which.rend());
+        for (const int i : which) {
+            Trial extra = out[static_cast<size_t>(i)];
+            extra.kind = insert.kind;
+            extra.perturb = index_of(perturbations, insert.perturb);
+            out.insert(out.begin() + i + 1, extra);
+        }
+    }
+    for (size_t i = 0; i < out.size(); ++i) out[i].in_block = static_cast<int>(i) + 1;
+    return out;
+}
+
+std::string name_at(const std::vector<std::string>& names, int i) {
+    return i >= 0 && i < static_cast<int>(names.size()) ? names[static_cast<size_t>(i)] : "";
+}
+
+}  // namespace
+
+std::vector<int> ordered(int n, Order order, int number, Random& random) {
+    switch (order) {
+        case Order::latin_square:
+            return williams_row(n, std::max(0, number));
+        case Order::counterbalanced:
+            return permutation(n, std::max(0, number));
+        case Order::sequential:
+        case Order::shuffled:
+            break;
+    }
+    std::vector<int> out(static_cast<size_t>(n));
+    std::iota(out.begin(), out.end(), 0);
+    if (order == Order::shuffled) shuffle(out, random);
+    return out;
+}
+
+int participant_number(const std::string& id) {
+    size_t digits = 0;
+    while (digits < id.size() && digits < 8 &&
+           std::isdigit(static_cast<unsigned char>(id[id.size() - 1 - digits])) != 0)
+        ++digits;
+    return digits == 0 ? -1 : std::atoi(id.substr(id.size() - digits).c_str());
+}
+
+bool needs_number(const Task& task) {
+    const auto by_number = [](Order order) {
+        return order == Order::latin_square || order == Order::counterbalanced;
+    };
+    return (by_number(task.round_order) && task.rounds.size() > 1) ||
+           std::any_of(task.blocks.begin(), task.blocks.end(),
+                       [&](const Block& block) { return by_number(block.order); });
+}
+
+std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
+    // whoever is first gets the first row: participants are counted from 1
+    const int row = std::max(0, number - 1);
+    Random rounds_random(seed, "rounds");
+    const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
+    std::vector<Trial> out;
+    int block_number = 0;
+    for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
+        for (size_t b = 0; b < task.blocks.size(); ++b) {
+            // a stream of its own: to change one block leaves the others as they were
+            Random random(seed, fmt::format("trials of block {} in round {}", b, round));
+            ++block_number;
+            for (Trial trial : trials_of(task, task.blocks[b], round, row, random)) {
+                trial.block = static_cast<int>(b);
+                trial.number = block_number;
+                out.push_back(trial);
+            }
+        }
+    }
+    return out;
+}
+
+Table trial_list(const Task& task, const std::vector<Trial>& trials) {
+    Table table;
+    table.columns = {{"trial_num", "number in the session, from 1"},
+                     {"block_num", "number, from 1"},
+                     {"block", "name"},
+                     {"trial_num_in_block", "number, from 1"},
+                     {"kind", "practice, baseline, perturbed, catch, error_clamp or washout"},
+                     {"round", "name"},
+                     {"condition", "name"},
+                     {"perturbation", "name; empty: none"},
+                     {"share", "of the perturbation that acts"}};
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const Trial& t = trials[i];
+        table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
+                              task.blocks[static_cast<size_t>(t.block)].name,
+                              static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
+                              name_at(names_of(task.rounds), t.round),
+                              name_at(names_of(task.conditions), t.condition),
+                              name_at(names_of(task.perturbations), t.perturb), t.share});
+    }
+    return table;
+}
+
+std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
+    const auto rows = read_csv(file);
+    std::vector<Trial> out;
+    for (size_t i = 1; i < rows.size(); ++i) {
+        const auto& row = rows[i];
+        const auto bad = [&](const char* column) {
+            return Error({file, static_cast<int>(i) + 1}, column, "is none of this task's",
+                         "Put back the list that the session was recorded with.");
+        };
+        if (row.size() < 9) throw bad("trial_num");
+        Trial t;
+        t.number = std::atoi(row[1].c_str());
+        t.block = index_of(names_of(task.blocks), row[2]);
+        t.in_block = std::atoi(row[3].c_str());
+        const auto kinds = enum_names(TrialKind{});
+        const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
+        t.round = task.rounds.empty() ? 0 : index_of(names_of(task.rounds), row[5]);
+        t.condition = task.conditions.empty() ? 0 : index_of(names_of(task.conditions), row[6]);
+        t.perturb = index_of(names_of(task.perturbations), row[7]);
+        t.share = std::strtod(row[8].c_str(), nullptr);
+        if (t.block < 0) throw bad("block");
+        if (kind == kinds.end()) throw bad("kind");
+        if (t.round < 0) throw bad("round");
+        if (t.condition < 0) throw bad("condition");
+        if (t.perturb < 0 && !row[7].empty()) throw bad("perturbation");
+        t.kind = static_cast<TrialKind>(kind - kinds.begin());
+        out.push_back(t);
+    }
+    return out;
+}
+
+TrialQueue::TrialQueue(const std::vector<Trial>& trials, Redo redo, int most_attempts,
+                       uint64_t seed)
+    : trials_(&trials),
+      redo_(redo),
+      most_attempts_(most_attempts),
+      random_(seed, "trials to be done again"),
+      attempts_(trials.size(), 1) {
+    queue_.reserve(trials.size() * static_cast<size_t>(most_attempts));
+    queue_.resize(trials.size());
+    std::iota(queue_.begin(), queue_.end(), 0);
+}
+
+void TrialQueue::finish(bool redo) noexcept {
+    const int now = trial();
+    ++at_;
+    int& attempt = attempts_[static_cast<size_t>(now)];
+    if (!redo || redo_ == Redo::never || attempt >= most_attempts_) return;
+    ++attempt;
+    const int block = (*trials_)[static_cast<size_t>(now)].number;
+    size_t end = at_;
+    while (end < queue_.size() && (*trials_)[static_cast<size_t>(queue_[end])].number == block)
+        ++end;
+    size_t place = redo_ == Redo::next ? at_ : end;
+    if (redo_ == Redo::random) {
+        const double last = static_cast<double>(end - at_ + 1);
+        place = at_ + std::min(end - at_, static_cast<size_t>(random_.uniform(0, last)));
+    }
+    queue_.insert(queue_.begin() + static_cast<std::ptrdiff_t>(place), now);
+}
+
+}  // namespace dihaptic::experiment
