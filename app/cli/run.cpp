@@ -57,6 +57,13 @@ class Console {
     std::optional<EscapeKey> escape_;
 };
 
+/// Whether a person does it: a file without a task moves the hand itself.
+bool has_task(const std::string& file) {
+    if (experiment::kind_of(file) != experiment::FileKind::experiment) return false;
+    Diagnostics ignored;  // said when the plan is made
+    return experiment::read_experiment(file, ignored).task.has_value();
+}
+
 /// What is not known of the person yet, asked for on a terminal; in words, never refused there.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
@@ -244,9 +251,8 @@ void run(Options& options) {
         options.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
     options.run.command = command_line();
     options.request.simulate = options.simulate;
-    const bool trials =
-        experiment::kind_of(options.request.file) == experiment::FileKind::experiment;
-    if (trials && !options.simulate && options.run.clock == experiment::Clock::real)
+    if (!options.simulate && options.run.clock == experiment::Clock::real &&
+        has_task(options.request.file))
         ask(options.run.participant);
     options.request.participant = options.run.participant.id;
     if (fs::is_directory(options.request.movement)) {
