@@ -45,6 +45,8 @@ struct World::Impl {
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
         Vec3 torque = Vec3::Zero();
+        btVector3 v_before{0, 0, 0};  // contacts acted
+        btVector3 w_before{0, 0, 0};
     };
 
     scene::Scene scene;
@@ -77,9 +79,10 @@ struct World::Impl {
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
     void integrate_loads(double h, const Vec3& gravity);
-    void prepare_contacts();
+    void prepare_contacts(std::span<btPersistentManifold* const> manifolds);
     void group_contacts();
     contact::SolveStats solve(double h);
+    contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
     contact::SolveStats solve_batch(double h);
     /// Bullet's sweeps apply a body's linear factor twice: while they run it has to be its root.
     void square_root_factors(bool rooted);

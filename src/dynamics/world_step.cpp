@@ -8,6 +8,10 @@ namespace {
 /// Groups without a finger are solved together up to so many pairs: fewer calls, and few that wait
 /// for another group's iterations.
 constexpr size_t kBatch = 32;
+/// The step is solved again at most so often, with contacts that it turned out to lack.
+constexpr int kMostPasses = 4;
+/// A body that contacts move on by more may meet what it could not otherwise [m].
+constexpr double kKnocked = 1e-3;
 
 }  // namespace
 
@@ -17,10 +21,10 @@ StepStatus World::step(double h) noexcept {
     w.integrate_loads(h, gravity_);
     w.collision->find_contacts(h);
     w.collect_awake(states_);  // some may have woken
-    w.prepare_contacts();
+    w.prepare_contacts(w.collision->manifolds());
+    for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
     w.point_contacts.take(w.collision->manifolds());
-    w.group_contacts();
-    stats_ = w.solve(h);
+    stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
 
     StepStatus status = w.collision->overflowed() ? StepStatus::contacts_full : StepStatus::ok;
@@ -63,6 +67,8 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     sleep->stir(i);
     if (!is_awake(i)) collision->sleepers_changed();
     items[i].body->setUserIndex2(kAwake);
+    items[i].v_before = items[i].body->getLinearVelocity();
+    items[i].w_before = items[i].body->getAngularVelocity();
 }
 
 void World::Impl::collect_awake(std::vector<BodyState>& states) {
@@ -99,8 +105,40 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
     }
 }
 
-void World::Impl::prepare_contacts() {
-    for (btPersistentManifold* manifold : collision->manifolds()) {
+contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodyState>& states) {
+    for (const size_t i : awake) {
+        items[i].v_before = items[i].body->getLinearVelocity();
+        items[i].w_before = items[i].body->getAngularVelocity();
+    }
+    group_contacts();
+    contact::SolveStats stats = solve(h);
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+        for (const size_t i : awake) {
+            if (items[i].is_point) continue;
+            btRigidBody& body = *items[i].body;
+            body.setInterpolationLinearVelocity(body.getLinearVelocity());
+            body.setInterpolationAngularVelocity(body.getAngularVelocity());
+            const btVector3 change = body.getLinearVelocity() - items[i].v_before;
+            if (h * change.length() <= kKnocked) continue;
+            for (const auto& part : items[i].parts) collision->update_bounds(*part, h);
+        }
+        if (!collision->find_entered(h, settings.penetration_recovery)) break;
+        collect_awake(states);
+        prepare_contacts(collision->entered());
+        for (const size_t i : awake) {
+            items[i].body->setLinearVelocity(items[i].v_before);
+            items[i].body->setAngularVelocity(items[i].w_before);
+        }
+        group_contacts();
+        const int iterations = stats.iterations;
+        stats = solve(h);
+        stats.iterations += iterations;
+    }
+    return stats;
+}
+
+void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifolds) {
+    for (btPersistentManifold* manifold : manifolds) {
         const auto a = static_cast<size_t>(manifold->getBody0()->getUserIndex());
         const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
@@ -110,7 +148,6 @@ void World::Impl::prepare_contacts() {
             torsion_radius(manifold->getContactPoint(i)) =
                 torsion ? std::max(items[a].torsion_radius, items[b].torsion_radius) : 0;
         }
-        even_out(*manifold);
     }
 }
 

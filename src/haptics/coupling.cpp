@@ -25,12 +25,11 @@ Vec3 felt(const dynamics::BodyState& proxy, double k, double c, const ProxyTouch
     return same(handle, of_step) ? spring : in_cone(spring, touch);
 }
 
-/// Energy of that spring.
+/// Energy of that spring; in free space, where the hand does not feel it, too.
 double stored_in(const dynamics::BodyState& proxy, double k, const ProxyTouch& touch,
                  const Handle& handle, const Handle& of_step) noexcept {
-    if (!touch.touching) return 0;
     Vec3 stretch = proxy.X_WB.p - handle.p_WH;
-    if (!same(handle, of_step)) stretch = in_cone(stretch, touch);
+    if (touch.touching && !same(handle, of_step)) stretch = in_cone(stretch, touch);
     return k / 2 * stretch.squaredNorm();
 }
 

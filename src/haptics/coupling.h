@@ -50,8 +50,8 @@ class ImplicitCoupling {
     /// spring then stays within the friction cone of the step's contact.
     Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                const Handle& handle) const noexcept;
-    /// Energy of the spring as far as it acts: in free space, and beyond the cone between steps, it
-    /// does not [J].
+    /// Energy of the spring; in touch, as far as it acts: beyond the cone between steps it does not
+    /// [J].
     double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
                   const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }

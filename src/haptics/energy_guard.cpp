@@ -18,21 +18,29 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
                           double stored, bool stepped, double h, unsigned& flags) noexcept {
     const bool finite = asked_W.force.allFinite() && asked_W.torque.allFinite();
     if (mode_ == EnergyGuardMode::off || !finite) return {};
-    if (asked_W.is_zero()) stored = 0;
+    const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
+                           work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
+    const bool slack = asked_W.is_zero();
+    // what does not act gets nothing, and keeps what it did not give, as far as it stays stretched
+    if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
-        generated_ = std::max(0.0, generated_ + since_step_);
-        since_step_ = 0;
+        for (size_t i = 0; i < generated_.size(); ++i)
+            generated_[i] = std::max(0.0, generated_[i] + since_step_[i]);
+        since_step_ = {};
     }
     if (started_) {
         const bool was_slack = asked_.is_zero();
-        double change = stored - stored_ +
-                        (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
-                        work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
-        // a proxy that comes to touch was moved by nobody's work until then
-        if (!was_slack)
-            change -= asked_W.force.dot(X_WP.p - X_WP_.p) + work(asked_W.torque, X_WP_.R, X_WP.R);
-        since_step_ += change;
-        generated_ *= std::exp(-h / kEnergyWindow);
+        const auto by_proxy = [&](const Wrench& w) {
+            return w.force.dot(X_WP.p - X_WP_.p) + work(w.torque, X_WP_.R, X_WP.R);
+        };
+        double at_end = by_proxy(asked_W);
+        // a proxy that comes to touch was moved by nobody's work until then, unless it was hit
+        if (was_slack) at_end = std::max(0.0, at_end);
+        const double held = was_slack || slack ? at_end : by_proxy(asked_);
+        const double rest = stored - stored_ + to_hand;
+        since_step_[0] += rest - at_end;
+        since_step_[1] += rest - held;
+        for (double& generated : generated_) generated *= std::exp(-h / kEnergyWindow);
     }
     started_ = true;
     X_WH_ = {handle.R_WH, handle.p_WH};
@@ -40,7 +48,7 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
-    const double excess = generated_ - kEnergyBudget;
+    const double excess = generated() - kEnergyBudget;
     if (excess <= 0) return damper_;
     flags |= kEnergyGenerated;
     if (mode_ != EnergyGuardMode::act) return damper_;

@@ -3,6 +3,9 @@
 // spring as what may be returned. README.md derives it.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "haptics/coupling.h"
 
 namespace dihaptic::haptics {
@@ -28,25 +31,26 @@ class EnergyGuard {
     explicit EnergyGuard(EnergyGuardMode mode) : mode_(mode) {}
 
     /// Once a tick of h [s]: the handle, the proxy after the tick's step, what the coupling wants
-    /// to do to the handle from now on, and the energy that its springs have then [J]. `stepped`:
-    /// the world did, in this tick: what comes between two steps is judged as a whole. Returns what
-    /// to add.
+    /// to do to the handle from now on, and the energy that its springs have then, though they may
+    /// not act [J]. `stepped`: the world did, in this tick: what comes between two steps is judged
+    /// as a whole. Returns what to add.
     Wrench watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W, double stored,
                  bool stepped, double h, unsigned& flags) noexcept;
 
     /// Generated within the window, and not dissipated since [J].
-    double generated() const { return generated_; }
+    double generated() const { return *std::min_element(generated_.begin(), generated_.end()); }
 
   private:
     EnergyGuardMode mode_;
     bool started_ = false;
-    Pose X_WH_;              // at the last tick
-    Pose X_WP_;              // the same
-    Wrench asked_;           // what the coupling has wanted since then
-    Wrench damper_;          // what was added to it
-    double stored_ = 0;      // in the spring
-    double since_step_ = 0;  // generated [J]
-    double generated_ = 0;
+    Pose X_WH_;          // at the last tick
+    Pose X_WP_;          // the same
+    Wrench asked_;       // what the coupling has wanted since then
+    Wrench damper_;      // what was added to it
+    double stored_ = 0;  // in the spring
+    // generated [J]: the proxy's work by the force at the end of the tick, and by the one held
+    std::array<double, 2> since_step_{};
+    std::array<double, 2> generated_{};
 };
 
 }  // namespace dihaptic::haptics

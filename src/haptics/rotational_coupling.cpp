@@ -21,12 +21,12 @@ void RotationalCoupling::before_step(World& world, BodyIndex proxy, const Handle
 Vec3 RotationalCoupling::torque(const World& world, BodyIndex proxy, bool touching,
                                 const Handle& handle, double share) noexcept {
     const bool of_step = same(handle, handle_);
-    stored_ = 0;
     if (of_step) along_.setZero();
-    // as with forces: in free space the spring only turns the proxy's own gram
-    if (!touching) return Vec3::Zero();
     const dynamics::BodyState& state = world.state(proxy);
     Vec3 stretch = rotation_vector(state.X_WB.R * wanted(handle).conjugate());
+    stored_ = share * settings_.turn_stiffness / 2 * stretch.squaredNorm();
+    // as with forces: in free space the spring only turns the proxy's own gram
+    if (!touching) return Vec3::Zero();
     Vec3 torque = settings_.turn_stiffness * stretch + damping_ * (state.w_WB - handle.w_WH);
     if (of_step) {
         const double size = torque.norm();

@@ -24,7 +24,7 @@ class RotationalCoupling {
     /// torque then stays along that of the step, and never changes its sign.
     Vec3 torque(const World& world, BodyIndex proxy, bool touching, const Handle& handle,
                 double share) noexcept;
-    /// Energy of the spring as far as it acted in the last torque() [J].
+    /// Energy of the spring; in touch, as far as it acted in the last torque() [J].
     double stored() const noexcept { return stored_; }
 
   private:

@@ -84,7 +84,6 @@ Vec3 SolvedPoint::force(World& world, const Handle& handle, double h) noexcept {
 }
 
 double SolvedPoint::stored(const Handle& handle) const noexcept {
-    if (acts_ == Acts::none) return 0;
     Vec3 stretch = point_.position() - handle.p_WH;
     if (acts_ == Acts::in_cones) stretch = in_cones(stretch);
     return onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();

@@ -26,7 +26,7 @@ class SolvedPoint {
     /// body gets the reaction in the next step.
     Vec3 force(World& world, const Handle& handle, double h) noexcept;
 
-    /// Energy of the spring as far as it acted in the last force() [J].
+    /// Energy of the spring; in touch, as far as it acted in the last force() [J].
     double stored(const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }

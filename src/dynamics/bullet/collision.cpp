@@ -4,6 +4,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::dynamics {
 namespace {
@@ -16,6 +17,12 @@ constexpr double kApproach = 3e-3;  // [m]
 /// could close more in the step.
 constexpr double kRoundMargin = 2e-3;      // [m]
 constexpr double kMostRoundMargin = 5e-2;  // [m]
+
+/// What bodies enter is looked for at least so often along their way [m].
+constexpr double kStride = 2e-3;
+constexpr int kMostStrides = 64;
+/// Room for so many pairs that enter each other in a step.
+constexpr size_t kMostEntered = 64;
 
 /// Largest speed of a point of a body's part by its turning; the body's centre lies anywhere [m/s].
 double turning(const btCollisionObject& body, const btCollisionShape& shape,
@@ -33,13 +40,53 @@ double turning(const btCollisionObjectWrapper& part) {
     return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
+/// Where a body is that goes on for t as it goes now.
+void move_on(btRigidBody& body, const btTransform& from, double t) {
+    btTransform to;
+    btTransformUtil::integrateTransform(from, body.getLinearVelocity(), body.getAngularVelocity(),
+                                        t, to);
+    body.setWorldTransform(to);
+}
+
+/// Makes a contact that was found at t into one of the step's beginning, when body 0 was at from_0
+/// and body 1 at from_1, that says the same of where the bodies get to: its gap is such that by the
+/// velocities as they are it is what it was found to be at t. True when that is below -kEntered,
+/// and when these velocities do not leave the share of a penetration that the step removes.
+bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
+               const btTransform& from_0, const btTransform& from_1, double t, double h,
+               double recovery) {
+    const btRigidBody& body_0 = *btRigidBody::upcast(manifold.getBody0());
+    const btRigidBody& body_1 = *btRigidBody::upcast(manifold.getBody1());
+    const btVector3 at = 0.5 * (point.m_positionWorldOnA + point.m_positionWorldOnB);
+    // the chord of the arc that a point makes about a body's centre is at a right angle to the mean
+    // of its arms
+    const auto mean_arm = [&](const btRigidBody& body, const btTransform& from) {
+        const btTransform& to = body.getWorldTransform();
+        const btVector3 arm = at - to.getOrigin();
+        return 0.5 * (arm + from.getBasis() * (to.getBasis().transpose() * arm));
+    };
+    const btVector3 where = 0.5 * (from_0.getOrigin() + mean_arm(body_0, from_0) +
+                                   from_1.getOrigin() + mean_arm(body_1, from_1));
+    const auto velocity = [&](const btRigidBody& body, const btTransform& from) {
+        return body.getLinearVelocity() + body.getAngularVelocity().cross(where - from.getOrigin());
+    };
+    const btScalar apart =
+        point.m_normalWorldOnB.dot(velocity(body_0, from_0) - velocity(body_1, from_1));
+    const bool entered = point.m_distance1 < -kEntered;
+    point.m_distance1 -= t * apart;
+    point.m_positionWorldOnA = where;
+    point.m_positionWorldOnB = where;
+    const double share = point.m_distance1 < 0 ? recovery : 1;
+    return entered && share * point.m_distance1 + h * apart < -kEntered;
+}
+
 enum Group { kMovable = 1, kImmovable = 2 };
 
 btDefaultCollisionConstructionInfo pools(int max_pairs) {
     btDefaultCollisionConstructionInfo info;
     info.m_customCollisionAlgorithmMaxElementSize = 256;
     info.m_defaultMaxPersistentManifoldPoolSize = max_pairs;
-    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs;
+    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // one that looks ahead
     return info;
 }
 
@@ -63,12 +110,19 @@ Collision::Collision(int max_parts, int max_pairs)
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
-    manifolds_.reserve(static_cast<size_t>(max_pairs));
+    manifolds_.reserve(static_cast<size_t>(max_pairs) + kMostEntered);
     looked_at_.reserve(static_cast<size_t>(max_pairs));
     live_.reserve(static_cast<size_t>(max_pairs));
     sorting_.reserve(static_cast<size_t>(max_pairs));
     scratch_.reserve(8);
     parts_.reserve(static_cast<size_t>(max_parts));
+    new_.reserve(kMostEntered);
+    for (size_t i = 0; i < kMostEntered; ++i) {
+        entered_.push_back(std::make_unique<btPersistentManifold>());
+        // Bullet's constructor sets neither, and its solver leaves out contacts further off
+        entered_.back()->setContactProcessingThreshold(BT_LARGE_FLOAT);
+        entered_.back()->setContactBreakingThreshold(BT_LARGE_FLOAT);
+    }
     reserve_pairs(max_pairs);
     pairs_.setOverlapFilterCallback(&other_bodies_);
 }
@@ -120,6 +174,7 @@ void Collision::find_contacts(double h) {
     btDispatcherInfo info;
     info.m_timeStep = h;
     manifolds_.clear();
+    entered_count_ = 0;
 
     btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
     const auto count = static_cast<size_t>(pairs.size());
@@ -204,6 +259,73 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
         }
     }
     return woke;
+}
+
+bool Collision::find_entered(double h, double recovery) {
+    if (live_is_stale_ || live_version_ != pairs_.version) list_live_pairs();
+    new_.clear();
+    for (const int i : live_) {
+        if (entered_count_ == entered_.size()) break;
+        btPersistentManifold& out = *entered_[entered_count_];
+        if (!enters(pairs_.getOverlappingPairArray()[i], h, recovery, out)) continue;
+        ++entered_count_;
+        manifolds_.push_back(&out);
+        new_.push_back(&out);
+        for (const btCollisionObject* object : {out.getBody0(), out.getBody1()}) {
+            auto& body = const_cast<btCollisionObject&>(*object);
+            if (body.isStaticObject() || body.getUserIndex2() == kAwake) continue;
+            body.setUserIndex2(kAwake);
+            live_is_stale_ = true;
+        }
+    }
+    if (new_.empty()) return false;
+    sort_by_bodies();
+    return true;
+}
+
+bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
+                       btPersistentManifold& out) {
+    const CollisionPart& part_a = part(pair.m_pProxy0);
+    const CollisionPart& part_b = part(pair.m_pProxy1);
+    btRigidBody& a = *btRigidBody::upcast(part_a.body);
+    btRigidBody& b = *btRigidBody::upcast(part_b.body);
+    const btTransform from_a = a.getWorldTransform();
+    const btTransform from_b = b.getWorldTransform();
+    btTransform X_WA = part_a.X_WS();
+    btTransform X_WB = part_b.X_WS();
+    const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
+    const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
+    const double way = approach(a_wrap, b_wrap, h);
+    if (way <= kEntered) return false;
+    scratch_.resizeNoInitialize(0);
+    if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
+    const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
+    out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
+    const int strides = std::clamp(static_cast<int>(std::ceil(way / kStride)), 1, kMostStrides);
+    bool found = false;
+    for (int stride = 1; stride <= strides && !found; ++stride) {
+        const double t = h * stride / strides;
+        move_on(a, from_a, t);
+        move_on(b, from_b, t);
+        out.clearManifold();
+        X_WA = part_a.X_WS();
+        X_WB = part_b.X_WS();
+        btCollisionAlgorithm* algorithm =
+            dispatcher_.findAlgorithm(&a_wrap, &b_wrap, &out, BT_CONTACT_POINT_ALGORITHMS);
+        if (algorithm == nullptr) break;
+        btManifoldResult result(&a_wrap, &b_wrap);
+        result.m_closestPointDistanceThreshold = kRoundMargin;
+        algorithm->processCollision(&a_wrap, &b_wrap, btDispatcherInfo(), &result);
+        algorithm->~btCollisionAlgorithm();
+        dispatcher_.freeCollisionAlgorithm(algorithm);
+        const btTransform& from_0 = swapped ? from_b : from_a;
+        const btTransform& from_1 = swapped ? from_a : from_b;
+        for (int i = 0; i < out.getNumContacts(); ++i)
+            found = look_back(out, out.getContactPoint(i), from_0, from_1, t, h, recovery) || found;
+    }
+    a.setWorldTransform(from_a);
+    b.setWorldTransform(from_b);
+    return found;
 }
 
 }  // namespace dihaptic::dynamics

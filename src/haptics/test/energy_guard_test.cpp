@@ -104,6 +104,48 @@ TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
     EXPECT_EQ(run.flags, 0u);
 }
 
+TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
+    // the proxy slides at 1 m/s, the hand comes on at 2: friction takes the harder push a tick
+    // before the hand feels it, 20 mJ in 20 ticks, and keeps them
+    const auto strain = [](Motion& run, double c) {
+        for (int i = 0; i <= 20; ++i) {
+            const double stretch = -1.0 * kTick * i;
+            run.tick(2 * kTick * i, 2, kTick * i, kStiffness * stretch - c);
+        }
+    };
+    Motion damped, negative;
+    strain(damped, kStiffness * kTick / 2);
+    EXPECT_LT(damped.guard.generated(), kEnergyBudget / 10);
+    strain(negative, -1);
+    EXPECT_NE(negative.flags & kEnergyGenerated, 0u);
+}
+
+TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
+    // a wedged proxy slips out from a stretch of 150 mm, and is caught again before it is at home;
+    // the hand is still pushed in that tick
+    Motion run;
+    for (int i = 0; i < 10; ++i) run.tick(0, 0, 0.15, 170);
+    run.tick(0.001, 0, 0.15, 0);
+    run.tick(0.001, 0, 0.09, 0);
+    for (int i = 0; i < 3; ++i) run.tick(0.001, 0, 0.04, 39);
+    EXPECT_LT(run.guard.generated(), 1e-12);
+    EXPECT_EQ(run.flags, 0u);
+    // what it did not keep it may not have: it comes home, and is stretched while nobody pays
+    run.tick(0.001, 0, 0.001, 0);
+    run.tick(0.021, 0, 0.001, 0);
+    for (int i = 0; i < 3; ++i) run.tick(0.021, 0, 0.001, -20);
+    EXPECT_GT(run.guard.generated(), 0.9 * kStiffness / 2 * 0.02 * 0.02);
+    EXPECT_NE(run.flags & kEnergyGenerated, 0u);
+}
+
+TEST(EnergyGuard, LetsABodyHitARestingProxy) {
+    Motion run;
+    for (int i = 0; i < 10; ++i) run.tick(0, 0, 0, 0);
+    const double c = kStiffness * kTick / 2;
+    for (int i = 0; i < 3; ++i) run.tick(0, 0, 0.005, 5 + c * (i == 0 ? 5 : 0));
+    EXPECT_LT(run.guard.generated(), 1e-12);
+}
+
 TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
     // 5 N*s/m take energy for a second; then as much negative damping gives it. With v the mean
     // square of the speed while in touch, half of the time, it gives c v / 2 a second.

@@ -15,6 +15,9 @@ INSTANTIATE_TEST_SUITE_P(Solvers, PlaySoak,
 TEST_P(PlaySoak, HarmsNothing) {
     EXPECT_GT(expect_harmless_play(GetParam(), 1, 600).held, 0);
 }
+TEST_P(PlaySoak, HarmsNothingWithAPoint) {
+    expect_harmless_play(GetParam(), 1, 600, scene::ProxyKind::point);
+}
 
 }  // namespace
 }  // namespace dihaptic::measure

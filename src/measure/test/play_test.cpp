@@ -39,6 +39,20 @@ TEST_P(PlayTest, HarmsNothing) {
     for (const uint64_t seed : {1, 2}) held += expect_harmless_play(GetParam(), seed, 5).held;
     EXPECT_GT(held, 0);
 }
+TEST_P(PlayTest, HarmsNothingWithAPoint) {
+    expect_harmless_play(GetParam(), 1, 5, scene::ProxyKind::point);
+}
+TEST_P(PlayTest, TripsTheEnergyGuardWhenTheCouplingHasNegativeDamping) {
+    servo::Settings settings;
+    settings.dynamics.solver = GetParam();
+    settings.coupling.damping = -1;
+    settings.safety.energy_guard = haptics::EnergyGuardMode::act;
+    const PlayReport report = Play(settings, 1).run(5);
+    EXPECT_NE(report.status & servo::kEnergyGenerated, 0u);
+    EXPECT_NE(report.status & servo::kEnergyDamped, 0u);
+    EXPECT_EQ(report.status & servo::kNotFinite, 0u);
+    EXPECT_LE(report.largest_force, 8.5 + 1e-9);
+}
 
 }  // namespace
 }  // namespace dihaptic::measure
