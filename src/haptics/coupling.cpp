@@ -14,25 +14,6 @@ Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
     return normal * touch.n_W + tangential;
 }
 
-/// What the handle feels of a spring k and a damper c to a proxy that touches something. Between
-/// steps of the world the handle moves on: the force then stays in the friction cone of the step's
-/// contact.
-Vec3 felt(const dynamics::BodyState& proxy, double k, double c, const ProxyTouch& touch,
-          const Handle& handle, const Handle& of_step) noexcept {
-    // in free space the spring only moves the proxy's own mass: nothing that a hand should feel
-    if (!touch.touching) return Vec3::Zero();
-    const Vec3 spring = k * (proxy.X_WB.p - handle.p_WH) + c * (proxy.v_WB - handle.v_WH);
-    return same(handle, of_step) ? spring : in_cone(spring, touch);
-}
-
-/// Energy of that spring; in free space, where the hand does not feel it, too.
-double stored_in(const dynamics::BodyState& proxy, double k, const ProxyTouch& touch,
-                 const Handle& handle, const Handle& of_step) noexcept {
-    Vec3 stretch = proxy.X_WB.p - handle.p_WH;
-    if (touch.touching && !same(handle, of_step)) stretch = in_cone(stretch, touch);
-    return k / 2 * stretch.squaredNorm();
-}
-
 }  // namespace
 
 double damping(const CouplingSettings& settings, double h) {
@@ -43,13 +24,30 @@ double turn_damping(const CouplingSettings& settings, double h) {
     return settings.turn_damping.value_or(settings.turn_stiffness * h / 2);
 }
 
+void BodyCoupling::begin_step(const Handle& handle, double h) noexcept {
+    damping_ = damping(settings_, h);
+    handle_ = handle;
+}
+
+Pull BodyCoupling::pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+                        const Handle& handle) const noexcept {
+    const dynamics::BodyState& state = world.state(proxy);
+    const double k = settings_.stiffness;
+    const bool between_steps = touch.touching && !same(handle, handle_);
+    const Vec3 stretch = state.X_WB.p - handle.p_WH;
+    const Vec3 acting = between_steps ? in_cone(stretch, touch) : stretch;
+    const double stored = onset_.share() * (k / 2 * acting.squaredNorm());
+    if (!touch.touching) return {Vec3::Zero(), stored};
+    const Vec3 spring = k * stretch + damping_ * (state.v_WB - handle.v_WH);
+    return {onset_.share() * (between_steps ? in_cone(spring, touch) : spring), stored};
+}
+
 void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,
                                    double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
+    begin_step(handle, h);
     const double k = settings_.stiffness;
-    const double c = damping(settings_, h);
-    damping_ = c;
-    handle_ = handle;
+    const double c = damping_;
     const double folded_mass = mass_ + h * c + h * h * k;
     // a share of the whole equation: the velocity is the same, what contacts have to stop is less
     world.set_mass(proxy, onset_.share() * folded_mass);
@@ -58,25 +56,12 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
                    folded_mass);
 }
 
-Vec3 ImplicitCoupling::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                             const Handle& handle) const noexcept {
-    return onset_.share() *
-           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
-}
-
-double ImplicitCoupling::stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                                const Handle& handle) const noexcept {
-    return onset_.share() *
-           stored_in(world.state(proxy), settings_.stiffness, touch, handle, handle_);
-}
-
 void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
                                   bool was_touching) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
+    begin_step(handle, h);
     const double k = settings_.stiffness;
-    const double c = damping(settings_, h);
-    damping_ = c;
-    handle_ = handle;
+    const double c = damping_;
     // lighter, no velocity that ends at the handle could pass on what the spring gives
     const double mass = std::max(mass_, h * c + h * h * k);
     const Vec3 stretch = handle.p_WH - state.X_WB.p;
@@ -91,18 +76,6 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& h
     }
     world.set_mass(proxy, onset_.share() * mass);
     world.set_velocity(proxy, state.v_WB + (size > 0 ? given / size : 0) * change);
-}
-
-Vec3 VelocityImpulse::force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                            const Handle& handle) const noexcept {
-    return onset_.share() *
-           felt(world.state(proxy), settings_.stiffness, damping_, touch, handle, handle_);
-}
-
-double VelocityImpulse::stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                               const Handle& handle) const noexcept {
-    return onset_.share() *
-           stored_in(world.state(proxy), settings_.stiffness, touch, handle, handle_);
 }
 
 void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,

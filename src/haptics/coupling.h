@@ -35,62 +35,65 @@ struct ProxyTouch {
     Vec3 f_P_W = Vec3::Zero();  ///< whole contact force on the proxy [N]
 };
 
+/// Force on the handle, and the energy of the springs that give it.
+struct Pull {
+    Vec3 f_H_W = Vec3::Zero();  ///< [N]
+    double stored = 0;          ///< [J]
+};
+
+/// What the hand feels of a proxy that is a body: a spring and a damper, as long as it touches
+/// something. The couplings below differ in how they move the body.
+class BodyCoupling {
+  public:
+    /// Now: nothing in free space, where the spring only moves the proxy's own mass. Between steps
+    /// of the world the handle moves on: the spring then stays within the friction cone of the
+    /// step's contact, and only what acts of it counts as stored.
+    Pull pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
+              const Handle& handle) const noexcept;
+    Onset& onset() noexcept { return onset_; }
+    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
+
+  protected:
+    BodyCoupling(const CouplingSettings& settings, double mass)
+        : settings_(settings), mass_(mass), onset_(settings.onset) {}
+    /// The coming step of the world, of h [s].
+    void begin_step(const Handle& handle, double h) noexcept;
+
+    CouplingSettings settings_;
+    double mass_;  // the proxy's own [kg]
+    Onset onset_;
+    double damping_ = 0;  // c [N*s/m]
+
+  private:
+    Handle handle_;  // of the last step
+};
+
 /// The spring holds at the end of the step; any contact solver does the rest.
-class ImplicitCoupling {
+class ImplicitCoupling : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg].
     ImplicitCoupling(const CouplingSettings& settings, double mass)
-        : settings_(settings), mass_(mass), onset_(settings.onset) {}
+        : BodyCoupling(settings, mass) {}
 
     /// Folds spring and damper into the proxy's mass and velocity. `h`: the coming step of the
     /// world [s].
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
-    /// Force on the handle now: the spring's at the end of the step while the proxy touches
-    /// something, and none in free space. Between steps of the world the handle moves on: the
-    /// spring then stays within the friction cone of the step's contact.
-    Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-               const Handle& handle) const noexcept;
-    /// Energy of the spring; in touch, as far as it acts: beyond the cone between steps it does not
-    /// [J].
-    double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                  const Handle& handle) const noexcept;
-    Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
-
-  private:
-    CouplingSettings settings_;
-    double mass_;
-    Onset onset_;
-    double damping_ = 0;  // c [N*s/m]
-    Handle handle_;       // of the last step
 };
 
 /// Before each step the proxy is given the velocity that takes it to the handle in that step, by an
 /// impulse that is bounded: in free space by the largest force that the hand may feel, in touch by
 /// what spring and damper give. The report's idea of 2012.
-class VelocityImpulse {
+class VelocityImpulse : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].
     VelocityImpulse(const CouplingSettings& settings, double mass, double max_force)
-        : settings_(settings), mass_(mass), max_force_(max_force), onset_(settings.onset) {}
+        : BodyCoupling(settings, mass), max_force_(max_force) {}
 
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
                      bool was_touching) noexcept;
-    /// As ImplicitCoupling's.
-    Vec3 force(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-               const Handle& handle) const noexcept;
-    double stored(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                  const Handle& handle) const noexcept;
-    Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
 
   private:
-    CouplingSettings settings_;
-    double mass_;
     double max_force_;
-    Onset onset_;
-    double damping_ = 0;  // c [N*s/m]
-    Handle handle_;       // of the last step
 };
 
 /// Springs and dampers as explicit forces on both sides, smoothed toward the hand: the 2012 system.
@@ -104,10 +107,9 @@ class DualSpring {
                      bool was_touching) noexcept;
     /// Every tick, before the world steps if it does: takes up the tick's force.
     void sample(const World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
-    Vec3 force() const noexcept { return f_H_W_; }
-    double stored(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
+    Pull pull(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
-        return onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm();
+        return {f_H_W_, onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm()};
     }
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }

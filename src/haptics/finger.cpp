@@ -61,7 +61,7 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
 }
 
 void Finger::after_step(World& world, const Handle& handle) noexcept {
-    // apart, a point feels bodies where they are now: in force()
+    // apart, a point feels bodies where they are now: in pull()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
 }
@@ -86,43 +86,33 @@ void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
     touch_.friction = weighted_friction / pressed;
 }
 
+Pull Finger::pull(World& world, const Handle& handle, double tick) noexcept {
+    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
+        return implicit->pull(world, proxy_, touch_, handle);
+    if (auto* dual = std::get_if<DualSpring>(&coupling_)) return dual->pull(world, proxy_, handle);
+    if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_))
+        return impulse->pull(world, proxy_, touch_, handle);
+    if (auto* solved = std::get_if<SolvedPoint>(&coupling_))
+        return solved->pull(world, handle, tick);
+    auto& point = std::get<PointProxy>(coupling_);
+    const Pull pull = point.render(world, handle, tick, step_);
+    feel(point.contacts());
+    return pull;
+}
+
 Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
-    Vec3 f_H_W;
-    if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
-        f_H_W = implicit->force(world, proxy_, touch_, handle);
-    } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
-        f_H_W = dual->force();
-    } else if (auto* impulse = std::get_if<VelocityImpulse>(&coupling_)) {
-        f_H_W = impulse->force(world, proxy_, touch_, handle);
-    } else if (auto* solved = std::get_if<SolvedPoint>(&coupling_)) {
-        f_H_W = solved->force(world, handle, tick);
-    } else {
-        auto& point = std::get<PointProxy>(coupling_);
-        f_H_W = point.render(world, handle, tick, step_);
-        feel(point.contacts());
-    }
-    stored_ = spring_energy(world, handle);
+    const Pull pull = this->pull(world, handle, tick);
+    stored_ = pull.stored;
     if (turn_) {
         torque_ = turn_->torque(world, proxy_, touch_.touching, handle, onset_share());
         stored_ += turn_->stored();
     }
     std::visit([&](auto& coupling) { coupling.onset().advance(touch_.touching, tick); }, coupling_);
-    return f_H_W;
+    return pull.f_H_W;
 }
 
 double Finger::onset_share() noexcept {
     return std::visit([](auto& coupling) { return coupling.onset().share(); }, coupling_);
-}
-
-double Finger::spring_energy(const World& world, const Handle& handle) const noexcept {
-    if (const auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
-        return implicit->stored(world, proxy_, touch_, handle);
-    if (const auto* dual = std::get_if<DualSpring>(&coupling_))
-        return dual->stored(world, proxy_, handle);
-    if (const auto* impulse = std::get_if<VelocityImpulse>(&coupling_))
-        return impulse->stored(world, proxy_, touch_, handle);
-    if (const auto* solved = std::get_if<SolvedPoint>(&coupling_)) return solved->stored(handle);
-    return std::get<PointProxy>(coupling_).stored(handle);
 }
 
 }  // namespace dihaptic::haptics

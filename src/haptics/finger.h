@@ -52,8 +52,8 @@ class Finger {
 
   private:
     void feel(std::span<const contact::Contact> contacts) noexcept;
+    Pull pull(World& world, const Handle& handle, double tick) noexcept;
     double onset_share() noexcept;
-    double spring_energy(const World& world, const Handle& handle) const noexcept;
 
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;

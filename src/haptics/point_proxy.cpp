@@ -30,14 +30,14 @@ void PointProxy::place(World& world, const Vec3& p_WP) noexcept {
     count_ = 0;
 }
 
-Vec3 PointProxy::render(World& world, const Handle& handle, double h, double step) noexcept {
+Pull PointProxy::render(World& world, const Handle& handle, double h, double step) noexcept {
     const Vec3 before = point_.position();
     point_.follow(handle.p_WH, world.states());
     const Vec3& p_WP = point_.position();
     world.set_point(body_, p_WP, (p_WP - before) / h);
 
     count_ = 0;
-    if (point_.contacts().empty()) return Vec3::Zero();
+    if (point_.contacts().empty()) return {Vec3::Zero(), stored(handle)};
     resolve(onset_.share() * (coupling_.stiffness * (p_WP - handle.p_WH) +
                               damping(coupling_, h) * (surface_velocity(world) - handle.v_WH)));
     Vec3 f_H_W = Vec3::Zero();
@@ -50,7 +50,13 @@ Vec3 PointProxy::render(World& world, const Handle& handle, double h, double ste
         if (c.normal_force > popthrough_)
             point_.pop_through(static_cast<size_t>(c.a.value), handle.p_WH);
     }
-    return f_H_W;
+    return {f_H_W, stored(handle)};
+}
+
+/// In the spring to the point where it is now [J].
+double PointProxy::stored(const Handle& handle) const noexcept {
+    return onset_.share() * coupling_.stiffness / 2 *
+           (point_.position() - handle.p_WH).squaredNorm();
 }
 
 /// Of what the point rests on, there.

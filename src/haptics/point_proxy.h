@@ -24,15 +24,10 @@ class PointProxy {
     /// Puts it somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// One tick h [s] of a world that steps by `step` [s]: moves the point, gives each body that it
-    /// touches its share of the reaction of the coming step, and returns the force on the handle.
-    Vec3 render(World& world, const Handle& handle, double h, double step) noexcept;
+    /// touches its share of the reaction of the coming step, and returns the pull on the handle.
+    Pull render(World& world, const Handle& handle, double h, double step) noexcept;
 
     /// Of the last tick, from body to point.
-    /// Energy of the spring to it [J].
-    double stored(const Handle& handle) const noexcept {
-        return onset_.share() * coupling_.stiffness / 2 *
-               (point_.position() - handle.p_WH).squaredNorm();
-    }
     std::span<const contact::Contact> contacts() const noexcept {
         return {contacts_.data(), count_};
     }
@@ -42,6 +37,7 @@ class PointProxy {
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;
+    double stored(const Handle& handle) const noexcept;
     void resolve(const Vec3& f_W) noexcept;
 
     CouplingSettings coupling_;

@@ -68,24 +68,22 @@ void SolvedPoint::after_step(World& world, const Handle& handle) noexcept {
     world.set_point(body_, point_.position(), v_WP_);
 }
 
-Vec3 SolvedPoint::force(World& world, const Handle& handle, double h) noexcept {
+Pull SolvedPoint::pull(World& world, const Handle& handle, double h) noexcept {
     if (just_stepped_) {
         just_stepped_ = false;
-        acts_ = press_count_ > 0 ? Acts::fully : Acts::none;
-        return f_P_W_;
+        return {f_P_W_, energy(point_.position() - handle.p_WH)};
     }
     if (press_count_ == 0) {
-        acts_ = Acts::fully;
-        return meet_between_steps(world, handle, h);
+        const Vec3 f_H_W = meet_between_steps(world, handle, h);
+        return {f_H_W, energy(point_.position() - handle.p_WH)};
     }
-    acts_ = Acts::in_cones;
-    return in_cones(onset_.share() * (coupling_.stiffness * (point_.position() - handle.p_WH) +
-                                      damping(coupling_, step_) * (v_WP_ - handle.v_WH)));
+    const Vec3 stretch = point_.position() - handle.p_WH;
+    return {in_cones(onset_.share() * (coupling_.stiffness * stretch +
+                                       damping(coupling_, step_) * (v_WP_ - handle.v_WH))),
+            energy(in_cones(stretch))};
 }
 
-double SolvedPoint::stored(const Handle& handle) const noexcept {
-    Vec3 stretch = point_.position() - handle.p_WH;
-    if (acts_ == Acts::in_cones) stretch = in_cones(stretch);
+double SolvedPoint::energy(const Vec3& stretch) const noexcept {
     return onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
 }
 

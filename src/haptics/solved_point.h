@@ -21,13 +21,12 @@ class SolvedPoint {
     /// Around a step of the world h [s].
     void before_step(World& world, const Handle& handle, double h) noexcept;
     void after_step(World& world, const Handle& handle) noexcept;
-    /// Force on the handle now: that of the step's contacts. In a tick h [s] without a step, what
+    /// On the handle now: the force of the step's contacts. In a tick h [s] without a step, what
     /// the spring asks of them now; a surface that only this tick has met is felt at once, and its
-    /// body gets the reaction in the next step.
-    Vec3 force(World& world, const Handle& handle, double h) noexcept;
+    /// body gets the reaction in the next step. Between steps, what acts of the spring counts as
+    /// stored.
+    Pull pull(World& world, const Handle& handle, double h) noexcept;
 
-    /// Energy of the spring; in touch, as far as it acted in the last force() [J].
-    double stored(const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
 
@@ -38,6 +37,7 @@ class SolvedPoint {
     };
 
     Vec3 in_cones(const Vec3& spring) const noexcept;
+    double energy(const Vec3& stretch) const noexcept;
     Vec3 meet_between_steps(World& world, const Handle& handle, double h) noexcept;
 
     CouplingSettings coupling_;
@@ -50,12 +50,7 @@ class SolvedPoint {
     size_t press_count_ = 0;
     bool sliding_ = false;
     bool just_stepped_ = false;
-    enum class Acts {
-        none,
-        fully,
-        in_cones
-    } acts_ = Acts::none;  // the spring, in the last force()
-    double step_ = 0;      // of the world [s]
+    double step_ = 0;  // of the world [s]
     Vec3 v_WP_ = Vec3::Zero();
     Vec3 f_P_W_ = Vec3::Zero();  // of the last step's contacts [N]
 };
