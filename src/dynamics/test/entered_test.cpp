@@ -1,37 +1,16 @@
 // Fast bodies do not enter each other, whatever the contacts at the step's beginning foresee.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "base/random.h"
 #include "dynamics/test/blocks.h"
+#include "testing/overlap.h"
 
 namespace dihaptic::dynamics {
 namespace {
 
 constexpr double kDeep = 2e-4;  // what a step looks for, and as much again [m]
-
-/// Overlap of two boxes: the smallest over their 15 separating axes; negative: apart [m].
-double overlap(const Vec3& half_a, const Pose& X_WA, const Vec3& half_b, const Pose& X_WB) {
-    const Mat3 A = X_WA.R.toRotationMatrix();
-    const Mat3 B = X_WB.R.toRotationMatrix();
-    double least = 1;
-    const auto along = [&](const Vec3& axis) {
-        if (axis.norm() < 1e-6) return;
-        const Vec3 n = axis.normalized();
-        const double reach =
-            half_a.dot((A.transpose() * n).cwiseAbs()) + half_b.dot((B.transpose() * n).cwiseAbs());
-        least = std::min(least, reach - std::abs((X_WB.p - X_WA.p).dot(n)));
-    };
-    for (int i = 0; i < 3; ++i) {
-        along(A.col(i));
-        along(B.col(i));
-        for (int j = 0; j < 3; ++j) along(A.col(i).cross(B.col(j)));
-    }
-    return least;
-}
 
 class EnteredTest : public ::testing::TestWithParam<Solver> {
   protected:
@@ -70,7 +49,7 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
         const Quat R = rotation_xyz(spinner.rotation);
         const Vec3 way = any().normalized();
         double far = 0.1;
-        while (overlap(half, {}, half, {R, far * way}) < -1e-3) far -= 1e-4;
+        while (box_overlap(half, {}, half, {R, far * way}) < -1e-3) far -= 1e-4;
         spinner.position = far * way;
         World world = weightless({slippery(box("fixed", 2 * half, Vec3::Zero(), 0)), spinner});
         const Vec3 v = -2 * way + any();
@@ -81,7 +60,7 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
         for (int step = 0; step < 10; ++step) {
             world.step(kStep);
             const BodyState& s = world.states()[1];
-            ASSERT_LT(overlap(half, {}, half, s.X_WB), 2 * kDeep) << i << ", " << step;
+            ASSERT_LT(box_overlap(half, {}, half, s.X_WB), 2 * kDeep) << i << ", " << step;
             const double energy =
                 0.1 / 2 * s.v_WB.squaredNorm() + inertia / 2 * s.w_WB.squaredNorm();
             ASSERT_LT(energy, before * (1 + 1e-4)) << i << ", " << step;
