@@ -1,15 +1,9 @@
 #include "view/image.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <png.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 #include "base/diagnostics.h"
+#include "base/text_file.h"
 
 namespace dihaptic::view {
 
@@ -19,15 +13,12 @@ void write_png(const Image& image, const std::string& file) {
     png.width = static_cast<png_uint_32>(image.width);
     png.height = static_cast<png_uint_32>(image.height);
     png.format = PNG_FORMAT_RGB;
-    // renamed when whole
-    const std::string part = fmt::format("{}.{}", file, getpid());
-    errno = 0;
-    if (png_image_write_to_file(&png, part.c_str(), 0, image.rgb.data(), 0, nullptr) != 0 &&
-        std::rename(part.c_str(), file.c_str()) == 0)
-        return;
-    const std::string why = errno != 0 ? std::strerror(errno) : png.message;
-    unlink(part.c_str());
-    throw Error({file, 0}, "", "cannot be written: " + why, "Name another file by -o.");
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+    std::string bytes(size, '\0');
+    if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0)
+        throw Error({file, 0}, "", std::string("cannot be written: ") + png.message, "");
+    bytes.resize(size);
+    write_file(bytes, file);
 }
 
 Image read_png(const std::string& file) {
