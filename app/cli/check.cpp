@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "command.h"
-#include "experiment/plan.h"
+#include "experiment/check.h"
 
 namespace dihaptic::cli {
 

@@ -62,8 +62,4 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info);
 /// Servo on the plan's rig.
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan);
 
-/// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
-/// Returns what the file is, in words.
-std::string check_file(const std::string& file, Diagnostics& diagnostics);
-
 }  // namespace dihaptic::experiment

@@ -5,6 +5,7 @@
 #include <functional>
 #include <sstream>
 
+#include "experiment/check.h"
 #include "testing/files.h"
 
 namespace dihaptic::experiment {

@@ -1,105 +1,22 @@
-// Tasks: the order of trials, states and what ends them, perturbations in the file, sessions that
-// go on, and every mistake that a file can have.
+// Tasks: states and what ends them, perturbations in the file, sessions that go on.
 #include "experiment/task.h"
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <numbers>
-#include <set>
 
 #include "analysis/recovery.h"
 #include "experiment/replay.h"
-#include "experiment/session_run.h"
 #include "experiment/task_director.h"
 #include "experiment/task_hand.h"
+#include "experiment/test/reaches.h"
 #include "recording/raw_log.h"
 #include "testing/allocation_guard.h"
-#include "testing/files.h"
 
 namespace dihaptic::experiment {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::atomic<bool> kGoOn{false};
-
-const char* const kScene = R"(bodies:
-  - { name: table, shape: box, size_mm: [600, 400, 50], position_mm: [0, 0, -25], fixed: yes }
-  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [0, 0, 20] }
-fingers:
-  - { name: index, shape: sphere, radius_mm: 6, mass_g: 1 }
-)";
-
-/// Reaches of 50 mm, a rotation, a clamp, a channel; an exit of each kind that needs no object.
-const char* const kReaches = R"(title: Reaches
-scene: scene.yaml
-hand: { centre_mm: [0, 0, 120] }
-task:
-  regions:
-    - { name: start, position_mm: [0, 0, 120], radius_mm: 6 }
-    - { name: target, position_mm: [50, 0, 120], radius_mm: 6 }
-    - { name: shell, position_mm: [0, 0, 120], radius_mm: 45 }
-  perturbations:
-    - name: rotation
-      visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 }
-    - name: clamp
-      visual: { moves: [proxies], about: start, toward: target }
-    - name: channel
-      field: { kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, damping_Ns_m: 5 }
-  states:
-    - name: home
-      show: [start]
-      perturbed: no
-      message: Go home
-      exits:
-        - { when: inside, region: start, hold_s: 0.2, to: reach }
-        - { when: time, hold_s: 5, outcome: lost, redo: yes }
-      hand: [{ duration_s: 0.2, reach: start }]
-    - name: reach
-      show: [target]
-      marker: 7
-      exits:
-        - { when: outside, region: shell, outcome: reached, feedback: Good }
-        - { when: time, hold_s: 1, outcome: too slow, redo: yes }
-      hand: [{ duration_s: 0.2, reach: target }]
-  reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
-  conditions:
-    - name: right
-    - name: far
-      regions: [{ name: target, position_mm: [0, 50, 120], radius_mm: 6 }]
-  redo: next
-  blocks:
-    - { name: before, kind: baseline, repeats: 1 }
-    - { name: turned, kind: perturbed, perturb: rotation, repeats: 2, ramp: 2, insert: [{ kind: catch, count: 1 }] }
-    - { name: clamped, kind: error_clamp, perturb: clamp, repeats: 1, order: sequential }
-)";
-
-struct Files {
-    testing::TemporaryFolder folder;
-    std::string scene = kScene;
-    std::string experiment = kReaches;
-
-    Files() = default;
-    void replace(const std::string& what, const std::string& by) {
-        const size_t at = experiment.find(what);
-        ASSERT_NE(at, std::string::npos) << what;
-        experiment.replace(at, what.size(), by);
-    }
-    Request request(uint64_t seed = 1, const std::string& participant = "S01") {
-        folder.write("scene.yaml", scene);
-        Request request;
-        request.file = folder.write("experiment.yaml", experiment);
-        request.seed = seed;
-        request.participant = participant;
-        return request;
-    }
-    RunResult run(const Plan& plan, const std::atomic<bool>& stop = kGoOn) {
-        RunOptions options;
-        options.out = folder.file("sessions");
-        return run_session(plan, options, stop, {});
-    }
-};
 
 /// A column of a session's trials.csv.
 std::vector<std::string> column(const std::string& session, const std::string& name) {
@@ -112,98 +29,6 @@ std::vector<std::string> column(const std::string& session, const std::string& n
 
 analysis::SessionFigures finish(const RunResult& result) {
     return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
-}
-
-TEST(Order, ALatinSquarePutsEachItemInEachPlaceAndAfterEachOtherEquallyOften) {
-    Random random(1, "test");
-    for (const int n : {2, 3, 4, 5, 8}) {
-        const int rows = n % 2 == 0 ? n : 2 * n;
-        std::map<std::pair<int, int>, int> places;
-        std::map<std::pair<int, int>, int> follows;
-        for (int row = 0; row < rows; ++row) {
-            const auto order = ordered(n, Order::latin_square, row, random);
-            for (int i = 0; i < n; ++i) {
-                ++places[{i, order[static_cast<size_t>(i)]}];
-                if (i > 0)
-                    ++follows[{order[static_cast<size_t>(i - 1)], order[static_cast<size_t>(i)]}];
-            }
-        }
-        EXPECT_EQ(places.size(), static_cast<size_t>(n * n));
-        EXPECT_EQ(follows.size(), static_cast<size_t>(n * (n - 1)));
-        for (const auto& [which, count] : places) EXPECT_EQ(count, rows / n) << n;
-        for (const auto& [which, count] : follows) EXPECT_EQ(count, rows / n) << n;
-    }
-}
-
-TEST(Order, CounterbalancingGoesThroughAllPermutations) {
-    Random random(1, "test");
-    std::set<std::vector<int>> all;
-    for (int number = 0; number < 24; ++number)
-        all.insert(ordered(4, Order::counterbalanced, number, random));
-    EXPECT_EQ(all.size(), 24u);
-    EXPECT_EQ(ordered(4, Order::counterbalanced, 24, random), (std::vector<int>{0, 1, 2, 3}));
-    EXPECT_EQ(participant_number("S07"), 7);
-    EXPECT_EQ(participant_number("anna"), -1);
-}
-
-TEST(Order, TrialsHaveTheirKindsSharesAndInsertsAndTheSeedDecides) {
-    Files files;
-    const Plan plan = make_plan(files.request(3));
-    const std::vector<Trial>& trials = plan.task->trials;
-    ASSERT_EQ(trials.size(), 2u + 5u + 2u);
-    int caught = 0;
-    for (size_t i = 2; i < 7; ++i) {
-        EXPECT_EQ(trials[i].number, 2);
-        EXPECT_EQ(trials[i].in_block, static_cast<int>(i) - 1);
-        caught += trials[i].kind == TrialKind::catch_trial;
-        EXPECT_EQ(trials[i].perturb, trials[i].kind == TrialKind::catch_trial ? -1 : 0);
-    }
-    EXPECT_EQ(caught, 1);
-    EXPECT_EQ(trials[2].kind, TrialKind::perturbed);
-    EXPECT_EQ(trials[2].share, 0.5);
-    EXPECT_EQ(trials[6].share, 1);
-    EXPECT_EQ(trials[7].condition, 0);  // sequential
-    EXPECT_EQ(trials[8].condition, 1);
-    const auto conditions = [&](uint64_t seed) {
-        std::string out;
-        const Plan of_seed = make_plan(files.request(seed));
-        for (const Trial& t : of_seed.task->trials) out += std::to_string(t.condition);
-        return out;
-    };
-    EXPECT_EQ(conditions(3), conditions(3));
-    std::set<std::string> different;
-    for (uint64_t seed = 1; seed < 9; ++seed) different.insert(conditions(seed));
-    EXPECT_GT(different.size(), 3u);
-}
-
-TEST(Order, ParticipantsNumbersOrderRounds) {
-    Files files;
-    files.replace("  redo: next\n",
-                  "  redo: next\n  round_order: latin_square\n"
-                  "  rounds: [{ name: a }, { name: b }]\n");
-    EXPECT_EQ(make_plan(files.request(1, "S01")).task->trials.front().round, 0);
-    EXPECT_EQ(make_plan(files.request(1, "S02")).task->trials.front().round, 1);
-    EXPECT_THROW(make_plan(files.request(1, "")), Error);
-}
-
-TEST(TrialQueue, DoesTrialsAgainWhereThePolicySays) {
-    std::vector<Trial> trials(5);
-    for (size_t i = 0; i < 5; ++i) trials[i].number = i < 3 ? 1 : 2;
-    const auto done = [&](Redo redo, int bad_attempts) {
-        TrialQueue queue(trials, redo, 3, 1);
-        std::string out;
-        while (!queue.empty()) {
-            out += std::to_string(queue.trial());
-            queue.finish(queue.trial() == 0 && queue.attempt() <= bad_attempts);
-        }
-        return out;
-    };
-    EXPECT_EQ(done(Redo::never, 9), "01234");
-    EXPECT_EQ(done(Redo::next, 1), "001234");
-    EXPECT_EQ(done(Redo::end_of_block, 1), "012034");
-    EXPECT_EQ(done(Redo::end_of_block, 9), "0120034");  // three attempts and no more
-    EXPECT_EQ(done(Redo::random, 1).substr(done(Redo::random, 1).size() - 2), "34");
-    EXPECT_EQ(done(Redo::random, 1), done(Redo::random, 1));
 }
 
 TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
@@ -477,116 +302,6 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
     EXPECT_GT(perturbed, 700);
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
-
-/// A mistake: what is written in place of what, and what must be said of it, with the line.
-struct Mistake {
-    const char* what;
-    const char* by;
-    const char* said;
-};
-
-class BrokenFile : public ::testing::TestWithParam<Mistake> {};
-
-TEST_P(BrokenFile, IsRefusedWithFileLineAndRemedy) {
-    Files files;
-    const size_t at = files.experiment.find(GetParam().what);
-    ASSERT_NE(at, std::string::npos);
-    files.experiment.replace(at, std::string(GetParam().what).size(), GetParam().by);
-    Diagnostics diagnostics;
-    check_file(files.request().file, diagnostics);
-    bool found = false;
-    std::string all;
-    for (const Problem& p : diagnostics.problems()) {
-        all += p.text() + "\n";
-        if (p.severity != Severity::error || p.text().find(GetParam().said) == std::string::npos)
-            continue;
-        found = true;
-        EXPECT_GT(p.place.line, 0) << p.text();
-        EXPECT_NE(p.place.file.find("experiment.yaml"), std::string::npos) << p.text();
-        EXPECT_FALSE(p.remedy.empty()) << p.text();
-    }
-    EXPECT_TRUE(found) << "not said: " << GetParam().said << "\nbut:\n" << all;
-}
-
-const char* const kExit = "{ when: outside, region: shell, outcome: reached, feedback: Good }";
-const char* const kRotation =
-    "visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 }";
-const char* const kChannel =
-    "field: { kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
-    "damping_Ns_m: 5 }";
-const char* const kBlock = "{ name: before, kind: baseline, repeats: 1 }";
-
-INSTANTIATE_TEST_SUITE_P(
-    Task, BrokenFile,
-    ::testing::Values(
-        Mistake{"name: shell,", "name: target,", "there are two regions 'target'"},
-        Mistake{"name: shell,", "nam: shell,", "nam"},
-        Mistake{"name: start, position_mm: [0, 0, 120]", "name: start", "position"},
-        Mistake{"position_mm: [50, 0, 120]", "position_mm: [50, 120]", "must be three numbers"},
-        Mistake{"position_mm: [50, 0, 120]", "position: [50, 0, 120]", "position"},
-        Mistake{"radius_mm: 45", "radius_mm: -45", "radius_mm"},
-        Mistake{"name: clamp\n", "name: rotation\n", "there are two perturbations 'rotation'"},
-        Mistake{kRotation, "visual: { moves: [proxy], about: start }",
-                "'proxy' is nothing to move"},
-        Mistake{kRotation, "visual: { about: start, angle_deg: 30 }", "moves"},
-        Mistake{kRotation, "visual: { moves: [proxies], about: strat }", "Did you mean start?"},
-        Mistake{kRotation, "visual: { moves: [proxies], about: start, angle_deg: 30 }", "axis"},
-        Mistake{kRotation,
-                "visual: { moves: [proxies], about: start, axis: [0, 0, 0], angle_deg: 30 }",
-                "has no direction"},
-        Mistake{kRotation, "visual: { moves: [proxies], about: start, size: 2 }",
-                "is the object's, which is not moved"},
-        Mistake{"toward: target }", "toward: target, axis: [0, 0, 1], angle_deg: 3 }",
-                "neither rotated nor scaled"},
-        Mistake{kRotation, "body: { body: blok, mass_scale: [2, 2, 1] }", "Did you mean block?"},
-        Mistake{kRotation, "body: { body: table, mass_scale: [2, 2, 1] }", "'table' cannot move"},
-        Mistake{kRotation, "body: { body: block, mass_scale: 2 }", "must be three numbers"},
-        Mistake{kRotation, "body: { body: block, weight_scale: heavy }", "must be a number"},
-        Mistake{kRotation, "visual:", "visual"},
-        Mistake{kChannel, "field: { kind: tunnel, on: index }", "tunnel"},
-        Mistake{kChannel, "field: { kind: viscous, on: index }", "damping"},
-        Mistake{kChannel, "field: { kind: viscous, on: idnex, damping_Ns_m: 5 }",
-                "Did you mean index?"},
-        Mistake{kChannel, "field: { kind: curl, on: index, damping_Ns_m: 5 }", "axis"},
-        Mistake{kChannel, "field: { kind: channel, on: index, from: start, to: target }",
-                "stiffness"},
-        Mistake{kChannel, "field: { kind: channel, on: index, stiffness_N_m: 500 }", "from"},
-        Mistake{"name: reach\n      show", "name: home\n      show", "there are two states 'home'"},
-        Mistake{"show: [target]", "show: [tarket]", "Did you mean target?"},
-        Mistake{"marker: 7", "marker: 700", "marker"},
-        Mistake{"marker: 7", "marker: seven", "marker"},
-        Mistake{kExit, "{ region: shell, outcome: reached }", "when"},
-        Mistake{kExit, "{ when: outside, region: shel, outcome: reached }", "Did you mean shell?"},
-        Mistake{kExit, "{ when: outside, outcome: reached }", "region"},
-        Mistake{kExit, "{ when: outside, region: shell }", "leads nowhere"},
-        Mistake{kExit, "{ when: outside, region: shell, to: home, outcome: reached }",
-                "leads to a state and out of the trial"},
-        Mistake{kExit, "{ when: outside, region: shell, to: hom }", "Did you mean home?"},
-        Mistake{kExit, "{ when: outside, region: shell, finger: thumb, outcome: reached }",
-                "none of the scene's fingers"},
-        Mistake{kExit, "{ when: outside, region: shell, outcome: lost }", "'lost' is done again"},
-        Mistake{kExit, "{ when: lifted, body: table, outcome: reached }", "'table' cannot move"},
-        Mistake{kExit, "{ when: gripped, body: block, outcome: reached }", "a grip takes two"},
-        Mistake{kExit, "{ when: key, key: enter, outcome: reached }", "is no key"},
-        Mistake{kExit, "{ when: time, outcome: reached }", "how long is missing"},
-        Mistake{kExit, "{ when: button, button: 40, outcome: reached }", "button"},
-        Mistake{"duration_s: 0.2, reach: target", "duration_s: 0, reach: target", "duration_s"},
-        Mistake{"duration_s: 0.2, reach: target", "reach: target", "duration"},
-        Mistake{"during: reach", "during: rech", "Did you mean reach?"},
-        Mistake{"distance_mm: 30", "distance_mm: 0", "distance_mm"},
-        Mistake{"name: far\n", "name: right\n", "there are two conditions 'right'"},
-        Mistake{"[{ name: target, position_mm: [0, 50, 120]",
-                "[{ name: targe, position_mm: [0, 50, 120]", "Did you mean target?"},
-        Mistake{"redo: next", "redo: later", "redo"},
-        Mistake{kBlock, "{ name: before, kind: base }", "kind"},
-        Mistake{kBlock, "{ name: before, conditions: [left] }", "'left' is no condition"},
-        Mistake{kBlock, "{ name: before, repeats: 0 }", "repeats"},
-        Mistake{kBlock, "{ name: before, order: random }", "order"},
-        Mistake{kBlock, "{ name: before, kind: perturbed }", "is missing in a perturbed block"},
-        Mistake{kBlock, "{ name: before, ramp: 3 }", "there is nothing to ramp"},
-        Mistake{"perturb: rotation", "perturb: rotatoin", "Did you mean rotation?"},
-        Mistake{"count: 1 }", "count: 5 }", "more than the block's 4 trials"},
-        Mistake{"  blocks:\n", "  block:\n", "blocks"}));
 
 }  // namespace
 }  // namespace dihaptic::experiment

@@ -1,0 +1,76 @@
+#include "experiment/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiment/plan.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+/// What is wrong with a movement in any experiment. Its axes are the experiment's business: they
+/// make no difference here.
+void check_movement(const std::string& file, Diagnostics& diagnostics) {
+    const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
+    const hand::Movement movement =
+        hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
+    for (const std::string& finger : movement.fingers) {
+        if (std::find(usual.begin(), usual.end(), finger) != usual.end()) continue;
+        const std::string guess = nearest(finger, usual);
+        diagnostics.warning({file, 1}, finger, "is no usual name of a finger",
+                            guess.empty() ? "The scene must name its finger so too: thumb and "
+                                            "index, if it names none."
+                                          : fmt::format("Did you mean {}?", guess));
+    }
+    if (diagnostics.has_errors()) return;
+    if (movement.fingers.size() < 2) {
+        diagnostics.warning({file, 1}, "",
+                            fmt::format("there is only one finger, {}", movement.fingers.front()),
+                            "A recorded grasp needs two.");
+    }
+    const hand::Path path = hand::repair(movement);
+    for (const hand::Fault& fault : path.faults) {
+        diagnostics.warning({file, fault.line}, "", hand::describe(fault, path.fingers),
+                            "It will be bridged.");
+    }
+    warn_of_bridges(path, file, diagnostics);
+    if (path.p_WH.size() > 1 && !hand::find_grasp(path)) {
+        diagnostics.warning({file, 0}, "", kNoGrasp,
+                            "An experiment must say when they closed: movement: grasp_at_s.");
+    }
+}
+
+}  // namespace
+
+std::string check_file(const std::string& file, Diagnostics& diagnostics) {
+    try {
+        switch (kind_of(file)) {
+            case FileKind::rig:
+                rig::read_rig(file, diagnostics);
+                return "rig";
+            case FileKind::scene:
+            case FileKind::experiment: {
+                Request request;
+                request.file = file;
+                request.participant = "1";
+                const Plan plan = make_plan(request);
+                diagnostics.add(plan.warnings);
+                return kind_of(file) == FileKind::scene ? "scene" : "experiment";
+            }
+            case FileKind::movement:
+                check_movement(file, diagnostics);
+                return "movement";
+            case FileKind::unknown:
+                diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
+                                  "A scene has 'bodies:', a rig 'devices:', an experiment "
+                                  "'scene:'; a movement ends in .csv.");
+                return "unknown";
+        }
+    } catch (const Error& e) {
+        diagnostics.add(e.problems());
+    }
+    return "";
+}
+
+}  // namespace dihaptic::experiment

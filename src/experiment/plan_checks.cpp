@@ -1,0 +1,288 @@
+#include "experiment/plan_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/grasp.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+/// Where a setting was given, for messages.
+Place place_of(const Plan& plan, const std::string& setting) {
+    const auto origin = plan.origins.find(setting);
+    return {origin == plan.origins.end() ? "" : origin->second, 0};
+}
+
+/// A share of what the devices render calmly, in SI units: of the device that renders least, since
+/// all fingers have the same coupling. The setting is then as if it had been given so.
+std::optional<double> of_maximum(Plan& plan, const devices::DeviceGroup& devices,
+                                 const std::string& name, Quantity quantity,
+                                 std::optional<double>& share,
+                                 std::optional<double> devices::DeviceInfo::*maximum,
+                                 Diagnostics& diagnostics) {
+    if (!share) return std::nullopt;
+    const std::string setting = "coupling." + name;
+    const std::string origin = place_of(plan, setting + "_share").file;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (!(info.*maximum)) {
+            diagnostics.error(
+                {origin, 0}, setting + "_share",
+                fmt::format("{} does not say what {} it renders at most", info.model, name),
+                fmt::format("Give coupling: {}, or another rig.", si_key(name, quantity)));
+            return std::nullopt;
+        }
+        least = std::min(least, *(info.*maximum));
+    }
+    plan.origins.erase(setting + "_share");
+    plan.origins[setting] = fmt::format("{} ({:g} of the device's {:g} {})", origin, *share, least,
+                                        si_symbol(quantity));
+    const double value = *share * least;
+    share.reset();
+    return value;
+}
+
+void resolve_shares(Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    haptics::CouplingSettings& coupling = plan.settings.coupling;
+    if (const auto k =
+            of_maximum(plan, devices, "stiffness", Quantity::stiffness, coupling.stiffness_share,
+                       &devices::DeviceInfo::max_stiffness, diagnostics))
+        coupling.stiffness = *k;
+    if (const auto c =
+            of_maximum(plan, devices, "damping", Quantity::damping, coupling.damping_share,
+                       &devices::DeviceInfo::max_damping, diagnostics))
+        coupling.damping = *c;
+}
+
+bool is_point(const Plan& plan, const scene::Finger& finger) {
+    return plan.settings.proxy.of(finger) == haptics::ProxyKind::point;
+}
+
+bool any_finger(const Plan& plan, haptics::ProxyKind kind) {
+    return std::any_of(
+        plan.scene.fingers.begin(), plan.scene.fingers.end(),
+        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger) == kind; });
+}
+
+/// Stiffness that the loop need not hold calmly. The limit is passivity's: below it no hand makes
+/// the loop shake; above it, some do (bench grasp measures how far one gets).
+void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
+                     Diagnostics& diagnostics) {
+    const haptics::CouplingSettings& coupling = plan.settings.coupling;
+    const double h = plan.settings.step();
+    const Place place = place_of(plan, "coupling.stiffness");
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (info.damping <= 0) continue;
+        const double limit =
+            model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
+        if (coupling.stiffness <= limit) continue;
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), up to which the hand's damping of "
+                        "{:g} N*s/m surely keeps {} calm",
+                        coupling.stiffness, limit, info.damping, info.model),
+            "It may be calm above too, as in bench grasp, or shake: look at the forces, or lower "
+            "it.");
+        break;
+    }
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (info.peak_torque <= 0 || info.turn_damping <= 0) continue;
+        const double limit =
+            model::passive_stiffness(info.turn_damping, plan.settings.tick() + 2 * info.delay);
+        if (coupling.turn_stiffness <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.turn_stiffness"), "coupling.turn_stiffness",
+            fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), up to which the hand's "
+                        "damping of {:g} N*m*s/rad surely keeps {} calm",
+                        coupling.turn_stiffness, limit, info.turn_damping, info.model),
+            "Lower it, or look at the torques.");
+        break;
+    }
+    const double explicit_limit = coupling.body_mass / (h * h);
+    if (coupling.kind == haptics::CouplingKind::dual_spring &&
+        any_finger(plan, haptics::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format(
+                "{:g} N/m is more than an explicit spring can hold with a proxy of {:g} g: about "
+                "{:.0f} N/m (m / h^2)",
+                coupling.stiffness, coupling.body_mass * 1e3, explicit_limit),
+            "Lower it, raise coupling: body_mass_g, or use coupling: kind: implicit.");
+    }
+}
+
+/// A damper that takes more than the handle's momentum in a tick throws it back: with v the speed
+/// at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
+void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
+                   Diagnostics& diagnostics) {
+    if (!plan.settings.coupling.damping) return;
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        const double limit = 2 * info.mass / (plan.settings.tick() + 2 * info.delay);
+        if (info.mass <= 0 || *plan.settings.coupling.damping <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.damping"), "coupling.damping",
+            fmt::format("{:g} N*s/m is more than a handle of {:g} g can bear: about {:.0f} N*s/m "
+                        "(2 m / T)",
+                        *plan.settings.coupling.damping, info.mass * 1e3, limit),
+            "Lower it, or leave it out: k h / 2 follows the stiffness.");
+        break;
+    }
+}
+
+/// Settings that a point has no use for.
+void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
+    if (!any_finger(plan, haptics::ProxyKind::point)) return;
+    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit &&
+        !any_finger(plan, haptics::ProxyKind::rigid)) {
+        diagnostics.warning(
+            place_of(plan, "coupling.kind"), "coupling.kind",
+            fmt::format("{} ties handles to rigid proxies; these proxies are points",
+                        enum_name(plan.settings.coupling.kind)),
+            "Leave it out, or use proxy: kind: rigid.");
+    }
+    if (plan.settings.proxy.friction == haptics::PointFriction::together) return;
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
+        diagnostics.warning(finger.place, "torsion_radius",
+                            "where its friction is apart from the dynamics, a point carries no "
+                            "moment about a contact's normal",
+                            "Leave it out, or use proxy: friction: together.");
+    }
+}
+
+/// A switch that nobody could hold.
+void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
+    const std::string& finger = plan.settings.safety.dead_man_finger;
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (finger.empty() || std::find(fingers.begin(), fingers.end(), finger) != fingers.end())
+        return;
+    diagnostics.error(place_of(plan, "safety.dead_man_finger"), "safety.dead_man_finger",
+                      fmt::format("the scene has no finger '{}'", finger),
+                      fmt::format("Name one of {}, whose device has the switch, or leave it out.",
+                                  fmt::join(fingers, ", ")));
+}
+
+/// A force limit that no device reaches is none: the devices' own is what holds.
+void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    if (!plan.settings.safety.max_force) return;
+    for (int i = 0; i < devices.size(); ++i) {
+        const devices::DeviceInfo& info = devices.info(i);
+        if (*plan.settings.safety.max_force <= info.peak_force) continue;
+        diagnostics.warning(
+            place_of(plan, "safety.max_force"), "safety.max_force",
+            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
+                        *plan.settings.safety.max_force, info.model, info.peak_force),
+            "The device's peak holds: lower it, or leave it out.");
+        break;
+    }
+}
+
+/// Soft fingers that are hard to this solver.
+void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
+    if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
+    const bool apart = plan.settings.proxy.friction == haptics::PointFriction::apart;
+    std::string soft;
+    const auto look = [&](const auto& item) {
+        if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
+    };
+    for (const scene::Body& body : plan.scene.bodies) look(body);
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (!(apart && is_point(plan, finger))) look(finger);
+    }
+    if (soft.empty()) return;
+    diagnostics.warning(
+        place_of(plan, "dynamics.solver"), "dynamics.solver",
+        fmt::format("sequential_impulse takes no notice of torsion radii: contacts of {} carry no "
+                    "moment about their normal",
+                    soft),
+        "Use newton, staggered_projections or stewart_trinkle, or leave out torsion_radius_mm.");
+}
+
+void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    const int object = plan.scene.object_index();
+    if (object < 0 || plan.scene.fingers.size() < 2) return;
+    const double weight =
+        scene::mass(plan.scene.bodies[static_cast<size_t>(object)]) * plan.scene.gravity.norm();
+    double force = 0;
+    for (int i = 0; i < devices.size(); ++i) force += devices.info(i).peak_force;
+    if (weight <= force) return;
+    diagnostics.warning(
+        plan.scene.bodies[static_cast<size_t>(object)].place,
+        plan.scene.bodies[static_cast<size_t>(object)].name,
+        fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
+        "Make it lighter: it cannot be felt as it is.");
+}
+
+/// A field on a handle that the loop cannot hold calmly: as a coupling's stiffness and damping.
+void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    double stiffness = 0;
+    double damping = 0;
+    int stiffest = 0;
+    int most_damped = 0;
+    for (const TaskPlan::Cell& cell : plan.task->cells) {
+        for (const Perturbation& perturbation : cell.perturbations) {
+            const auto field = perturbation.on_handle();
+            if (field && field->stiffness > stiffness) {
+                stiffness = field->stiffness;
+                stiffest = field->finger;
+            }
+            if (field && std::abs(field->damping) > damping) {
+                damping = std::abs(field->damping);
+                most_damped = field->finger;
+            }
+        }
+    }
+    const auto period = [&](const devices::DeviceInfo& info) {
+        return plan.settings.tick() + 2 * info.delay;
+    };
+    const devices::DeviceInfo& stiff = devices.info(stiffest);
+    if (const double limit = model::passive_stiffness(stiff.damping, period(stiff));
+        stiff.damping > 0 && stiffness > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "stiffness",
+            fmt::format("a channel of {:g} N/m is above {:.0f} N/m (2 b / T), up to which the "
+                        "hand's damping of {:g} N*s/m surely keeps {} calm",
+                        stiffness, limit, stiff.damping, stiff.model),
+            "Lower it, or look whether the handle shakes.");
+    }
+    const devices::DeviceInfo& damped = devices.info(most_damped);
+    if (const double limit = 2 * damped.mass / period(damped); damped.mass > 0 && damping > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "damping",
+            fmt::format("a field of {:g} N*s/m is more than a handle of {:g} g can bear: about "
+                        "{:.0f} N*s/m (2 m / T)",
+                        damping, damped.mass * 1e3, limit),
+            "Lower it.");
+    }
+}
+
+}  // namespace
+
+void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
+    check_dead_man(plan, diagnostics);
+    diagnostics.throw_if_errors();
+    // made once to see what the devices can do; the session makes its own
+    const auto devices = make_servo(plan);
+    resolve_shares(plan, devices->devices(), diagnostics);
+    check_stiffness(plan, devices->devices(), diagnostics);
+    check_damping(plan, devices->devices(), diagnostics);
+    check_limits(plan, devices->devices(), diagnostics);
+    check_proxy(plan, diagnostics);
+    check_torsion(plan, diagnostics);
+    check_grip(plan, devices->devices(), diagnostics);
+    check_fields(plan, devices->devices(), diagnostics);
+    diagnostics.throw_if_errors();
+    plan.warnings = diagnostics.problems();
+}
+
+}  // namespace dihaptic::experiment
