@@ -8,6 +8,9 @@ namespace {
 
 /// A point this near to a surface is on it, after solvers as well [m].
 constexpr double kTouching = 1e-6;
+/// Further than so many times of how deep it is in surfaces, a point is not moved out of them after
+/// a step: it would slip out between two that the step pinches it with.
+constexpr double kMostSlip = 10;
 /// A way that need not be gone [m].
 constexpr double kNoWay = 1e-10;
 /// Moves in a tick. A few are usual, some dozens where a round body is pressed nearly to its
@@ -85,6 +88,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         if (p_S.norm() - kTouching > surface.reach()) continue;
         if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
+    const size_t on = met_count_;
     // the rest is found by going there, and coming back
     const Vec3 p = p_;
     push_out(p, coming_);
@@ -100,8 +104,8 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         const Vec3 p_S = in_surface(out.surface, p_);
         out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
         out.gap = surface.distance(out.face, p_S);
-        // behind it, the face is met on a way around: later
-        if (out.gap >= -kTouching) met_[kept++] = out;
+        // behind a face that it is not on, it is met on a way around: later
+        if (i < on || out.gap >= -kTouching) met_[kept++] = out;
     }
     met_count_ = kept;
     return {met_.data(), met_count_};
@@ -111,7 +115,8 @@ void GodObject::move(const Vec3& p_W, std::span<const dynamics::BodyState> bodie
     const Vec3 start = p_;
     p_ = p_W;
     count_ = 0;
-    push_out(start, bodies);
+    const double depth = push_out(start, bodies);
+    if ((p_ - p_W).norm() > kMostSlip * depth) p_ = p_W;
     leave_insides();
 }
 
@@ -160,8 +165,10 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     return weight > 0 ? Vec3(p_ + sum / weight) : p_;
 }
 
-/// X_WS_ goes from the last tick's poses to this one's.
-void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept {
+/// X_WS_ goes from the last tick's poses to this one's. Returns how deep the point was in what it
+/// was pushed out of [m].
+double GodObject::push_out(const Vec3& start,
+                           std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
     std::array<size_t, kMostHalfSpaces> surface_of{};
@@ -199,6 +206,10 @@ void GodObject::push_out(const Vec3& start, std::span<const dynamics::BodyState>
         }
     }
     for (size_t i = 0; i < parts_.size(); ++i) X_WS_[i] = pose(i, bodies);
+    const auto bounds = walls.b.begin();
+    return walls.count == 0
+               ? 0
+               : *std::max_element(bounds, bounds + static_cast<std::ptrdiff_t>(walls.count));
 }
 
 /// No path goes further from the handle than it starts: bodies beyond play no part.

@@ -74,8 +74,8 @@ class GodObject {
     std::span<const Obstacle> obstacles(const Vec3& p_W,
                                         std::span<const dynamics::BodyState> bodies,
                                         double h) noexcept;
-    /// One tick: the bodies are where `bodies` says, and the point goes straight to `p_W` but for
-    /// what is in the way.
+    /// One tick: the bodies are where `bodies` says, and the point goes straight to `p_W`, where a
+    /// step of the world put it, but for what is in the way.
     void move(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept;
     /// Toward the handle, along surfaces without friction, among bodies that stay where they are.
     void slide(const Vec3& p_WH) noexcept;
@@ -93,7 +93,7 @@ class GodObject {
 
   private:
     Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
-    void push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
+    double push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
     void pull(const Vec3& p_WH, bool rubs) noexcept;
     void leave_insides() noexcept;
     void gather(const Vec3& p_WH) noexcept;

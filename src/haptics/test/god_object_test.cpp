@@ -476,5 +476,26 @@ TEST(GodObject, FollowsACompoundAllocatingNothing) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
+/// A step leaves a point a micrometre deep in two bodies that it pinches: it stays there, rather
+/// than slip out between them, millimetres away.
+TEST(Move, LeavesAPointWhereAStepPinchesIt) {
+    Room room;
+    room.skin = kSkin;
+    room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
+    const Quat tilted(Eigen::AngleAxisd(0.002, Vec3::UnitY()));
+    room.add(scene::Shape::box({0.04, 0.04, 0.02}), {tilted, {0, 0, 0.012}});
+    const Vec3 p(0.001, 0, kSkin);
+    room.start(p);
+    // closes down on the point until 1 um is missing
+    const double low = (tilted * Vec3(0, 0, -0.01 - kSkin)).z();
+    room.states[1].X_WB.p.z() = kSkin - 1e-6 - low - p.x() * std::tan(0.002);
+    room.point->move(p, room.states);
+    EXPECT_LT((room.point->position() - p).norm(), 2e-6);
+    // and is still felt of both
+    const auto met = room.point->obstacles(p, room.states, 1e-3);
+    EXPECT_EQ(met.size(), 2u);
+    for (const Obstacle& o : met) EXPECT_NEAR(std::abs(o.n_W.z()), 1, 1e-5);
+}
+
 }  // namespace
 }  // namespace dihaptic::haptics
