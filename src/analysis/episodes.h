@@ -53,7 +53,8 @@ struct Episode {
 struct ObjectFacts {
     double mass = Episode::kNone;  ///< [kg]
     Vec3 gravity = Vec3::Constant(Episode::kNone);
-    std::vector<double> friction;  ///< between the object and each body of the scene
+    std::vector<double> friction;         ///< between the object and each body of the scene
+    std::vector<double> finger_friction;  ///< and each finger
 };
 
 /// In order of time. What lasts less than 20 ms is none.

@@ -25,6 +25,11 @@ void GraspTrace::add(const servo::Frame& frame) {
     sample.v_WB.setZero();
     sample.awake = false;
     sample.touching.assign(n, false);
+    sample.normal_force.assign(n, 0);
+    sample.f_tangential_W.assign(n, Vec3::Zero());
+    for (const servo::PropertiesFrame& properties : frame.task.properties) {
+        if (properties.body == object_) sample.friction_scale = properties.friction_scale;
+    }
     sample.torque = frame.turns.empty() ? servo::kUnmeasured : 0;
     for (const servo::TurnFrame& turn : frame.turns)
         sample.torque = std::max(sample.torque, turn.t_sent_W.norm());
@@ -56,7 +61,11 @@ void GraspTrace::add(const servo::Frame& frame) {
             const Vec3 v = velocity(object_) - velocity(other);
             sample.v_sliding = v - v.dot(sample.n_support) * sample.n_support;
         } else {
-            sample.touching[static_cast<size_t>(other - first_proxy)] = true;
+            const auto finger = static_cast<size_t>(other - first_proxy);
+            sample.touching[finger] = true;
+            sample.normal_force[finger] += contact.normal_force;
+            const Vec3 f_W = contact.b == other ? contact.f_B_W : Vec3(-contact.f_B_W);
+            sample.f_tangential_W[finger] += f_W - f_W.dot(contact.n_W) * contact.n_W;
         }
     }
     samples_.push_back(std::move(sample));

@@ -40,6 +40,10 @@ class GraspTrace {
         std::vector<Vec3> f_sent_W;  ///< on the handle
         double torque;               ///< largest on any handle; NaN without orientation [N*m]
         std::vector<char> touching;  ///< presses the object
+        // of what each finger and the object do to each other
+        std::vector<double> normal_force;  ///< [N]
+        std::vector<Vec3> f_tangential_W;  ///< on the finger [N]
+        double friction_scale = 1;         ///< of the object's coefficients, over the scene's
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }

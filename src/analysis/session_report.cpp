@@ -14,6 +14,7 @@
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
+#include "analysis/lifts.h"
 #include "analysis/trials.h"
 #include "base/plural.h"
 #include "recording/nwb.h"
@@ -33,6 +34,7 @@ struct Reading {
     std::vector<Event> events;
     Table fault;
     std::optional<TrialFinder> trials;  ///< of a task
+    std::vector<Lift> lifts;
 };
 
 PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -74,6 +76,10 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
             facts.friction.push_back(scene::pair_friction(scene, object.name, object.friction,
                                                           body.name, body.friction));
         }
+        for (const scene::Finger& finger : scene.fingers) {
+            facts.finger_friction.push_back(scene::pair_friction(
+                scene, object.name, object.friction, finger.name, finger.friction));
+        }
         return facts;
     } catch (const Error&) {
         return {};
@@ -108,6 +114,13 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         if (object >= 0 && !trace.samples().empty()) {
             const std::vector<Episode> episodes = find_episodes(trace, facts);
             figures.episodes.insert(figures.episodes.end(), episodes.begin(), episodes.end());
+            // a task's phase 0 is between its trials
+            if (trace.fingers() > 1 && !(out.trials && phase == 0)) {
+                Lift lift = find_lift(trace, facts.gravity, facts.finger_friction);
+                lift.trial = trial;
+                lift.attempt = std::max(attempt, 1);
+                out.lifts.push_back(std::move(lift));
+            }
         }
         trace = GraspTrace(object, log.head().tick);
     };
@@ -121,7 +134,8 @@ Reading read(const recording::SessionFolder& folder, const recording::SessionInf
         figures.phases.push_back(figure);
     };
     while (const servo::Frame* frame = log.next()) {
-        const bool next_trial = frame->trial != trial || frame->task.attempt != attempt;
+        const bool next_trial = frame->trial != trial || frame->task.attempt != attempt ||
+                                (out.trials && phase == 0 && frame->phase != 0);
         if (frame->phase != phase || next_trial) {
             close_phase();
             if (next_trial) end_trial();  // objects are put back
@@ -285,6 +299,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
     const std::pair<const char*, const char*> tables[] = {{"trials.csv", "stop_time"},
                                                           {"phases.csv", "stop_time"},
                                                           {"episodes.csv", "stop_time"},
+                                                          {"lifts.csv", "release_s"},
                                                           {"events.csv", "time_s"}};
     for (const auto& [name, column] : tables) {
         // it also has the times of the sessions that this one goes on with
@@ -363,6 +378,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
     write_csv(episode_table(figures), folder.file("episodes.csv"));
+    if (!reading.lifts.empty()) write_csv(lift_table(reading.lifts), folder.file("lifts.csv"));
     write_csv(event_table(reading.events), folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.write_info(info);

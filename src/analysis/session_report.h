@@ -1,5 +1,5 @@
-// From raw.log to what a lab reads: trials.csv, phases.csv, episodes.csv, events.csv and
-// session.nwb. A session that ended and one that was killed go the same way.
+// From raw.log to what a lab reads: trials.csv, phases.csv, episodes.csv, lifts.csv,
+// events.csv and session.nwb. A session that ended and one that was killed go the same way.
 #pragma once
 
 #include <bit>
@@ -58,10 +58,10 @@ struct SessionFigures {
 /// "thumb, index"
 std::string finger_list(const Episode& episode, const std::vector<std::string>& names);
 
-/// Writes session.nwb, trials.csv, phases.csv, episodes.csv, events.csv and, after a fault,
-/// fault.csv; at last session.yaml with `info`, whose state they have then; it is `recovered` when
-/// the log is damaged.
-/// Throws Error when it cannot, or when those that are there tell of more than the log does now.
+/// Writes session.nwb, trials.csv, phases.csv, episodes.csv, lifts.csv, events.csv and, after a
+/// fault, fault.csv; at last session.yaml with `info`, whose state they have then; it is
+/// `recovered` when the log is damaged. Throws Error when it cannot, or when those that are there
+/// tell of more than the log does now.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
 

@@ -1,0 +1,375 @@
+#include "analysis/lifts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "analysis/savitzky_golay.h"
+#include "model/grasp.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kWindow = 0.062;      // of rates [s]
+constexpr double kQuiet = 0.1;         // before anything happens [s]
+constexpr double kLeastHeight = 0.01;  // of a lift [m]
+constexpr double kRising = 0.01;       // [m/s]
+constexpr double kSinking = -0.02;     // [m/s]
+constexpr double kLoaded = 0.2;        // [N]
+constexpr double kLagMost = 0.1;       // [s]
+constexpr double kSlipSpeed = 5e-3;    // [m/s]
+constexpr double kLeastRate = 0.2;     // without noise the quiet window has no spread [N/s]
+
+using Signal = std::vector<double>;
+
+double mean(std::span<const double> x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
+double spread(std::span<const double> x) {
+    const double centre = mean(x);
+    double sum = 0;
+    for (const double value : x) sum += (value - centre) * (value - centre);
+    return std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+std::span<const double> part(const Signal& x, Range range) {
+    return std::span(x).subspan(range.first, range.size());
+}
+
+/// Pearson's r of x with y shifted by `lag` samples, over a range of x.
+double correlation(const Signal& x, const Signal& y, Range range, int lag) {
+    double xy = 0;
+    double xx = 0;
+    double yy = 0;
+    const auto shifted = [&](size_t i) {
+        const auto at = std::clamp<int64_t>(static_cast<int64_t>(i) + lag, 0,
+                                            static_cast<int64_t>(y.size()) - 1);
+        return y[static_cast<size_t>(at)];
+    };
+    double mean_y = 0;
+    for (size_t i = range.first; i < range.last; ++i)
+        mean_y += shifted(i) / static_cast<double>(range.size());
+    const double mean_x = mean(part(x, range));
+    for (size_t i = range.first; i < range.last; ++i) {
+        const double dx = x[i] - mean_x;
+        const double dy = shifted(i) - mean_y;
+        xy += dx * dy;
+        xx += dx * dx;
+        yy += dy * dy;
+    }
+    return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : Lift::kNone;
+}
+
+/// The attempt's signals, sample by sample.
+struct Signals {
+    explicit Signals(const GraspTrace& trace, const Vec3& gravity) : tick(trace.tick()) {
+        const Vec3 down = gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
+        const size_t n = trace.fingers();
+        digit_grip.resize(n);
+        digit_load.resize(n);
+        for (const GraspTrace::Sample& s : trace.samples()) {
+            double sum_grip = 0;
+            double sum_load = 0;
+            for (size_t f = 0; f < n; ++f) {
+                digit_grip[f].push_back(s.normal_force[f]);
+                digit_load[f].push_back(s.f_tangential_W[f].dot(down));
+                sum_grip += digit_grip[f].back();
+                sum_load += digit_load[f].back();
+            }
+            grip.push_back(sum_grip / static_cast<double>(n));
+            load.push_back(sum_load);
+            height.push_back(-down.dot(s.X_WB.p));
+            rise.push_back(-down.dot(s.v_WB));
+        }
+        const double rest = height.front();
+        for (double& h : height) h -= rest;
+    }
+    size_t size() const { return grip.size(); }
+    size_t samples(double time) const { return static_cast<size_t>(std::round(time / tick)); }
+
+    double tick;
+    Signal grip, load;                           // [N]
+    Signal height, rise;                         // above where the object lay [m], [m/s]
+    std::vector<Signal> digit_grip, digit_load;  // by finger [N]
+};
+
+/// The threshold that a rate crosses when something happens.
+double threshold(const Signals& signals, const Signal& rate) {
+    const auto quiet = std::span(rate).first(std::min(rate.size(), signals.samples(kQuiet)));
+    return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
+}
+
+/// When a digit touches, and when it lets go after `replaced`; none: it does not.
+std::optional<size_t> touch(const Signals& signals, const Signal& force) {
+    const auto largest = std::max_element(force.begin(), force.end());
+    if (*largest <= 0) return std::nullopt;
+    const Signal rate = savitzky_golay(force, signals.tick, kWindow, 1);
+    const double limit = threshold(signals, rate);
+    auto i = static_cast<size_t>(
+        std::find_if(force.begin(), force.end(), [&](double f) { return f >= *largest / 4; }) -
+        force.begin());
+    while (i > 0 && rate[i] > limit) --i;
+    return i;
+}
+
+std::optional<size_t> release(const Signals& signals, const Signal& force, size_t replaced) {
+    const Signal rate = savitzky_golay(force, signals.tick, kWindow, 1);
+    const double limit = threshold(signals, rate);
+    size_t i = replaced;
+    while (i < force.size() && force[i] > force[replaced] / 4) ++i;
+    while (i < force.size() && rate[i] < -limit) ++i;
+    if (i == force.size()) return std::nullopt;
+    return i;
+}
+
+std::optional<size_t> load_onset(const Signals& signals, const Signal& load, size_t touched) {
+    size_t i = touched;
+    while (i < load.size() && load[i] <= kLoaded) ++i;
+    if (i == load.size()) return std::nullopt;
+    const Signal bend = savitzky_golay(load, signals.tick, kWindow, 2);
+    while (i > touched && bend[i] > 0) --i;
+    return i;
+}
+
+/// How often, and how far at most, digits slid on the object.
+void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
+    lift.slip = 0;
+    for (size_t f = 0; f < trace.fingers(); ++f) {
+        lift.slip = std::max(lift.slip, trace.slip(range, f));
+        Signal speed(range.size(), 0);
+        for (size_t i = range.first + 1; i < range.last; ++i) {
+            const auto place = [&](size_t at) {
+                const GraspTrace::Sample& s = trace.samples()[at];
+                return Vec3(s.X_WB.inverse() * s.p_WP[f]);
+            };
+            speed[i - range.first] = (place(i) - place(i - 1)).norm() / trace.tick();
+        }
+        bool slid = false;
+        for (size_t i = 0; i < speed.size(); ++i) {
+            const bool slides =
+                speed[i] > kSlipSpeed && trace.samples()[range.first + i].touching[f];
+            lift.slips += slides && !slid;
+            slid = slides;
+        }
+    }
+}
+
+/// What the digits did while they loaded the object.
+void find_coupling(Lift& lift, const Signals& signals, const Signal& grip_rate,
+                   const Signal& load_rate, Range loading) {
+    if (loading.size() < signals.samples(0.02)) return;
+    lift.coupling = correlation(load_rate, grip_rate, loading, 0);
+    const auto most = static_cast<int>(signals.samples(kLagMost));
+    for (int lag = -most; lag <= most; ++lag) {
+        const double r = correlation(load_rate, grip_rate, loading, lag);
+        if (!(r <= lift.coupling_peak)) {
+            lift.coupling_peak = r;
+            lift.coupling_lag = lag * signals.tick;
+        }
+    }
+    const auto grip = part(signals.grip, loading);
+    const auto load = part(signals.load, loading);
+    const double mean_grip = mean(grip);
+    const double mean_load = mean(load);
+    double xy = 0;
+    double xx = 0;
+    for (size_t i = 0; i < grip.size(); ++i) {
+        xy += (load[i] - mean_load) * (grip[i] - mean_grip);
+        xx += (load[i] - mean_load) * (load[i] - mean_load);
+    }
+    if (xx <= 0) return;
+    lift.slope = xy / xx;
+    lift.offset = mean_grip - lift.slope * mean_load;
+}
+
+/// Load over grip at which the digits slip together: the sum of their coefficients over their
+/// number, for the mean grip.
+double friction_of(const GraspTrace::Sample& sample, std::span<const double> friction) {
+    double sum = 0;
+    int count = 0;
+    for (size_t f = 0; f < friction.size() && f < sample.touching.size(); ++f) {
+        if (!sample.touching[f]) continue;
+        sum += sample.friction_scale * friction[f];
+        ++count;
+    }
+    return count > 0 ? sum / count : Lift::kNone;
+}
+
+}  // namespace
+
+Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction) {
+    Lift lift;
+    lift.mark = "no touch";
+    if (trace.samples().empty() || trace.fingers() == 0) return lift;
+    const Signals signals(trace, gravity);
+    const auto time = [&](size_t i) { return trace.samples()[i].time; };
+
+    std::optional<size_t> touched;
+    std::vector<size_t> onsets;
+    for (size_t f = 0; f < trace.fingers(); ++f) {
+        const auto at = touch(signals, signals.digit_grip[f]);
+        if (!at) continue;
+        touched = std::min(touched.value_or(*at), *at);
+        if (const auto onset = load_onset(signals, signals.digit_load[f], *at))
+            onsets.push_back(*onset);
+    }
+    if (!touched) return lift;
+    lift.touch = time(*touched);
+
+    lift.mark = "not lifted";
+    const auto top = std::max_element(signals.height.begin(), signals.height.end());
+    if (*top < kLeastHeight) return lift;
+    const auto high = [&](double h) { return h >= *top / 2; };
+    auto lifted = static_cast<size_t>(
+        std::find_if(signals.height.begin(), signals.height.end(), high) - signals.height.begin());
+    while (lifted > 0 && signals.rise[lifted] > kRising) --lifted;
+    lift.lift_off = time(lifted);
+    lift.lift_off_grip = signals.grip[lifted];
+    if (!onsets.empty()) {
+        std::erase_if(onsets, [&](size_t i) { return i > lifted; });
+        std::sort(onsets.begin(), onsets.end());
+    }
+    if (!onsets.empty()) {
+        lift.load_onset = time(onsets.front());
+        lift.preload = lift.load_onset - lift.touch;
+        lift.loading = lift.lift_off - time(onsets.back());
+    }
+
+    const size_t last_high =
+        signals.size() - 1 -
+        static_cast<size_t>(std::find_if(signals.height.rbegin(), signals.height.rend(), high) -
+                            signals.height.rbegin());
+    size_t lowered = last_high;
+    while (lowered > lifted && signals.rise[lowered] < kSinking) --lowered;
+    const Range up{*touched, lowered + 1};
+    const auto up_grip = part(signals.grip, up);
+    const auto peak = std::max_element(up_grip.begin(), up_grip.end());
+    lift.peak_grip = *peak;
+    lift.peak_grip_time =
+        time(up.first + static_cast<size_t>(peak - up_grip.begin())) - lift.lift_off;
+    const auto up_load = part(signals.load, up);
+    lift.peak_load = *std::max_element(up_load.begin(), up_load.end());
+    const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
+    const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
+    const Range before{*touched, lifted + 1};
+    const auto largest = [&](const Signal& rate) {
+        const auto range = part(rate, before);
+        return *std::max_element(range.begin(), range.end());
+    };
+    lift.peak_grip_rate = largest(grip_rate);
+    lift.peak_load_rate = largest(load_rate);
+    if (!onsets.empty())
+        find_coupling(lift, signals, grip_rate, load_rate, {onsets.front(), lifted + 1});
+    find_slips(lift, trace, {lifted, lowered + 1});
+
+    const size_t early = signals.samples(0.6);
+    const size_t late = signals.samples(0.2);
+    const bool holds = lowered >= lifted + early;
+    if (holds) {
+        const Range hold{lowered - early, lowered - late};
+        lift.static_grip = mean(part(signals.grip, hold));
+        lift.static_load = mean(part(signals.load, hold));
+        if (lift.static_load > kLoaded) lift.static_ratio = lift.static_grip / lift.static_load;
+        const double mu = friction_of(trace.samples()[hold.first], friction);
+        if (lift.static_load > kLoaded && mu > 0)
+            lift.safety_margin = model::safety_margin(lift.static_grip, lift.static_load, mu);
+        lift.height = mean(part(signals.height, hold));
+        lift.overshoot = *top - lift.height;
+    }
+
+    size_t replaced = last_high;
+    while (replaced < signals.size() && signals.rise[replaced] < kSinking) ++replaced;
+    const auto touches = [&](size_t i) {
+        const auto& touching = trace.samples()[i].touching;
+        return std::any_of(touching.begin(), touching.end(), [](char t) { return t; });
+    };
+    lift.mark = "not put down";
+    if (replaced == signals.size() || signals.height[replaced] > *top / 2) return lift;
+    lift.replacement = time(replaced);
+    lift.mark = "dropped";
+    for (size_t i = lifted; i < replaced; ++i) {
+        if (!touches(i)) return lift;
+    }
+    lift.mark = "not released";
+    size_t released = replaced;
+    for (const Signal& force : signals.digit_grip) {
+        const auto at = release(signals, force, replaced);
+        if (!at) return lift;
+        released = std::max(released, *at);
+    }
+    lift.release = time(released);
+    lift.releasing = lift.release - lift.replacement;
+    lift.mark = holds ? "complete" : "no hold";
+    return lift;
+}
+
+Table lift_table(std::span<const Lift> lifts) {
+    Table table;
+    table.columns = {{"trial_num", "number in the session, from 1"},
+                     {"attempt", "of the trial, from 1"},
+                     {"lift", "complete, or what is not there"},
+                     {"touch_s", "first digit"},
+                     {"load_onset_s", "first digit"},
+                     {"lift_off_s", ""},
+                     {"replacement_s", ""},
+                     {"release_s", "last digit"},
+                     {"preload_s", "touch to load onset"},
+                     {"loading_s", "last digit's load onset to lift-off"},
+                     {"releasing_s", "replacement to release"},
+                     {"peak_grip_N", "mean of the digits"},
+                     {"peak_grip_time_s", "from lift-off"},
+                     {"peak_load_N", "sum of the digits"},
+                     {"peak_grip_rate_N_s", "before lift-off"},
+                     {"peak_load_rate_N_s", "before lift-off"},
+                     {"lift_off_grip_N", ""},
+                     {"static_grip_N", "600 to 200 ms before lowering"},
+                     {"static_load_N", "the same"},
+                     {"static_ratio", "grip over load"},
+                     {"safety_margin", "share of the grip beyond what friction needs"},
+                     {"coupling", "r of the rates of grip and load while loading"},
+                     {"coupling_peak", "with the grip shifted by up to 100 ms"},
+                     {"coupling_lag_s", "that shift; positive: grip follows load"},
+                     {"slope", "grip over load while loading"},
+                     {"offset_N", "of that line"},
+                     {"height_mm", "in the hold"},
+                     {"overshoot_mm", "largest height beyond that"},
+                     {"slip_mm", "largest of a digit from lift-off to lowering"},
+                     {"slips", "times that a digit slid faster than 5 mm/s"}};
+    for (const Lift& l : lifts) {
+        table.rows.push_back({static_cast<double>(l.trial),
+                              static_cast<double>(l.attempt),
+                              l.mark,
+                              l.touch,
+                              l.load_onset,
+                              l.lift_off,
+                              l.replacement,
+                              l.release,
+                              l.preload,
+                              l.loading,
+                              l.releasing,
+                              l.peak_grip,
+                              l.peak_grip_time,
+                              l.peak_load,
+                              l.peak_grip_rate,
+                              l.peak_load_rate,
+                              l.lift_off_grip,
+                              l.static_grip,
+                              l.static_load,
+                              l.static_ratio,
+                              l.safety_margin,
+                              l.coupling,
+                              l.coupling_peak,
+                              l.coupling_lag,
+                              l.slope,
+                              l.offset,
+                              l.height * 1e3,
+                              l.overshoot * 1e3,
+                              l.slip * 1e3,
+                              static_cast<double>(l.slips)});
+    }
+    return table;
+}
+
+}  // namespace dihaptic::analysis

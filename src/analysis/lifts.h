@@ -1,0 +1,76 @@
+// A grip-lift: reach, touch, preload, loading, lift-off, hold, replacement, release (Johansson and
+// Westling 1984), found by the rules of the WAY-EEG-GAL data set (Luciw, Jarocka and Edin 2014).
+// Grip force GF is the mean of the digits' normal forces, load force LF the sum of their tangential
+// forces against gravity; rates are derivatives of cubics over 62 ms.
+//
+// lift-off      from half of the height back to where the object rose by 1 cm/s or less
+// replacement   from the last time at half of the height on to where it sinks by 2 cm/s or less
+// touch         of a digit: from a quarter of its largest force back to where the force's rate is
+//               no more than mean + 4 SD of the trial's first 100 ms
+// load onset    of a digit: from 0.2 N back to where the load's rate began to grow
+// hold          from 600 to 200 ms before the object is lowered
+// release       of a digit: from a quarter of its force at replacement on, as touch
+//
+// preload is from the first touch to the first load onset, loading from the last load onset to
+// lift-off, release from replacement to the last digit's.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/episodes.h"
+#include "analysis/grasp_trace.h"
+#include "base/table.h"
+
+namespace dihaptic::analysis {
+
+/// What there was no event for is NaN.
+struct Lift {
+    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+    int trial = 0;
+    int attempt = 0;
+    /// complete, or what is not there: no touch, not lifted, dropped, no hold, not put down, not
+    /// released.
+    std::string mark;
+    double touch = kNone;  ///< by the first digit; all times in the session [s]
+    double load_onset = kNone;
+    double lift_off = kNone;
+    double replacement = kNone;
+    double release = kNone;  ///< by the last digit
+
+    double preload = kNone;  ///< durations [s]
+    double loading = kNone;
+    double releasing = kNone;
+    double peak_grip = kNone;       ///< between touch and the object's lowering [N]
+    double peak_grip_time = kNone;  ///< from lift-off [s]
+    double peak_load = kNone;       ///< [N]
+    double peak_grip_rate = kNone;  ///< between touch and lift-off [N/s]
+    double peak_load_rate = kNone;  ///< [N/s]
+    double lift_off_grip = kNone;   ///< [N]
+    double static_grip = kNone;     ///< mean in the hold [N]
+    double static_load = kNone;
+    double static_ratio = kNone;   ///< grip over load
+    double safety_margin = kNone;  ///< share of the static grip beyond what friction needs
+    double coupling = kNone;       ///< r of the rates of grip and load from load onset to lift-off
+    double coupling_peak = kNone;  ///< largest r with the grip shifted by up to 100 ms
+    double coupling_lag = kNone;   ///< that shift: positive where grip follows load [s]
+    double slope = kNone;          ///< grip over load while loading
+    double offset = kNone;         ///< [N]
+    double height = kNone;         ///< mean in the hold, above where it lay [m]
+    double overshoot = kNone;      ///< of the largest height beyond that [m]
+    double slip = kNone;           ///< largest of a digit, on the object, lift-off to lowering [m]
+    int slips = 0;                 ///< times that a digit slid on the object faster than 5 mm/s
+
+    bool complete() const { return mark == "complete"; }
+};
+
+/// The lift in the trace of one attempt, whose object lies at first. `friction`: of the object with
+/// each finger.
+Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction);
+
+Table lift_table(std::span<const Lift> lifts);
+
+}  // namespace dihaptic::analysis

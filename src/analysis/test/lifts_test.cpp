@@ -1,0 +1,190 @@
+// Grip-lifts, on signals whose events are known: ramps of half a cosine.
+#include "analysis/lifts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "analysis/savitzky_golay.h"
+#include "base/random.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kTick = 1e-3;
+constexpr double kFriction = 0.7;
+const Vec3 kGravity(0, 0, -9.81);
+
+TEST(SavitzkyGolay, HasTheDerivativesOfACubicToItsEnds) {
+    std::vector<double> y;
+    const auto cubic = [](double t) { return 1 + 2 * t - 3 * t * t + 4 * t * t * t; };
+    for (int i = 0; i < 200; ++i) y.push_back(cubic(i * kTick));
+    for (int i = 0; i < 200; ++i) {
+        const double t = i * kTick;
+        const auto k = static_cast<size_t>(i);
+        EXPECT_NEAR(savitzky_golay(y, kTick, 0.062, 0)[k], cubic(t), 1e-12);
+        EXPECT_NEAR(savitzky_golay(y, kTick, 0.062, 1)[k], 2 - 6 * t + 12 * t * t, 1e-9);
+        EXPECT_NEAR(savitzky_golay(y, kTick, 0.062, 2)[k], -6 + 24 * t, 1e-6);
+    }
+    EXPECT_EQ(savitzky_golay(std::vector<double>(10, 1.0), kTick, 0.062, 1),
+              std::vector<double>(10, 0.0));
+}
+
+/// From 0 to 1 between two times.
+double ramp(double t, double from, double to) {
+    if (t <= from) return 0;
+    if (t >= to) return 1;
+    return (1 - std::cos(std::numbers::pi * (t - from) / (to - from))) / 2;
+}
+
+struct Plan {
+    double touch = 0.5, onset = 0.6, lift_off = 0.9, lower = 3, replaced = 3.5, let_go = 3.8;
+    double grip = 4, weight = 4, height = 0.05;
+    double noise = 0;       // of each digit's forces [N]
+    double lag = 0;         // of grip after load
+    double slides_at = -1;  // for 20 ms, at 50 mm/s
+    bool falls = false;
+};
+
+Lift lift_of(const Plan& plan, uint64_t seed = 1) {
+    GraspTrace trace(1, kTick);
+    Random random(seed, "noise");
+    double slid = 0;
+    for (int i = 0; i < 4500; ++i) {
+        const double t = i * kTick;
+        servo::Frame frame;
+        frame.time = i * std::chrono::milliseconds(1);
+        frame.bodies.resize(2);
+        frame.fingers.resize(2);
+        // grip and load rise to their ends together while loading
+        const double down = ramp(t, plan.replaced, plan.let_go);
+        const double grip = (0.25 * ramp(t, plan.touch, plan.onset + plan.lag) +
+                             0.75 * ramp(t, plan.onset + plan.lag, plan.lift_off + plan.lag)) *
+                            plan.grip * (1 - down);
+        const double load = ramp(t, plan.onset, plan.lift_off) * plan.weight * (1 - down);
+        const bool fell = plan.falls && t > 2;
+        double h = plan.height * (ramp(t, plan.lift_off, plan.lift_off + 0.4) -
+                                  ramp(t, plan.lower, plan.replaced));
+        double v = (plan.height * (ramp(t + kTick, plan.lift_off, plan.lift_off + 0.4) -
+                                   ramp(t + kTick, plan.lower, plan.replaced)) -
+                    h) /
+                   kTick;
+        if (fell) {
+            h = std::max(0.0, plan.height - 9.81 / 2 * (t - 2) * (t - 2));
+            v = h > 0 ? -9.81 * (t - 2) : 0;
+        }
+        if (plan.slides_at >= 0 && t > plan.slides_at && t <= plan.slides_at + 0.02)
+            slid += 0.05 * kTick;
+        frame.bodies[1].X_WB.p = {0, 0, 0.02 + h};
+        frame.bodies[1].v_WB = {0, 0, v};
+        for (int f = 0; f < 2; ++f) {
+            const double side = f == 0 ? -1 : 1;
+            frame.fingers[static_cast<size_t>(f)].p_WP = {0.02 * side, 0, 0.02 + h + slid};
+            if (fell) continue;
+            const double n = grip + plan.noise * random.normal();
+            if (n <= 0) continue;
+            servo::ContactFrame& contact = frame.contacts.emplace_back();
+            contact.a = 1;
+            contact.b = 2 + f;
+            contact.n_W = {side, 0, 0};
+            contact.normal_force = n;
+            // on the finger: the object pulls it down
+            contact.f_B_W = {side * n, 0, -load / 2 + plan.noise * random.normal()};
+        }
+        trace.add(frame);
+    }
+    const double friction[] = {kFriction, kFriction};
+    return find_lift(trace, kGravity, friction);
+}
+
+TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
+    const Plan plan;
+    const Lift lift = lift_of(plan);
+    EXPECT_EQ(lift.mark, "complete");
+    // rates are smoothed over 62 ms: half of it is how early what starts from nothing is seen
+    EXPECT_NEAR(lift.touch, plan.touch, 0.032);
+    EXPECT_NEAR(lift.load_onset, plan.onset, 0.032);
+    EXPECT_NEAR(lift.preload, 0.1, 0.032);
+    EXPECT_NEAR(lift.lift_off, plan.lift_off, 0.03);
+    EXPECT_NEAR(lift.loading, 0.3, 0.06);
+    EXPECT_NEAR(lift.replacement, plan.replaced, 0.05);
+    EXPECT_NEAR(lift.release, plan.let_go, 0.04);
+    EXPECT_NEAR(lift.static_grip, 4, 1e-9);
+    EXPECT_NEAR(lift.static_load, 4, 1e-9);
+    EXPECT_NEAR(lift.static_ratio, 1, 1e-9);
+    EXPECT_NEAR(lift.safety_margin, 1 - 1 / (2 * kFriction), 1e-9);
+    EXPECT_NEAR(lift.peak_grip, 4, 1e-6);
+    EXPECT_NEAR(lift.peak_load, 4, 1e-6);
+    // half a cosine rises by pi / 2 over its mean rate
+    EXPECT_NEAR(lift.peak_load_rate, std::numbers::pi / 2 * 4 / 0.3, 0.5);
+    EXPECT_NEAR(lift.peak_grip_rate, std::numbers::pi / 2 * 3 / 0.3, 0.5);
+    EXPECT_NEAR(lift.height, 0.05, 1e-9);
+    EXPECT_NEAR(lift.overshoot, 0, 1e-9);
+    EXPECT_EQ(lift.slips, 0);
+}
+
+TEST(Lifts, GripIsSeenToFollowLoad) {
+    Plan plan;
+    const Lift together = lift_of(plan);
+    // the grip's first rise, in the preload, reaches into the loading's first 31 ms
+    EXPECT_GT(together.coupling, 0.88);
+    EXPECT_NEAR(together.coupling_lag, 0, 0.015);
+    EXPECT_NEAR(together.slope, 0.75, 0.03);
+    plan.lag = 0.04;
+    const Lift late = lift_of(plan);
+    EXPECT_LT(late.coupling, together.coupling);
+    EXPECT_NEAR(late.coupling_lag - together.coupling_lag, 0.04, 0.01);
+    EXPECT_GT(late.coupling_peak, 0.88);
+}
+
+TEST(Lifts, WhatIsNotThereIsMarked) {
+    Plan plan;
+    plan.grip = 0;
+    EXPECT_EQ(lift_of(plan).mark, "no touch");
+    plan = {};
+    plan.height = 0.005;
+    EXPECT_EQ(lift_of(plan).mark, "not lifted");
+    plan = {};
+    plan.lower = 10;
+    plan.replaced = plan.let_go = 11;
+    EXPECT_EQ(lift_of(plan).mark, "not put down");
+    plan = {};
+    plan.let_go = 60;
+    EXPECT_EQ(lift_of(plan).mark, "not released");
+    plan = {};
+    plan.lower = 1.4;
+    plan.replaced = 1.9;
+    EXPECT_EQ(lift_of(plan).mark, "no hold");
+    plan = {};
+    plan.falls = true;
+    EXPECT_EQ(lift_of(plan).mark, "dropped");
+    EXPECT_EQ(find_lift(GraspTrace(1, kTick), kGravity, {}).mark, "no touch");
+}
+
+TEST(Lifts, ASlipIsCounted) {
+    Plan plan;
+    plan.slides_at = 1.5;
+    const Lift lift = lift_of(plan);
+    EXPECT_EQ(lift.slips, 2);  // of both digits
+    EXPECT_NEAR(lift.slip, 1e-3, 1e-4);
+    EXPECT_TRUE(lift.complete());
+}
+
+TEST(Lifts, SurviveNoise) {
+    int complete = 0;
+    for (uint64_t seed = 1; seed <= 40; ++seed) {
+        Plan plan;
+        plan.noise = 0.02;
+        const Lift lift = lift_of(plan, seed);
+        complete += lift.complete();
+        EXPECT_NEAR(lift.touch, plan.touch, 0.04) << seed;
+        EXPECT_NEAR(lift.load_onset, plan.onset, 0.05) << seed;
+        EXPECT_NEAR(lift.lift_off, plan.lift_off, 0.04) << seed;
+    }
+    EXPECT_GE(complete, 38);
+}
+
+}  // namespace
+}  // namespace dihaptic::analysis
