@@ -40,7 +40,8 @@ class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
-                    ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"]]
+                    ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
+                    ["report"], ["resume"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)

@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
     cli::add_tune(app);
     cli::add_picture(app);
     cli::add_video(app);
+    cli::add_report(app);
     cli::add_gui(app);
     try {
         refuse_unknown_command(app, argc, argv);

@@ -2,13 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 
 #include "base/diagnostics.h"
 #include "base/text_file.h"
 
 namespace dihaptic {
+
+Table transposed(const Table& table) {
+    Table out;
+    if (table.columns.empty()) return out;
+    out.columns.push_back({table.columns[0].name, ""});
+    for (const auto& row : table.rows) {
+        const auto* name = std::get_if<std::string>(&row[0]);
+        out.columns.push_back({name != nullptr ? *name : to_csv(row[0]), ""});
+    }
+    for (size_t c = 1; c < table.columns.size(); ++c) {
+        std::vector<Table::Cell>& row = out.rows.emplace_back();
+        row.emplace_back(table.columns[c].name);
+        for (const auto& from : table.rows) row.push_back(from[c]);
+    }
+    return out;
+}
 
 std::string to_csv(const Table::Cell& cell) {
     if (const double* number = std::get_if<double>(&cell))
@@ -77,6 +96,28 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
         rows.push_back(std::move(row));
     }
     return rows;
+}
+
+CsvFile::CsvFile(const std::string& file) : rows_(read_csv(file)) {
+    if (rows_.empty()) return;
+    header_ = std::move(rows_.front());
+    rows_.erase(rows_.begin());
+}
+
+size_t CsvFile::find(const std::string& column) const {
+    return static_cast<size_t>(std::find(header_.begin(), header_.end(), column) - header_.begin());
+}
+
+std::string CsvFile::text(size_t row, const std::string& column) const {
+    const size_t i = find(column);
+    return i < rows_[row].size() ? rows_[row][i] : "";
+}
+
+double CsvFile::number(size_t row, const std::string& column) const {
+    const std::string cell = text(row, column);
+    char* end = nullptr;
+    const double value = std::strtod(cell.c_str(), &end);
+    return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace dihaptic

@@ -18,6 +18,9 @@ struct Table {
     std::vector<std::vector<Cell>> rows;
 };
 
+/// Rows for columns: what was the first column becomes the header. Descriptions are lost.
+Table transposed(const Table& table);
+
 /// One cell, without a comma's worth of surprise: text is quoted where CSV (RFC 4180) needs it.
 std::string to_csv(const Table::Cell& cell);
 std::string to_csv(const Table& table);
@@ -27,5 +30,25 @@ void write_csv(const Table& table, const std::string& file);
 
 /// Rows of cells, the header first. Throws Error when the file cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
+
+/// A CSV file by the names of its columns. Cells that a short row, or the file, does not have are
+/// empty.
+class CsvFile {
+  public:
+    /// Throws Error when it cannot be read.
+    explicit CsvFile(const std::string& file);
+
+    size_t rows() const { return rows_.size(); }
+    bool has(const std::string& column) const { return find(column) < header_.size(); }
+    std::string text(size_t row, const std::string& column) const;
+    /// NaN where there is no number.
+    double number(size_t row, const std::string& column) const;
+
+  private:
+    size_t find(const std::string& column) const;
+
+    std::vector<std::string> header_;
+    std::vector<std::vector<std::string>> rows_;
+};
 
 }  // namespace dihaptic

@@ -97,6 +97,28 @@ TEST(Ring, CarriesRecordsOfAllSizesBetweenThreadsInOrder) {
     consumer.join();
 }
 
+TEST(Table, ACsvFileIsReadByTheNamesOfItsColumns) {
+    testing::TemporaryFolder folder;
+    const CsvFile csv(folder.write("t.csv", "a,b\n1,x\n2\n"));
+    ASSERT_EQ(csv.rows(), 2u);
+    EXPECT_EQ(csv.number(0, "a"), 1);
+    EXPECT_EQ(csv.text(0, "b"), "x");
+    EXPECT_TRUE(std::isnan(csv.number(0, "b")));
+    EXPECT_EQ(csv.text(1, "b"), "");
+    EXPECT_EQ(csv.text(1, "c"), "");
+    EXPECT_TRUE(csv.has("b"));
+    EXPECT_FALSE(csv.has("c"));
+    EXPECT_EQ(CsvFile(folder.write("none.csv", "")).rows(), 0u);
+    EXPECT_THROW(CsvFile(folder.file("nowhere.csv")), Error);
+}
+
+TEST(Table, TransposedHasTheFirstColumnForItsHeader) {
+    Table table;
+    table.columns = {{"block", "what"}, {"n", "lifts"}};
+    table.rows = {{std::string("a, b"), 1.0}, {std::string("c"), 2.0}};
+    EXPECT_EQ(to_csv(transposed(table)), "block,\"a, b\",c\nn,1,2\n");
+}
+
 TEST(Table, CsvQuotesWhatItMustAndReadsBack) {
     Table table;
     table.columns = {{"a", ""}, {"b", ""}};

@@ -1,0 +1,117 @@
+#include "analysis/adaptation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr size_t kFew = 8;
+
+using Trial = AdaptationCurve::Trial;
+
+/// Compensations of the trials that are meant, in their order.
+template <class Meant>
+std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
+    std::vector<double> out;
+    for (const Trial& trial : trials) {
+        if (meant(trial) && !std::isnan(trial.compensation)) out.push_back(trial.compensation);
+    }
+    return out;
+}
+
+double mean(std::vector<double>::const_iterator first, std::vector<double>::const_iterator last) {
+    double sum = 0;
+    for (auto i = first; i != last; ++i) sum += *i;
+    return first == last ? kNaN : sum / static_cast<double>(last - first);
+}
+
+double mean(const std::vector<double>& x) {
+    return mean(x.begin(), x.end());
+}
+
+double mean_of_first(const std::vector<double>& x, size_t count) {
+    return mean(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(std::min(count, x.size())));
+}
+
+double mean_of_last(const std::vector<double>& x, size_t count) {
+    return mean(x.end() - static_cast<std::ptrdiff_t>(std::min(count, x.size())), x.end());
+}
+
+}  // namespace
+
+double AdaptationCurve::perturbation() const {
+    double most = 0;
+    for (const Trial& trial : trials) {
+        if (std::abs(trial.perturbation) > std::abs(most)) most = trial.perturbation;
+    }
+    return most;
+}
+
+std::vector<double> AdaptationCurve::compensation() const {
+    std::vector<double> out;
+    for (const Trial& trial : trials) out.push_back(trial.compensation);
+    return out;
+}
+
+std::vector<model::AdaptationTrial> AdaptationCurve::schedule() const {
+    std::vector<model::AdaptationTrial> out;
+    for (const Trial& trial : trials) out.push_back({trial.perturbation, trial.clamp});
+    return out;
+}
+
+AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
+    const auto of_kind = [&](const char* kind) {
+        return measured(trials, [&](const Trial& t) { return t.kind == kind; });
+    };
+    const auto perturbed = of_kind("perturbed");
+    const auto clamp = of_kind("error_clamp");
+    return {mean(of_kind("baseline")),           mean_of_first(perturbed, kFew),
+            mean_of_last(perturbed, kFew),       mean(of_kind("catch")),
+            mean_of_first(clamp, kFew),          mean_of_last(clamp, kFew),
+            mean_of_first(of_kind("washout"), 1)};
+}
+
+std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
+    std::vector<AdaptationCurve> curves;
+    bool any = false;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        Trial trial;
+        trial.number = static_cast<int>(trials.number(i, "trial_num"));
+        trial.block = trials.text(i, "block");
+        trial.kind = trials.text(i, "kind");
+        const double hand = trials.number(i, "hand_angle_deg");
+        // what was not reached was not seen to be wrong
+        trial.clamp = trial.kind == "error_clamp" || std::isnan(hand);
+        const double shown = trials.number(i, "shown_angle_deg");
+        trial.compensation = -hand;
+        // a clamp shows what it likes
+        trial.perturbation = trial.clamp ? 0 : std::remainder(shown - hand, 360);
+        any = any || !std::isnan(hand);
+        const std::string round = trials.text(i, "round");
+        if (curves.empty() || curves.back().round != round) curves.push_back({round, {}});
+        curves.back().trials.push_back(trial);
+    }
+    if (!any) curves.clear();
+    return curves;
+}
+
+std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
+    constexpr size_t kLeast = 10;
+    const auto all = [](const Trial&) { return true; };
+    if (std::abs(curve.perturbation()) < 1e-6 || measured(curve.trials, all).size() < kLeast)
+        return std::nullopt;
+    AdaptationFits fits;
+    const double baseline = curve.landmarks().baseline;
+    fits.bias = std::isnan(baseline) ? 0 : baseline;
+    std::vector<double> compensation = curve.compensation();
+    for (double& x : compensation) x -= fits.bias;
+    const auto schedule = curve.schedule();
+    fits.single_rate = fit_single_rate(compensation, schedule);
+    fits.two_rate = fit_two_rate(compensation, schedule);
+    return fits;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,59 @@
+// Adaptation, told from a session's trials.csv: what of a perturbation was compensated for in each
+// reach, and the models that describe it.
+//
+// With the handle at angle a from the target's direction, and shown at angle s, the perturbation is
+// f = s - a and the compensation x = -a: the error e = f - x is what is seen. In an error clamp it
+// is not.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/adaptation_fit.h"
+#include "base/table.h"
+
+namespace dihaptic::analysis {
+
+/// One stretch of trials under one kind of perturbation: a round of the task, or all of it.
+struct AdaptationCurve {
+    struct Trial {
+        int number = 0;  ///< in the session, from 1
+        std::string block;
+        std::string kind;         ///< of the trial, as in trials.csv
+        double perturbation = 0;  ///< f [deg]; 0 in a clamp
+        bool clamp = false;       ///< no error was seen
+        double compensation = 0;  ///< x [deg]; NaN where it was not measured
+    };
+
+    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+    std::string round;  ///< its name; empty without rounds
+    std::vector<Trial> trials;
+
+    double perturbation() const;  ///< largest by size [deg]
+    std::vector<double> compensation() const;
+    std::vector<model::AdaptationTrial> schedule() const;
+    /// Means [deg], NaN where there are no such trials: of the baseline, of the first and the last
+    /// eight perturbed ones, of the catch trials, of the first and the last eight in the clamp, and
+    /// of the first in the washout.
+    struct Landmarks {
+        double baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first;
+    };
+    Landmarks landmarks() const;
+};
+
+/// By round, in the order in which they were done. Empty where no reaches were measured.
+std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials);
+
+/// Both models, fitted to the curve less its baseline's mean; none where too little was measured,
+/// or nothing perturbed.
+struct AdaptationFits {
+    SingleRateFit single_rate;
+    TwoRateFit two_rate;
+    double bias = 0;  ///< the baseline's mean, which was taken off [deg]
+};
+std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve);
+
+}  // namespace dihaptic::analysis

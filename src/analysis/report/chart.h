@@ -1,0 +1,40 @@
+// A chart of a report's page: what is drawn, not how.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace dihaptic::analysis {
+
+enum class Drawn { line, steps, points };
+constexpr auto enum_names(Drawn) {
+    return std::array{"line", "steps", "points"};
+}
+
+struct Series {
+    std::string name;
+    Drawn drawn = Drawn::line;
+    std::vector<double> x;  ///< ascending
+    std::vector<double> y;  ///< NaN: a gap
+    /// An interval around each y; empty: none.
+    std::vector<double> low;
+    std::vector<double> high;
+};
+
+/// A line across the chart, where something changes.
+struct Mark {
+    double x = 0;
+    std::string text;
+};
+
+struct Chart {
+    std::string title;
+    std::string x_label;
+    std::string y_label;
+    std::string caption;  ///< below it: what made it
+    std::vector<Series> series;
+    std::vector<Mark> marks;
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,133 @@
+#include "analysis/report/page.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/report/assets.h"
+#include "base/field.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+/// Numbers that are none become null.
+Json numbers(const std::vector<double>& values) {
+    Json out = Json::array();
+    for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
+    return out;
+}
+
+/// What is nothing but rounding is 0.
+std::string in_short(double value) {
+    if (std::isnan(value)) return "-";
+    return fmt::format("{:.4g}", std::abs(value) < 1e-6 ? 0 : value);
+}
+
+std::string to_html(const Table& table) {
+    std::string out = "<div class=\"wide\"><table>\n<tr>";
+    for (const Table::Column& column : table.columns)
+        out += fmt::format("<th title=\"{}\">{}</th>", escaped(column.description),
+                           escaped(column.name));
+    out += "</tr>\n";
+    for (const auto& row : table.rows) {
+        out += "<tr>";
+        for (const Table::Cell& cell : row) {
+            if (const auto* text = std::get_if<std::string>(&cell)) {
+                out += fmt::format("<td>{}</td>", escaped(*text));
+                continue;
+            }
+            const double value = std::get<double>(cell);
+            out += fmt::format("<td class=\"number\">{}</td>", in_short(value));
+        }
+        out += "</tr>\n";
+    }
+    return out + "</table></div>\n";
+}
+
+}  // namespace
+
+Page::Page(std::string title, std::string origin)
+    : title_(std::move(title)), origin_(std::move(origin)) {}
+
+void Page::heading(const std::string& text) {
+    body_ += fmt::format("<h2>{}</h2>\n", escaped(text));
+}
+
+void Page::text(const std::string& text) {
+    body_ += fmt::format("<p>{}</p>\n", escaped(text));
+}
+
+void Page::table(const Table& table, const std::string& caption) {
+    body_ += to_html(table) + fmt::format("<p class=\"caption\">{}</p>\n", escaped(caption));
+}
+
+void Page::folded_table(const std::string& title, const Table& table) {
+    body_ += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title),
+                         to_html(table));
+}
+
+void Page::chart(const Chart& chart) {
+    Json json{{"title", chart.title}, {"x_label", chart.x_label}, {"y_label", chart.y_label}};
+    json["series"] = Json::array();
+    for (const Series& s : chart.series) {
+        json["series"].push_back({{"name", s.name},
+                                  {"drawn", std::string(enum_name(s.drawn))},
+                                  {"x", numbers(s.x)},
+                                  {"y", numbers(s.y)},
+                                  {"low", numbers(s.low)},
+                                  {"high", numbers(s.high)}});
+    }
+    json["marks"] = Json::array();
+    for (const Mark& mark : chart.marks)
+        json["marks"].push_back({{"x", mark.x}, {"text", mark.text}});
+    // a name from a file may be no UTF-8: it is shown with a replacement, rather than not at all
+    const std::string data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    body_ += fmt::format(
+        "<figure><div class=\"chart\" data-chart=\"{}\"></div><div class=\"legend\"></div>"
+        "<figcaption class=\"caption\">{}</figcaption></figure>\n",
+        escaped(data), escaped(chart.caption));
+    ++charts_;
+}
+
+std::string Page::html() const {
+    const std::string hint =
+        charts_ > 0 ? "<p class=\"hint caption\">Drag across a chart to zoom, Shift and drag to "
+                      "move, double-click to see all of it again.</p>\n"
+                    : "";
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
+        "<style>\n{1}\n{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"origin\">{3}</p>\n"
+        "{4}{5}<p class=\"origin\">{3}</p>\n<script>\n{6}\n</script>\n<script>\n{7}</script>\n"
+        "</body>\n</html>\n",
+        escaped(title_), kDygraphStyle, kPageStyle, escaped(origin_), hint, body_, kDygraphScript,
+        kPageScript);
+}
+
+}  // namespace dihaptic::analysis

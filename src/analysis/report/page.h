@@ -1,0 +1,34 @@
+// A report's page: one HTML file that needs no other, with charts that zoom, and that reads well on
+// paper.
+#pragma once
+
+#include <string>
+
+#include "analysis/report/chart.h"
+#include "base/table.h"
+
+namespace dihaptic::analysis {
+
+class Page {
+  public:
+    /// `origin`: a line below the title, and at the page's end: what made it.
+    Page(std::string title, std::string origin);
+
+    void heading(const std::string& text);
+    void text(const std::string& text);
+    /// Numbers with three digits or so; NaN is a dash. `caption` below it.
+    void table(const Table& table, const std::string& caption);
+    /// The same, folded away until it is asked for.
+    void folded_table(const std::string& title, const Table& table);
+    void chart(const Chart& chart);
+
+    std::string html() const;
+
+  private:
+    std::string title_;
+    std::string origin_;
+    std::string body_;
+    int charts_ = 0;
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,265 @@
+#include "analysis/report/population_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "analysis/report/statistics.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+using Sessions = std::vector<const SessionData*>;
+
+/// What all figures of these sessions come from.
+std::string origin_of(const Sessions& sessions, const std::string& folder) {
+    std::set<std::string> programs;
+    for (const SessionData* session : sessions) programs.insert(session->info.program);
+    return fmt::format("{} sessions in {}, {}", sessions.size(), folder, fmt::join(programs, ", "));
+}
+
+/// Compensation of one person under one round, by the trial's place in it.
+struct PersonCurve {
+    const SessionData* session;
+    const AdaptationCurve* curve;
+    std::optional<AdaptationFits> fits;
+};
+
+void add_people(PopulationPage& out, const std::string& title,
+                const std::vector<PersonCurve>& people) {
+    for (const PersonCurve& person : people) {
+        const auto at = person.curve->landmarks();
+        std::vector<Table::Cell>& row = out.people.rows.emplace_back();
+        row = {title,
+               person.session->participant(),
+               person.curve->round,
+               person.curve->perturbation(),
+               at.baseline,
+               at.early,
+               at.late,
+               at.catch_trials,
+               at.clamp_first,
+               at.clamp_last,
+               at.washout_first};
+        if (!person.fits) {
+            row.resize(out.people.columns.size() - 1, AdaptationCurve::kNone);
+        } else {
+            const model::TwoRate& rates = person.fits->two_rate.rates;
+            row.insert(row.end(), {rates.fast.retention, rates.fast.learning, rates.slow.retention,
+                                   rates.slow.learning, person.fits->two_rate.residual_sd,
+                                   person.fits->single_rate.rate.retention,
+                                   person.fits->single_rate.rate.learning});
+        }
+        row.emplace_back(person.session->folder.path());
+    }
+}
+
+/// Mean over people, trial by trial. Catch trials fall on other places for everybody: they are left
+/// out, as are repetitions but the last.
+void add_mean_curve(PopulationPage& out, const std::string& title, const std::string& round,
+                    const std::vector<PersonCurve>& people, const std::string& origin) {
+    std::map<int, std::vector<double>> by_place;
+    std::map<int, std::string> blocks;
+    for (const PersonCurve& person : people) {
+        const int first = person.curve->trials.front().number;
+        std::map<int, double> own;
+        for (const AdaptationCurve::Trial& trial : person.curve->trials) {
+            const int place = trial.number - first + 1;
+            if (trial.kind == "catch") continue;
+            own[place] = trial.compensation;
+            blocks[place] = trial.block;
+        }
+        for (const auto& [place, x] : own) by_place[place].push_back(x);
+    }
+    Series mean{"mean", Drawn::line, {}, {}, {}, {}};
+    std::vector<Mark> marks;
+    std::string block;
+    for (const auto& [place, values] : by_place) {
+        const Sample all = sample(values);
+        mean.x.push_back(place);
+        mean.y.push_back(all.mean);
+        mean.low.push_back(all.count > 1 ? all.mean_interval.low : all.mean);
+        mean.high.push_back(all.count > 1 ? all.mean_interval.high : all.mean);
+        if (blocks[place] != block) {
+            block = blocks[place];
+            marks.push_back({static_cast<double>(place), block});
+        }
+        out.adaptation.rows.push_back({title, round, static_cast<double>(place), block,
+                                       static_cast<double>(all.count), all.mean, all.sd,
+                                       all.mean_interval.low, all.mean_interval.high});
+    }
+    Chart chart;
+    chart.title = "Mean compensation" + (round.empty() ? "" : ", " + round);
+    chart.x_label = "trial";
+    chart.y_label = "angle [deg]";
+    chart.caption = fmt::format("Mean of {} people and its 95 % interval; without catch trials. {}",
+                                people.size(), origin);
+    chart.series = {mean};
+    chart.marks = marks;
+    out.page.chart(chart);
+}
+
+/// What people have in common of the columns of people.csv that are numbers.
+void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::string& origin) {
+    Table table;
+    table.columns = {{"round", ""},     {"figure", ""}, {"people", ""}, {"mean", ""},
+                     {"mean 95 %", ""}, {"SD", ""},     {"median", ""}, {"quartiles", ""}};
+    std::vector<std::string> rounds;
+    for (size_t i = first_row; i < out.people.rows.size(); ++i) {
+        const std::string& round = std::get<std::string>(out.people.rows[i][2]);
+        if (std::find(rounds.begin(), rounds.end(), round) == rounds.end()) rounds.push_back(round);
+    }
+    for (const std::string& round : rounds) {
+        for (size_t c = 3; c + 1 < out.people.columns.size(); ++c) {
+            std::vector<double> values;
+            for (size_t i = first_row; i < out.people.rows.size(); ++i) {
+                if (std::get<std::string>(out.people.rows[i][2]) == round)
+                    values.push_back(std::get<double>(out.people.rows[i][c]));
+            }
+            const Sample all = sample(values);
+            if (all.count == 0) continue;
+            const auto range = [](const Interval& interval) {
+                return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
+            };
+            table.rows.push_back({round, out.people.columns[c].name, static_cast<double>(all.count),
+                                  all.mean, range(all.mean_interval), all.sd, all.median,
+                                  range(all.quartiles)});
+        }
+    }
+    out.page.table(table, "Over people; people.csv has each of them. " + origin);
+}
+
+void add_adaptation(PopulationPage& out, const std::string& title, const Sessions& sessions,
+                    const std::string& origin) {
+    std::vector<std::string> rounds;
+    std::map<std::string, std::vector<PersonCurve>> by_round;
+    for (const SessionData* session : sessions) {
+        for (const AdaptationCurve& curve : session->curves) {
+            auto& people = by_round[curve.round];
+            if (people.empty()) rounds.push_back(curve.round);
+            people.push_back({session, &curve, fit_adaptation(curve)});
+        }
+    }
+    if (rounds.empty()) return;
+    // people do rounds in orders of their own
+    std::sort(rounds.begin(), rounds.end());
+    const size_t first_row = out.people.rows.size();
+    for (const std::string& round : rounds) {
+        add_mean_curve(out, title, round, by_round[round], origin);
+        add_people(out, title, by_round[round]);
+    }
+    add_adaptation_summary(out, first_row, origin);
+}
+
+void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
+               const std::string& origin) {
+    static const std::vector<const char*> kFigures = {
+        "preload_s",     "loading_s",     "peak_grip_rate_N_s", "peak_load_rate_N_s",
+        "peak_grip_N",   "static_grip_N", "static_load_N",      "static_ratio",
+        "safety_margin", "coupling",      "coupling_lag_s",     "overshoot_mm"};
+    // each person's median first: people differ more than lifts do
+    std::vector<std::string> groups;
+    std::map<std::string, std::map<std::string, std::vector<double>>> medians;
+    int lifts = 0;
+    int complete = 0;
+    for (const SessionData* session : sessions) {
+        std::map<std::string, std::vector<size_t>> rows;
+        for (const LiftRow& lift : lift_rows(*session)) {
+            rows[lift.group].push_back(lift.row);
+            ++lifts;
+            complete += session->lifts->text(lift.row, "lift") == "complete";
+        }
+        for (const auto& [group, of_group] : rows) {
+            if (!medians.contains(group)) groups.push_back(group);
+            for (const char* figure : kFigures) {
+                std::vector<double> values;
+                for (const size_t i : of_group) values.push_back(session->lifts->number(i, figure));
+                medians[group][figure].push_back(sample(values).median);
+            }
+        }
+    }
+    if (groups.empty()) return;
+    Table table;
+    table.columns = {{"trials", ""}, {"figure", ""},    {"people", ""},
+                     {"mean", ""},   {"mean 95 %", ""}, {"SD", ""}};
+    for (const std::string& group : groups) {
+        for (const char* figure : kFigures) {
+            const Sample all = sample(medians[group][figure]);
+            if (all.count == 0) continue;
+            table.rows.push_back(
+                {group, std::string(figure), static_cast<double>(all.count), all.mean,
+                 fmt::format("{:.3g} to {:.3g}", all.mean_interval.low, all.mean_interval.high),
+                 all.sd});
+            out.lifts.rows.push_back({title, group, std::string(figure),
+                                      static_cast<double>(all.count), all.mean, all.sd,
+                                      all.mean_interval.low, all.mean_interval.high});
+        }
+    }
+    out.page.text(fmt::format("{} lifts, {} of them complete.", lifts, complete));
+    out.page.table(table, "Over people, of each person's median. " + origin);
+}
+
+}  // namespace
+
+PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
+                               const std::string& command) {
+    std::vector<std::string> titles;
+    std::map<std::string, Sessions> by_title;
+    Sessions all;
+    for (const SessionData& session : sessions) {
+        auto& list = by_title[session.info.title];
+        if (list.empty()) titles.push_back(session.info.title);
+        list.push_back(&session);
+        all.push_back(&session);
+    }
+    std::sort(titles.begin(), titles.end());
+    PopulationPage out{
+        Page(titles.size() == 1 ? titles.front() : fmt::format("{} experiments", titles.size()),
+             fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
+                         recording::program_version(), command)),
+        {},
+        {},
+        {}};
+    out.people.columns = {{"experiment", "title"},
+                          {"ppid", "participant"},
+                          {"round", ""},
+                          {"perturbation_deg", ""},
+                          {"baseline_deg", "mean"},
+                          {"early_deg", "first eight perturbed trials"},
+                          {"late_deg", "last eight"},
+                          {"catch_deg", "mean of the catch trials"},
+                          {"clamp_first_deg", "first eight in the clamp"},
+                          {"clamp_last_deg", "last eight"},
+                          {"washout_first_deg", "first trial"},
+                          {"A_fast", "two-rate model, fitted"},
+                          {"B_fast", ""},
+                          {"A_slow", ""},
+                          {"B_slow", ""},
+                          {"two_rate_sd_deg", "of the residuals"},
+                          {"A", "single-rate model, fitted"},
+                          {"B", ""},
+                          {"session", "folder"}};
+    out.adaptation.columns = {
+        {"experiment", ""},   {"round", ""},    {"trial", ""},  {"block", ""},
+        {"people", ""},       {"mean_deg", ""}, {"sd_deg", ""}, {"mean_low_deg", "95 %"},
+        {"mean_high_deg", ""}};
+    out.lifts.columns = {{"experiment", ""},   {"trials", ""},   {"figure", ""},
+                         {"people", ""},       {"mean", ""},     {"sd", ""},
+                         {"mean_low", "95 %"}, {"mean_high", ""}};
+    for (const std::string& title : titles) {
+        const Sessions& list = by_title[title];
+        const std::string origin = origin_of(list, folder);
+        out.page.heading(title);
+        std::set<std::string> people;
+        for (const SessionData* session : list) people.insert(session->participant());
+        out.page.text(fmt::format("{} sessions of {} people: {}.", list.size(), people.size(),
+                                  fmt::join(people, ", ")));
+        add_adaptation(out, title, list, origin);
+        add_lifts(out, title, list, origin);
+    }
+    return out;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,93 @@
+#include "analysis/report/report.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "analysis/report/population_page.h"
+#include "analysis/report/session_page.h"
+#include "base/text_file.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tables without rows are not written.
+void write(ReportResult& result, const Table& table, const std::string& file) {
+    if (table.rows.empty()) return;
+    write_csv(table, file);
+    result.tables.push_back(file);
+}
+
+ReportResult report_session(const std::string& path, const std::string& command,
+                            const std::function<void(double)>& progress) {
+    const SessionData session = SessionData::read(path);
+    const SessionPage made = session_page(session, command, progress);
+    ReportResult result;
+    result.sessions = 1;
+    write(result, made.adaptation, session.folder.file("adaptation.csv"));
+    write(result, made.fits, session.folder.file("fits.csv"));
+    result.page = session.folder.file("report.html");
+    write_file(made.page.html(), result.page);
+    return result;
+}
+
+ReportResult report_folder(const std::string& folder, const std::string& command,
+                           const std::function<void(double)>& progress) {
+    ReportResult result;
+    const std::vector<std::string> paths = find_sessions(folder);
+    std::vector<SessionData> sessions;
+    for (size_t i = 0; i < paths.size(); ++i) {
+        try {
+            sessions.push_back(SessionData::read(paths[i]));
+        } catch (const Error& e) {
+            result.left_out.push_back(e.problems().front().text());
+        }
+        if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(paths.size()));
+    }
+    // a session that was gone on with is part of the one that did
+    std::set<std::string> earlier;
+    for (const SessionData& session : sessions) {
+        if (!session.info.resumes.empty())
+            earlier.insert(fs::path(session.info.resumes).filename().string());
+    }
+    std::erase_if(sessions, [&](const SessionData& session) {
+        const std::string name = fs::path(session.folder.path()).filename().string();
+        if (!earlier.contains(name)) return false;
+        result.left_out.push_back(session.folder.path() + ": another session goes on with it");
+        return true;
+    });
+    if (sessions.empty()) {
+        std::vector<Problem> problems{{Severity::error,
+                                       {folder, 0},
+                                       "",
+                                       "has no sessions that have ended",
+                                       "Name a session's folder, or one with sessions in it."}};
+        for (const std::string& why : result.left_out)
+            problems.push_back({Severity::warning, {folder, 0}, "", why, ""});
+        throw Error(problems);
+    }
+    const PopulationPage made = population_page(sessions, folder, command);
+    const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
+    result.sessions = static_cast<int>(sessions.size());
+    write(result, made.people, file("people.csv"));
+    write(result, made.adaptation, file("population-adaptation.csv"));
+    write(result, made.lifts, file("population-lifts.csv"));
+    result.page = file("report.html");
+    write_file(made.page.html(), result.page);
+    return result;
+}
+
+}  // namespace
+
+ReportResult write_report(const std::string& path, const std::string& command,
+                          const std::function<void(double)>& progress) {
+    const bool is_folder = fs::is_directory(path);
+    if (!is_folder || fs::exists(fs::path(path) / "session.yaml") ||
+        fs::exists(fs::path(path) / "raw.log"))
+        return report_session(path, command, progress);
+    return report_folder(path, command, progress);
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,96 @@
+#include "analysis/report/session_data.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace dihaptic::analysis {
+
+namespace fs = std::filesystem;
+
+SessionData SessionData::read(const std::string& path) {
+    recording::SessionFolder folder = recording::SessionFolder::open(path);
+    recording::SessionInfo info = folder.read_info();
+    if (info.state == recording::SessionState::running) {
+        throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
+                    "If it was killed, run: dihaptic recover " + folder.path());
+    }
+    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}};
+    if (fs::exists(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
+    data.curves = adaptation_curves(data.trials);
+    return data;
+}
+
+std::vector<std::string> find_sessions(const std::string& folder) {
+    std::vector<std::string> out;
+    const auto options = fs::directory_options::skip_permission_denied;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
+        if (entry.path().filename() == "session.yaml")
+            out.push_back(entry.path().parent_path().string());
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+std::vector<LiftRow> lift_rows(const SessionData& session) {
+    std::map<std::pair<std::string, std::string>, std::string> groups;
+    for (size_t i = 0; i < session.trials.rows(); ++i) {
+        std::string group;
+        for (const char* column : {"round", "block", "kind", "condition"}) {
+            const std::string text = session.trials.text(i, column);
+            // a block is often called as its kind
+            if (text.empty() || (column == std::string("kind") && group.ends_with(text))) continue;
+            group += (group.empty() ? "" : ", ") + text;
+        }
+        groups[{session.trials.text(i, "trial_num"), session.trials.text(i, "attempt")}] = group;
+    }
+    std::vector<LiftRow> out;
+    for (size_t i = 0; session.lifts && i < session.lifts->rows(); ++i) {
+        const auto found =
+            groups.find({session.lifts->text(i, "trial_num"), session.lifts->text(i, "attempt")});
+        out.push_back({found == groups.end() ? "" : found->second, i});
+    }
+    return out;
+}
+
+std::optional<PreviousWeight> previous_weight(const CsvFile& lifts) {
+    constexpr Eigen::Index kLeast = 10;
+    constexpr double kVaries = 1.05;
+    const auto complete = [&](size_t i) { return lifts.text(i, "lift") == "complete"; };
+    std::vector<Eigen::Vector3d> rows;  // 1, W, W before
+    std::vector<double> rates;
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (size_t i = 1; i < lifts.rows(); ++i) {
+        if (!complete(i) || !complete(i - 1)) continue;
+        const double weight = lifts.number(i, "static_load_N");
+        const double before = lifts.number(i - 1, "static_load_N");
+        const double rate = lifts.number(i, "peak_load_rate_N_s");
+        if (!std::isfinite(weight + before + rate)) continue;
+        least = std::min(least, weight);
+        most = std::max(most, weight);
+        rows.emplace_back(1, weight, before);
+        rates.push_back(rate);
+    }
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    if (n < kLeast || most < kVaries * least) return std::nullopt;
+    Eigen::MatrixXd x(n, 3);
+    Eigen::VectorXd y(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        x.row(i) = rows[static_cast<size_t>(i)];
+        y[i] = rates[static_cast<size_t>(i)];
+    }
+    const Eigen::Matrix3d normal = x.transpose() * x;
+    const Eigen::Vector3d b = normal.ldlt().solve(x.transpose() * y);
+    const double variance = (y - x * b).squaredNorm() / static_cast<double>(n - 3);
+    PreviousWeight out;
+    out.effect = b[2];
+    out.error = std::sqrt(variance * normal.inverse()(2, 2));
+    out.share = b[2] / (b[1] + b[2]);
+    out.lifts = static_cast<int>(n);
+    return out;
+}
+
+}  // namespace dihaptic::analysis

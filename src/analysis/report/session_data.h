@@ -1,0 +1,54 @@
+// What a report knows of a session: its tables.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/adaptation.h"
+#include "base/table.h"
+#include "recording/session.h"
+
+namespace dihaptic::analysis {
+
+struct SessionData {
+    recording::SessionFolder folder;
+    recording::SessionInfo info;
+    CsvFile trials;
+    std::optional<CsvFile> lifts;
+    std::vector<AdaptationCurve> curves;
+
+    /// Throws Error when it is no session, or has not ended.
+    static SessionData read(const std::string& path);
+
+    std::string participant() const {
+        return info.participant.id.empty() ? "?" : info.participant.id;
+    }
+};
+
+/// Folders of sessions in a folder, at any depth, by name.
+std::vector<std::string> find_sessions(const std::string& folder);
+
+/// A session's lifts, each with what was asked for: block, kind, condition, perturbation.
+struct LiftRow {
+    std::string group;  ///< "block, kind, condition", as far as the trial has them
+    size_t row = 0;     ///< of lifts.csv
+};
+std::vector<LiftRow> lift_rows(const SessionData& session);
+
+/// How a lift depends on the weight of the last one (Johansson and Westling 1988): the regression
+///
+///     rate = a + b W + c W_before
+///
+/// of the largest rate of load force before lift-off on the weights that were held, over complete
+/// lifts that followed one another.
+struct PreviousWeight {
+    double share = 0;   ///< c / (b + c): 0 where only this weight counts, 1 where the last one does
+    double effect = 0;  ///< c [1/s]
+    double error = 0;   ///< its standard error [1/s]
+    int lifts = 0;
+};
+/// None where weights did not vary by 5 %, or less than ten pairs are complete.
+std::optional<PreviousWeight> previous_weight(const CsvFile& lifts);
+
+}  // namespace dihaptic::analysis

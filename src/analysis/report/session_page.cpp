@@ -1,0 +1,365 @@
+#include "analysis/report/session_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/report/statistics.h"
+#include "analysis/session_report.h"
+#include "recording/raw_log.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kLongest = 60;       // of a session that is drawn as a whole [s]
+constexpr size_t kMostPoints = 1500;  // of a curve over time
+
+std::string interval_text(const Interval& interval) {
+    return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
+}
+
+/// What the session was, for its head.
+Table facts(const SessionData& session) {
+    const recording::SessionInfo& info = session.info;
+    Table table{{{"", ""}, {"", ""}}, {}};
+    const auto row = [&](const std::string& name, const std::string& value) {
+        if (!value.empty()) table.rows.push_back({name, value});
+    };
+    const recording::Participant& person = info.participant;
+    std::string who = person.id;
+    if (!person.age.empty()) who += fmt::format(", {} years", person.age);
+    if (!person.sex.empty()) who += ", " + person.sex;
+    if (!person.handedness.empty()) who += ", " + person.handedness + "-handed";
+    row("participant", who);
+    row("started", info.started);
+    row("state", std::string(enum_name(info.state)));
+    row("experiment", info.experiment);
+    row("command", info.command);
+    row("seed", info.seed);
+    for (const recording::DeviceRecord& device : info.devices)
+        row("device of " + device.finger, device.model);
+    row("end", info.finished);
+    for (const std::string& note : info.notes) row("note", note);
+    return table;
+}
+
+/// How the trials ended, by block.
+Table outcomes(const SessionData& session) {
+    const CsvFile& trials = session.trials;
+    std::vector<std::string> blocks;
+    std::vector<std::string> names;
+    std::map<std::pair<std::string, std::string>, int> counts;
+    const auto remember = [](std::vector<std::string>& list, const std::string& item) {
+        if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+    };
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const std::string round = trials.text(i, "round");
+        const std::string block =
+            (round.empty() ? "" : round + ", ") +
+            (trials.has("block") ? trials.text(i, "block") : trials.text(i, "block_num"));
+        const std::string outcome = trials.text(i, "outcome");
+        remember(blocks, block);
+        remember(names, outcome);
+        ++counts[{block, outcome}];
+    }
+    Table table;
+    table.columns = {{"block", ""}};
+    for (const std::string& name : names) table.columns.push_back({name, "attempts"});
+    for (const std::string& block : blocks) {
+        std::vector<Table::Cell>& row = table.rows.emplace_back();
+        row.emplace_back(block);
+        for (const std::string& name : names)
+            row.emplace_back(static_cast<double>(counts[{block, name}]));
+    }
+    return table;
+}
+
+void add_adaptation(SessionPage& out, const SessionData& session) {
+    out.page.heading("Adaptation");
+    out.page.text(
+        "Compensation is the angle of the hand against the perturbation when it had gone the "
+        "measured distance: 0 before anything is learned, the perturbation itself when all of it "
+        "is. Models are fitted to it less the baseline's mean, by least squares, with 95 % profile "
+        "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
+        "parameters.");
+    out.adaptation.columns = {{"round", ""},
+                              {"trial_num", "in the session"},
+                              {"block", ""},
+                              {"kind", ""},
+                              {"perturbation_deg", "0 in a clamp"},
+                              {"compensation_deg", "of the hand"},
+                              {"two_rate_deg", "fitted"},
+                              {"single_rate_deg", "fitted"}};
+    out.fits.columns = {{"round", ""},
+                        {"perturbation_deg", ""},
+                        {"baseline_deg", "mean"},
+                        {"early_deg", "first eight perturbed trials"},
+                        {"late_deg", "last eight"},
+                        {"catch_deg", "mean of the catch trials"},
+                        {"clamp_first_deg", "first eight in the clamp"},
+                        {"clamp_last_deg", "last eight"},
+                        {"washout_first_deg", "first trial"},
+                        {"A_fast", "retention a trial"},
+                        {"A_fast_95", "profile interval"},
+                        {"B_fast", "learning"},
+                        {"B_fast_95", ""},
+                        {"A_slow", ""},
+                        {"A_slow_95", ""},
+                        {"B_slow", ""},
+                        {"B_slow_95", ""},
+                        {"two_rate_sd_deg", "of the residuals"},
+                        {"A", "single rate"},
+                        {"B", ""},
+                        {"single_rate_sd_deg", "of the residuals"}};
+    for (const AdaptationCurve& curve : session.curves) {
+        const auto fits = fit_adaptation(curve);
+        Series measured{"compensation", Drawn::points, {}, {}, {}, {}};
+        Series perturbation{"perturbation", Drawn::steps, {}, {}, {}, {}};
+        Series two_rate{"two-rate fit", Drawn::line, {}, {}, {}, {}};
+        std::vector<Mark> marks;
+        for (size_t i = 0; i < curve.trials.size(); ++i) {
+            const AdaptationCurve::Trial& trial = curve.trials[i];
+            const auto x = static_cast<double>(i + 1);
+            if (i == 0 || trial.block != curve.trials[i - 1].block)
+                marks.push_back({x, trial.block});
+            measured.x.push_back(x);
+            measured.y.push_back(trial.compensation);
+            perturbation.x.push_back(x);
+            perturbation.y.push_back(trial.clamp ? AdaptationCurve::kNone : trial.perturbation);
+            const double bias = fits ? fits->bias : 0;
+            const double fitted =
+                fits ? bias + fits->two_rate.predicted[i] : AdaptationCurve::kNone;
+            const double single =
+                fits ? bias + fits->single_rate.predicted[i] : AdaptationCurve::kNone;
+            two_rate.x.push_back(x);
+            two_rate.y.push_back(fitted);
+            out.adaptation.rows.push_back({curve.round, static_cast<double>(trial.number),
+                                           trial.block, trial.kind, trial.perturbation,
+                                           trial.compensation, fitted, single});
+        }
+        Chart chart;
+        chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
+        chart.x_label = "trial";
+        chart.y_label = "angle [deg]";
+        chart.caption = origin_of(session);
+        chart.marks = marks;
+        chart.series = {perturbation, measured};
+        if (fits) chart.series.push_back(two_rate);
+        out.page.chart(chart);
+
+        const auto at = curve.landmarks();
+        std::vector<Table::Cell>& row = out.fits.rows.emplace_back();
+        row = {curve.round,     curve.perturbation(), at.baseline,   at.early,        at.late,
+               at.catch_trials, at.clamp_first,       at.clamp_last, at.washout_first};
+        if (!fits) {
+            row.resize(out.fits.columns.size(), AdaptationCurve::kNone);
+            continue;
+        }
+        const TwoRateFit& two = fits->two_rate;
+        row.insert(row.end(), {two.rates.fast.retention, interval_text(two.retention_fast),
+                               two.rates.fast.learning, interval_text(two.learning_fast),
+                               two.rates.slow.retention, interval_text(two.retention_slow),
+                               two.rates.slow.learning, interval_text(two.learning_slow),
+                               two.residual_sd, fits->single_rate.rate.retention,
+                               fits->single_rate.rate.learning, fits->single_rate.residual_sd});
+    }
+    out.page.table(transposed(out.fits),
+                   "Means of compensation: over the baseline, the first and the last eight "
+                   "perturbed trials, catch trials, the first and the last eight of the clamp, and "
+                   "the washout's first; and the models' parameters. " +
+                       origin_of(session));
+}
+
+/// Medians by group.
+Table lift_summary(const SessionData& session) {
+    Table table;
+    table.columns = {{"trials", "block, kind, condition"}, {"lifts", ""}, {"complete", ""}};
+    const std::vector<std::pair<const char*, const char*>> figures = {
+        {"preload_s", "touch to load onset"},
+        {"loading_s", "load onset to lift-off"},
+        {"peak_grip_rate_N_s", "before lift-off"},
+        {"peak_load_rate_N_s", "before lift-off"},
+        {"peak_grip_N", ""},
+        {"static_grip_N", "in the hold"},
+        {"static_load_N", "in the hold"},
+        {"static_ratio", "grip over load"},
+        {"safety_margin", "share of the grip beyond what friction needs"},
+        {"coupling", "r of the rates of grip and load while loading"},
+        {"coupling_lag_s", "positive: grip follows"},
+        {"overshoot_mm", "of height"},
+        {"slips", "mean number"}};
+    for (const auto& [name, what] : figures) table.columns.push_back({name, what});
+    std::vector<std::string> groups;
+    std::map<std::string, std::vector<size_t>> rows;
+    for (const LiftRow& lift : lift_rows(session)) {
+        if (rows[lift.group].empty()) groups.push_back(lift.group);
+        rows[lift.group].push_back(lift.row);
+    }
+    for (const std::string& group : groups) {
+        std::vector<Table::Cell>& row = table.rows.emplace_back();
+        int complete = 0;
+        for (const size_t i : rows[group]) complete += session.lifts->text(i, "lift") == "complete";
+        row = {group.empty() ? "all" : group, static_cast<double>(rows[group].size()),
+               static_cast<double>(complete)};
+        for (const auto& [name, what] : figures) {
+            std::vector<double> values;
+            for (const size_t i : rows[group]) values.push_back(session.lifts->number(i, name));
+            const Sample figure = sample(values);
+            row.emplace_back(name == std::string("slips") ? figure.mean : figure.median);
+        }
+    }
+    return table;
+}
+
+void add_lifts(SessionPage& out, const SessionData& session) {
+    const CsvFile& lifts = *session.lifts;
+    out.page.heading("Grip and lift");
+    out.page.table(transposed(lift_summary(session)),
+                   "Medians over attempts; what was no whole lift counts where it has the figure. "
+                   "lifts.csv has each of them, and says what is missing of it. " +
+                       origin_of(session));
+    if (lifts.rows() < 3) return;
+    const auto curve = [&](const char* name, const char* column) {
+        Series series{name, Drawn::points, {}, {}, {}, {}};
+        for (size_t i = 0; i < lifts.rows(); ++i) {
+            series.x.push_back(static_cast<double>(i + 1));
+            series.y.push_back(lifts.number(i, column));
+        }
+        return series;
+    };
+    std::vector<Mark> marks;
+    std::string last;
+    for (const LiftRow& lift : lift_rows(session)) {
+        const std::string block = lift.group.substr(0, lift.group.find(','));
+        if (block != last) marks.push_back({static_cast<double>(lift.row + 1), block});
+        last = block;
+    }
+    const auto chart = [&](const char* title, const char* unit, std::vector<Series> series) {
+        out.page.chart({title, "lift", unit, origin_of(session), std::move(series), marks});
+    };
+    chart("Forces in the hold, and the peak of grip", "N",
+          {curve("static grip", "static_grip_N"), curve("static load", "static_load_N"),
+           curve("peak grip", "peak_grip_N")});
+    chart("Largest rates before lift-off", "N/s",
+          {curve("grip", "peak_grip_rate_N_s"), curve("load", "peak_load_rate_N_s")});
+    chart("Durations", "s", {curve("preload", "preload_s"), curve("loading", "loading_s")});
+    if (const auto effect = previous_weight(lifts)) {
+        out.page.text(fmt::format(
+            "Weight of the lift before: the largest rate of load force grows by {:.3g} +- {:.2g} "
+            "N/s for each N that the last object weighed ({} pairs of lifts), {:.0f} % of what "
+            "both weights say.",
+            effect->effect, effect->error, effect->lifts, 100 * effect->share));
+    }
+}
+
+/// Least and largest value of each stretch, in their order: a curve of few points that has every
+/// peak.
+void thin(Series& series) {
+    if (series.x.size() <= kMostPoints) return;
+    const size_t stretch = (2 * series.x.size() + kMostPoints - 1) / kMostPoints;
+    Series out{series.name, series.drawn, {}, {}, {}, {}};
+    for (size_t first = 0; first < series.x.size(); first += stretch) {
+        const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = series.y.begin() +
+                         static_cast<std::ptrdiff_t>(std::min(first + stretch, series.y.size()));
+        auto [low, high] = std::minmax_element(begin, end);
+        if (high < low) std::swap(low, high);
+        for (const auto i : {low, high}) {
+            out.x.push_back(series.x[static_cast<size_t>(i - series.y.begin())]);
+            out.y.push_back(*i);
+        }
+    }
+    series = std::move(out);
+}
+
+/// Forces and height over the whole of a short session, or over the first complete lift of a long
+/// one.
+void add_course(SessionPage& out, const SessionData& session,
+                const std::function<void(double)>& progress) {
+    double from = 0;
+    double to = kLongest;
+    std::string what = "The session";
+    recording::RawLogReader log(session.folder.raw_log());
+    if (session.info.ticks * log.head().tick > kLongest) {
+        if (!session.lifts) return;
+        size_t i = 0;
+        while (i < session.lifts->rows() && session.lifts->text(i, "lift") != "complete") ++i;
+        if (i == session.lifts->rows()) return;
+        from = session.lifts->number(i, "touch_s") - 0.3;
+        to = session.lifts->number(i, "release_s") + 0.3;
+        what = fmt::format("Trial {}", session.lifts->text(i, "trial_num"));
+    }
+    const auto& bodies = log.head().bodies;
+    const auto found = std::find(bodies.begin(), bodies.end(), session.info.object);
+    const auto object = static_cast<size_t>(found - bodies.begin());
+    Series grip{"grip force", Drawn::line, {}, {}, {}, {}};
+    Series load{"load force", Drawn::line, {}, {}, {}, {}};
+    Series height{"height", Drawn::line, {}, {}, {}, {}};
+    std::vector<Series> sent;
+    for (const std::string& finger : log.head().fingers)
+        sent.push_back({finger, Drawn::line, {}, {}, {}, {}});
+    std::vector<Mark> marks;
+    int phase = -1;
+    while (const servo::Frame* frame = log.next()) {
+        const double t = seconds(frame->time);
+        if (progress) progress(log.share());
+        if (t > to) break;
+        if (t < from) continue;
+        if (frame->phase != phase) {
+            phase = frame->phase;
+            const auto k = static_cast<size_t>(phase);
+            if (phase >= 0 && k < session.info.phases.size())
+                marks.push_back({t, session.info.phases[k].name});
+        }
+        const auto add = [&](Series& series, double y) {
+            series.x.push_back(t);
+            series.y.push_back(y);
+        };
+        if (log.head().fingers.size() > 1) {
+            add(grip, frame->grip_force);
+            add(load, frame->load_force);
+        }
+        if (object < bodies.size()) add(height, 1e3 * frame->bodies[object].X_WB.p.z());
+        for (size_t f = 0; f < sent.size(); ++f) add(sent[f], frame->fingers[f].f_sent_W.norm());
+    }
+    out.page.heading(what + " over time");
+    for (Series* series : {&grip, &load, &height}) thin(*series);
+    for (Series& series : sent) thin(series);
+    const std::string origin = origin_of(session);
+    if (!grip.x.empty())
+        out.page.chart({"Grip and load", "time [s]", "N", origin, {grip, load}, marks});
+    out.page.chart({"Force sent to each device", "time [s]", "N", origin, sent, marks});
+    if (!height.x.empty())
+        out.page.chart(
+            {"Height of the " + session.info.object, "time [s]", "mm", origin, {height}, marks});
+}
+
+}  // namespace
+
+std::string origin_of(const SessionData& session) {
+    return fmt::format("{}, {}, seed {}, {}", session.folder.path(), session.info.program,
+                       session.info.seed, session.info.started);
+}
+
+SessionPage session_page(const SessionData& session, const std::string& command,
+                         const std::function<void(double)>& progress) {
+    SessionPage out{
+        Page(session.info.title, fmt::format("{}. Made by {} with: {}", origin_of(session),
+                                             recording::program_version(), command)),
+        {},
+        {}};
+    out.page.table(facts(session), "");
+    out.page.heading("Trials");
+    out.page.table(outcomes(session),
+                   "Attempts at trials by how they ended. " + origin_of(session));
+    if (!session.curves.empty()) add_adaptation(out, session);
+    if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
+    add_course(out, session, progress);
+    out.page.heading("Settings");
+    out.page.folded_table("All settings, with where each came from", read_settings(session.folder));
+    return out;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,26 @@
+// The page of one session.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/report/page.h"
+#include "analysis/report/session_data.h"
+
+namespace dihaptic::analysis {
+
+/// What goes below every chart: session, program, seed.
+std::string origin_of(const SessionData& session);
+
+struct SessionPage {
+    Page page;
+    Table adaptation;  ///< a row a reach; empty without
+    Table fits;        ///< a row a round
+};
+
+/// Throws Error when the session's log cannot be read.
+SessionPage session_page(const SessionData& session, const std::string& command,
+                         const std::function<void(double)>& progress);
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,51 @@
+#include "analysis/report/statistics.h"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Of sorted values, linear between them.
+double quantile(const std::vector<double>& x, double share) {
+    if (x.empty()) return kNaN;
+    const double at = share * static_cast<double>(x.size() - 1);
+    const auto i = static_cast<size_t>(at);
+    const size_t j = std::min(i + 1, x.size() - 1);
+    return x[i] + (at - static_cast<double>(i)) * (x[j] - x[i]);
+}
+
+}  // namespace
+
+Sample sample(std::span<const double> values) {
+    std::vector<double> x;
+    for (const double value : values) {
+        if (std::isfinite(value)) x.push_back(value);
+    }
+    std::sort(x.begin(), x.end());
+    const auto n = static_cast<double>(x.size());
+    Sample out;
+    out.count = static_cast<int>(x.size());
+    double sum = 0;
+    for (const double value : x) sum += value;
+    out.mean = x.empty() ? kNaN : sum / n;
+    double square = 0;
+    for (const double value : x) square += (value - out.mean) * (value - out.mean);
+    out.sd = x.size() < 2 ? kNaN : std::sqrt(square / (n - 1));
+    out.mean_interval = {kNaN, kNaN};
+    if (x.size() >= 2) {
+        const boost::math::students_t student(n - 1);
+        const double half = boost::math::quantile(student, 0.975) * out.sd / std::sqrt(n);
+        out.mean_interval = {out.mean - half, out.mean + half};
+    }
+    out.median = quantile(x, 0.5);
+    out.quartiles = {quantile(x, 0.25), quantile(x, 0.75)};
+    return out;
+}
+
+}  // namespace dihaptic::analysis

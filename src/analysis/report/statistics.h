@@ -1,0 +1,21 @@
+// Figures of a sample, as papers give them. NaNs are left out; of too few values they are NaN.
+#pragma once
+
+#include <span>
+
+#include "analysis/fits/minimise.h"
+
+namespace dihaptic::analysis {
+
+struct Sample {
+    int count = 0;
+    double mean = 0;
+    double sd = 0;           ///< n - 1
+    Interval mean_interval;  ///< 95 %, Student's
+    double median = 0;
+    Interval quartiles;
+};
+
+Sample sample(std::span<const double> values);
+
+}  // namespace dihaptic::analysis

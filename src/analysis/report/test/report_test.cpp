@@ -1,0 +1,140 @@
+// What a report says, on tables whose figures are known. test/report_test.py opens pages in a
+// browser.
+#include "analysis/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/adaptation.h"
+#include "analysis/report/page.h"
+#include "analysis/report/session_data.h"
+#include "analysis/report/statistics.h"
+#include "base/random.h"
+#include "testing/files.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+TEST(Statistics, OfAKnownSample) {
+    const double x[] = {4, 1, 3, 2, 5, std::nan("")};
+    const Sample all = sample(x);
+    EXPECT_EQ(all.count, 5);
+    EXPECT_DOUBLE_EQ(all.mean, 3);
+    EXPECT_DOUBLE_EQ(all.sd, std::sqrt(2.5));
+    EXPECT_DOUBLE_EQ(all.median, 3);
+    EXPECT_DOUBLE_EQ(all.quartiles.low, 2);
+    // Student's t for 4 degrees of freedom is 2.776445 at 97.5 %
+    EXPECT_NEAR(all.mean_interval.high - 3, 2.7764451 * std::sqrt(2.5 / 5), 1e-6);
+    EXPECT_TRUE(std::isnan(sample(std::span(x).first(1)).mean_interval.low));
+    EXPECT_EQ(sample({}).count, 0);
+    EXPECT_TRUE(std::isnan(sample({}).mean));
+}
+
+/// trials.csv of somebody who adapts as a two-rate model says, to +-180 degrees.
+std::string trials_of(const model::TwoRate& rates, double rotation, double bias) {
+    std::vector<model::AdaptationTrial> schedule;
+    std::string out = "trial_num,block,kind,round,hand_angle_deg,shown_angle_deg\n";
+    std::vector<std::string> kinds;
+    const auto add = [&](int count, const char* kind, double f) {
+        for (int i = 0; i < count; ++i) {
+            schedule.push_back({f, kind == std::string("error_clamp")});
+            kinds.emplace_back(kind);
+        }
+    };
+    add(16, "baseline", 0);
+    add(30, "perturbed", rotation);
+    add(1, "catch", 0);
+    add(29, "perturbed", rotation);
+    add(20, "error_clamp", 0);
+    add(10, "washout", 0);
+    schedule[20].clamp = true;  // nothing was reached, and nothing seen
+    const auto x = model::compensation(rates, schedule);
+    for (size_t i = 0; i < x.size(); ++i) {
+        const double hand = -(x[i] + bias);
+        const double shown = schedule[i].clamp ? 0 : hand + schedule[i].perturbation;
+        out += std::to_string(i + 1) + "," + kinds[i] + "," + kinds[i] + ",about z," +
+               (i == 20 ? "," : std::to_string(hand) + "," + std::to_string(shown)) + "\n";
+    }
+    return out;
+}
+
+TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
+    testing::TemporaryFolder folder;
+    const double bias = 1.5;
+    const CsvFile trials(folder.write("trials.csv", trials_of(model::kSmith2006, -30, bias)));
+    const auto curves = adaptation_curves(trials);
+    ASSERT_EQ(curves.size(), 1u);
+    const AdaptationCurve& curve = curves[0];
+    EXPECT_EQ(curve.round, "about z");
+    EXPECT_NEAR(curve.perturbation(), -30, 1e-5);
+    EXPECT_TRUE(std::isnan(curve.trials[20].compensation));
+    const auto at = curve.landmarks();
+    EXPECT_NEAR(at.baseline, bias, 1e-5);
+    EXPECT_LT(at.late, at.early);
+    EXPECT_NEAR(at.catch_trials, curve.trials[46].compensation, 1e-12);
+    EXPECT_NEAR(at.washout_first, curve.trials[96].compensation, 1e-12);
+    const auto fits = fit_adaptation(curve);
+    ASSERT_TRUE(fits);
+    EXPECT_LT(fits->two_rate.residual_sd, 0.05);
+    EXPECT_NEAR(fits->two_rate.rates.slow.retention, 0.992, 0.003);
+    EXPECT_NEAR(fits->two_rate.rates.fast.learning, 0.21, 0.02);
+}
+
+TEST(Adaptation, IsNotSeenWhereNothingWasMeasuredOrPerturbed) {
+    testing::TemporaryFolder folder;
+    EXPECT_TRUE(
+        adaptation_curves(CsvFile(folder.write("a.csv", "trial_num,outcome\n1,done\n"))).empty());
+    const auto curves =
+        adaptation_curves(CsvFile(folder.write("b.csv", trials_of(model::kSmith2006, 0, 0))));
+    ASSERT_EQ(curves.size(), 1u);
+    EXPECT_FALSE(fit_adaptation(curves[0]));
+}
+
+TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
+    testing::TemporaryFolder folder;
+    Random random(3, "weights");
+    std::string text = "lift,static_load_N,peak_load_rate_N_s\n";
+    double before = 2;
+    for (int i = 0; i < 60; ++i) {
+        const double weight = random.uniform(0, 1) < 0.5 ? 2 : 8;
+        const double rate = 5 + 1.5 * weight + 0.5 * before + 0.1 * random.normal();
+        text += "complete," + std::to_string(weight) + "," + std::to_string(rate) + "\n";
+        before = weight;
+    }
+    const auto effect = previous_weight(CsvFile(folder.write("lifts.csv", text)));
+    ASSERT_TRUE(effect);
+    EXPECT_NEAR(effect->effect, 0.5, 4 * effect->error);
+    EXPECT_LT(effect->error, 0.02);
+    EXPECT_NEAR(effect->share, 0.25, 0.02);
+    // nothing to tell by
+    text = "lift,static_load_N,peak_load_rate_N_s\n";
+    for (int i = 0; i < 60; ++i) text += "complete,2,7\n";
+    EXPECT_FALSE(previous_weight(CsvFile(folder.write("same.csv", text))));
+}
+
+TEST(Page, ShowsAnyTextAsItIs) {
+    Page page("a < b & \"c\"", "by </script>");
+    Chart chart;
+    chart.title = "</script>\"'\xff";
+    chart.series = {{"x", Drawn::points, {1, 2}, {3, std::nan("")}, {}, {}}};
+    page.chart(chart);
+    const std::string html = page.html();
+    EXPECT_NE(html.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
+    EXPECT_EQ(html.find("by </script>"), std::string::npos);
+    EXPECT_NE(html.find("[3.0,null]"), std::string::npos);
+    // nothing is fetched from anywhere
+    for (const char* outside :
+         {"<script src", "<link", "<img", "@import", "url(http", "sourceMappingURL"})
+        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+}
+
+TEST(Report, OfNothingSaysSo) {
+    testing::TemporaryFolder folder;
+    EXPECT_THROW(write_report(folder.file("nothing"), "", {}), Error);
+    folder.write("a.txt", "");
+    EXPECT_THROW(write_report(folder.file("."), "", {}), Error);
+}
+
+}  // namespace
+}  // namespace dihaptic::analysis

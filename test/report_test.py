@@ -1,0 +1,99 @@
+"""report.html as its reader meets it, in headless Chromium.
+
+Usage: report_test.py PROGRAM, from the project's folder.
+"""
+import csv
+import glob
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+
+
+def dihaptic(*arguments):
+    result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+def chromium(page, *arguments):
+    """What the browser says of a page on standard output."""
+    return subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000",
+                           "--window-size=1100,3000", *arguments, pathlib.Path(page).resolve().as_uri()],
+                          capture_output=True, text=True, timeout=300, check=True).stdout
+
+
+class Reports(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.out = cls.folder.name
+        for person in ["S01", "S02"]:
+            dihaptic("run", "experiments/visuomotor-rotation.yaml", "--simulate", "--participant", person,
+                     "--out", cls.out)
+        dihaptic("run", "experiments/lift-block.yaml", "--out", cls.out)
+        cls.sessions = sorted(glob.glob(cls.out + "/*/"))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def drawn(self, page, count):
+        """Opens a page: every chart is drawn, on a canvas, and nothing went wrong."""
+        text = pathlib.Path(page).read_text()
+        self.assertEqual(text.count('<div class="chart" data-chart="{'), count, page)
+        dom = chromium(page, "--dump-dom")
+        self.assertEqual(len(re.findall(r'class="chart[^"]*drawn', dom)), count, page)
+        self.assertNotIn("NaN", re.sub(r"<script>.*?</script>", "", dom, flags=re.S))
+        return dom
+
+    def test_a_session_has_its_curves_and_says_what_made_them(self):
+        session = next(s for s in self.sessions if "S01" in s)
+        self.assertIn("report.html, adaptation.csv, fits.csv: of 1 session", dihaptic("report", session))
+        dom = self.drawn(session + "/report.html", 4)
+        self.assertIn("Adaptation to visuomotor rotations about four axes", dom)
+        self.assertIn("seed 1", dom)
+        self.assertIn("dihaptic 0.1.0", dom)
+        with open(session + "/trials.csv") as file:
+            trials = list(csv.DictReader(file))
+        with open(session + "/adaptation.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(trials))
+        for trial, row in zip(trials, rows):
+            self.assertEqual(float(row["compensation_deg"]), -float(trial["hand_angle_deg"]))
+        rotated = [float(r["perturbation_deg"]) for r in rows if r["kind"] == "perturbed"]
+        self.assertTrue(all(abs(f - 30) < 0.5 for f in rotated), rotated[:5])
+
+    def test_a_lift_is_drawn_over_time(self):
+        session = next(s for s in self.sessions if "lift-block" in s)
+        dihaptic("report", session)
+        self.drawn(session + "/report.html", 3)
+
+    def test_people_are_averaged_and_damaged_sessions_left_out(self):
+        bad = pathlib.Path(self.out, "bad")
+        bad.mkdir()
+        (bad / "session.yaml").write_text("state: running\n")
+        (bad / "raw.log").write_text("")
+        said = dihaptic("report", self.out)
+        self.assertIn("left out: ", said)
+        self.assertIn("of 3 sessions", said)
+        self.drawn(self.out + "/report.html", 4)
+        with open(self.out + "/population-adaptation.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({r["people"] for r in rows}, {"2"})
+        self.assertEqual(len({r["round"] for r in rows}), 4)
+
+    def test_it_reads_on_paper(self):
+        session = next(s for s in self.sessions if "lift-block" in s)
+        dihaptic("report", session)
+        paper = self.out + "/report.pdf"
+        chromium(session + "/report.html", "--print-to-pdf=" + paper)
+        self.assertTrue(pathlib.Path(paper).read_bytes().startswith(b"%PDF"))
+
+
+if __name__ == "__main__":
+    unittest.main()
