@@ -80,6 +80,8 @@ void TrialFinder::add(const servo::Frame& frame) {
     Row& row = rows_.back();
     row.end = seconds(frame.time);
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
+    // where it does not act in all of the trial
+    if (frame.task.share != 0) row.share = frame.task.share;
     row.peak_grip = std::fmax(row.peak_grip, frame.grip_force);
     for (const servo::FingerFrame& finger : frame.fingers)
         row.peak_force = std::max(row.peak_force, finger.f_sent_W.norm());
@@ -119,7 +121,12 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         const auto i = static_cast<size_t>(r.trial);
         for (size_t k = 0; k < listed; ++k) {
             const bool known = i < list_.size() && k < list_[i].size();
-            row.push_back(cell(known ? list_[i][k] : ""));
+            // a procedure's share is known when the trial is done
+            if (known && list_[0][k] == "share" && list_[i][k].empty()) {
+                row.emplace_back(r.share);
+            } else {
+                row.push_back(cell(known ? list_[i][k] : ""));
+            }
         }
         const auto outcome = static_cast<size_t>(r.outcome);
         row.emplace_back(static_cast<double>(r.attempt));

@@ -41,6 +41,7 @@ class TrialFinder {
         int outcome = -1;
         double start = 0;  ///< [s]
         double end = 0;
+        double share = 0;  ///< of the perturbation
         double peak_grip;
         double peak_force = 0;
         double hand_angle;  ///< [rad]

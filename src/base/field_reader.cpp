@@ -223,6 +223,20 @@ void FieldReader::operator()(std::string_view name, std::vector<std::string>& va
     }
 }
 
+void FieldReader::operator()(std::string_view name, std::vector<double>& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return;
+    if (given.node->kind != Node::Kind::sequence || given.node->items.empty()) {
+        diagnostics_.error(given.node->place, given.key, "must be a list of numbers",
+                           fmt::format("Write {}: [0.2, 0.1].", given.key));
+        return;
+    }
+    value.clear();
+    for (const Node& item : given.node->items) {
+        if (const auto read = number(given, item, field)) value.push_back(*read);
+    }
+}
+
 void FieldReader::operator()(std::string_view name, Node& value, Field field) {
     if (const Given given = take(name, field); given.node != nullptr) value = *given.node;
 }

@@ -34,6 +34,7 @@ class FieldReader {
     void operator()(std::string_view name, bool& value, Field field = {});
     void operator()(std::string_view name, std::string& value, Field field = {});
     void operator()(std::string_view name, std::vector<std::string>& value, Field field = {});
+    void operator()(std::string_view name, std::vector<double>& value, Field field = {});
 
     template <NamedEnum E>
     void operator()(std::string_view name, E& value, Field field = {}) {

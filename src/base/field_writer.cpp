@@ -51,6 +51,13 @@ void FieldWriter::operator()(std::string_view name, const std::vector<std::strin
     if (!list.items.empty()) mapping_.set(std::string(name), list);
 }
 
+void FieldWriter::operator()(std::string_view name, const std::vector<double>& value, Field field) {
+    Node list;
+    list.kind = Node::Kind::sequence;
+    for (const double item : value) list.items.push_back(exact(item));
+    if (!list.items.empty()) mapping_.set(si_key(name, field.quantity), list);
+}
+
 void FieldWriter::operator()(std::string_view name, const Node& value, Field) {
     if (value.kind != Node::Kind::null) mapping_.set(std::string(name), value);
 }

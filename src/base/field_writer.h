@@ -22,6 +22,7 @@ class FieldWriter {
     void operator()(std::string_view name, const bool& value, Field field = {});
     void operator()(std::string_view name, const std::string& value, Field field = {});
     void operator()(std::string_view name, const std::vector<std::string>& value, Field field = {});
+    void operator()(std::string_view name, const std::vector<double>& value, Field field = {});
 
     template <NamedEnum E>
     void operator()(std::string_view name, const E& value, Field = {}) {

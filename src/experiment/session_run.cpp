@@ -97,6 +97,8 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         write_file(to_yaml(write_fields(plan.task->task)), folder.file("task.yaml"));
         write_csv(frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
         names.insert(names.end(), {"task.yaml", "trial-list.csv"});
+        if (!plan.task->task.procedures.empty())
+            write_csv(procedure_table(*plan.task), folder.file("procedures.csv"));
     }
     if (!plan.resumes.empty())
         fs::copy_file(plan.resumes + "/trials.csv", folder.file("trials-before.csv"));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "experiment/perturbation.h"
+#include "experiment/procedure_spec.h"
 #include "hand/spec.h"
 
 namespace dihaptic::experiment {
@@ -154,6 +155,7 @@ struct Block {
     Order order = Order::shuffled;        ///< anew in each repeat
     std::string perturb;                  ///< a perturbation; empty: none
     int ramp = 0;  ///< trials over which its share rises from 0 to 1; 0: at once
+    std::vector<std::string> procedures;  ///< whose trials, mixed, the block consists of
     std::vector<Insert> insert;
     Place place;
 
@@ -166,6 +168,7 @@ struct Block {
         v("order", order);
         v("perturb", perturb);
         v("ramp", ramp, Field::number().within(0, 100000));
+        v("procedures", procedures);
         v("insert", insert);
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -207,6 +210,7 @@ struct Task {
     std::vector<Condition> conditions;  ///< empty: one, without a name
     std::vector<Condition> rounds;      ///< the blocks are done once for each; empty: once
     Order round_order = Order::sequential;
+    std::vector<ProcedureSpec> procedures;
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
     int most_attempts = 3;  ///< at a trial
@@ -221,6 +225,7 @@ struct Task {
         v("conditions", conditions);
         v("rounds", rounds);
         v("round_order", round_order);
+        v("procedures", procedures);
         v("blocks", blocks, Field::text().required());
         v("redo", redo);
         v("most_attempts", most_attempts, Field::number().within(1, 100));

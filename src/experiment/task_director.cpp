@@ -21,8 +21,13 @@ bool same_pose(const Pose& a, const Pose& b) noexcept {
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
                            const std::vector<int>& done)
     : plan_(plan), tick_(tick), queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed) {
+    for (const ProcedureSpec& spec : plan.task.procedures)
+        procedures_.push_back(make_procedure(spec));
     for (const int outcome : done) {
-        if (!queue_.empty()) queue_.finish(plan.outcomes[static_cast<size_t>(outcome)].redo);
+        if (queue_.empty()) break;
+        take_answer(outcome);
+        queue_.finish(plan.outcomes[static_cast<size_t>(outcome)].redo);
+        skip_done();
     }
     share_ = static_cast<double>(queue_.done()) / queue_.all();
     size_t ways = 0;
@@ -171,10 +176,39 @@ void TaskDirector::finish(const TaskPlan::Way& way, servo::Commands& commands) n
     commands.task.attempt = queue_.attempt();
     commands.task.outcome = way.outcome;
     commands.task.message = message_;
+    take_answer(way.outcome);
     queue_.finish(way.exit.redo);
+    skip_done();
     state_ = -1;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
     commands.stop = queue_.empty();
+}
+
+void TaskDirector::skip_done() noexcept {
+    while (!queue_.empty() && trial().procedure >= 0 &&
+           procedures_[static_cast<size_t>(trial().procedure)].done())
+        queue_.finish(false);
+}
+
+/// That the trial's procedure chose, as far as there are shares.
+double TaskDirector::level() const noexcept {
+    const auto i = static_cast<size_t>(trial().procedure);
+    const ProcedureSpec& spec = plan_.task.procedures[i];
+    return std::clamp(procedures_[i].level(), spec.least(), spec.most());
+}
+
+double TaskDirector::share_of_trial() const noexcept {
+    if (trial().procedure < 0) return trial().share;
+    return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
+}
+
+/// Of the trial that ends so. An outcome that is none is no answer.
+void TaskDirector::take_answer(int outcome) noexcept {
+    if (trial().procedure < 0) return;
+    const auto i = static_cast<size_t>(trial().procedure);
+    const std::string& name = plan_.outcomes[static_cast<size_t>(outcome)].name;
+    const bool yes = name == plan_.task.procedures[i].yes;
+    if (yes || name == plan_.task.procedures[i].no) procedures_[i].answer(level(), yes);
 }
 
 void TaskDirector::order(const servo::Frame& last, std::span<const haptics::Handle> handles,
@@ -192,8 +226,9 @@ void TaskDirector::order(const servo::Frame& last, std::span<const haptics::Hand
             add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.radius[i]});
     }
     if (stage.perturbed && trial().perturb >= 0) {
-        cell.perturbations[static_cast<size_t>(trial().perturb)].order(trial().share, cell.p_W,
-                                                                       last, handles, out);
+        out.share = share_of_trial();
+        cell.perturbations[static_cast<size_t>(trial().perturb)].order(out.share, cell.p_W, last,
+                                                                       handles, out);
     }
 }
 

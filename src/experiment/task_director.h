@@ -37,8 +37,15 @@ class TaskDirector {
     void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
                servo::Commands& commands) const noexcept;
 
+    /// On to a trial that is still to be done: procedures may need fewer than the list has.
+    void skip_done() noexcept;
+    double level() const noexcept;
+    double share_of_trial() const noexcept;
+    void take_answer(int outcome) noexcept;
+
     const TaskPlan& plan_;
     double tick_;
+    std::vector<Procedure> procedures_;
     TrialQueue queue_;
     int state_ = -1;      // -1: between trials
     double entered_ = 0;  // [s]

@@ -50,6 +50,7 @@ class Planner {
         for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
         check_ways();
         make_cells();
+        for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
         for (const Block& block : plan_.task.blocks) check_block(block);
         check_reach();
         make_homes();
@@ -69,6 +70,7 @@ class Planner {
         check_names(task.states, "states", diagnostics_);
         check_names(task.conditions, "conditions", diagnostics_);
         check_names(task.rounds, "rounds", diagnostics_);
+        check_names(task.procedures, "procedures", diagnostics_);
         check_names(task.blocks, "blocks", diagnostics_);
         if (task.regions.size() > servo::TaskFrame::kMostTargets) {
             error(task.place, "regions",
@@ -252,6 +254,19 @@ class Planner {
         }
     }
 
+    void check_procedure(const ProcedureSpec& procedure) {
+        check(procedure, diagnostics_);
+        look_up(names_of(plan_.task.perturbations), procedure.perturb, procedure.place, "perturb",
+                "no perturbation", diagnostics_);
+        for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
+            const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
+                                  "no outcome", diagnostics_);
+            if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
+                error(procedure.place, key, fmt::format("'{}' is done again", *name),
+                      "Leave out redo where an answer ends the trial.");
+        }
+    }
+
     void check_block(const Block& block) {
         const std::vector<std::string> perturbations = names_of(plan_.task.perturbations);
         for (const std::string& name : block.conditions)
@@ -262,7 +277,18 @@ class Planner {
                 look_up(perturbations, name, place, "perturb", "no perturbation", diagnostics_);
         };
         perturbation(block.perturb, block.place);
-        if (block.kind == TrialKind::perturbed && block.perturb.empty())
+        size_t procedure_trials = 0;
+        for (const std::string& name : block.procedures) {
+            const int i = look_up(names_of(plan_.task.procedures), name, block.place, "procedures",
+                                  "no procedure", diagnostics_);
+            if (i >= 0)
+                procedure_trials +=
+                    static_cast<size_t>(plan_.task.procedures[static_cast<size_t>(i)].trials);
+        }
+        if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
+            error(block.place, "procedures", "choose the perturbation and its share by themselves",
+                  "Leave out perturb and ramp.");
+        if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
             error(block.place, "perturb", "is missing in a perturbed block",
                   "Name a perturbation, or make it a baseline block.");
         if (block.ramp > 0 && block.perturb.empty())
@@ -273,7 +299,9 @@ class Planner {
         if (block.order == Order::counterbalanced && conditions > 8)
             error(block.place, "order", "more than 8 conditions have too many orders",
                   "Use latin_square.");
-        const size_t trials = conditions * static_cast<size_t>(block.repeats);
+        const size_t trials = block.procedures.empty()
+                                  ? conditions * static_cast<size_t>(block.repeats)
+                                  : procedure_trials;
         for (const Insert& insert : block.insert) {
             perturbation(insert.perturb, insert.place);
             if (static_cast<size_t>(insert.count) > trials)
@@ -375,6 +403,26 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
         }
         for (int k = 0; k < 3; ++k) row.emplace_back(axis[k]);
         row.emplace_back(static_cast<double>(during));
+    }
+    return table;
+}
+
+Table procedure_table(const TaskPlan& plan) {
+    Table table;
+    table.columns = {{"procedure", "name"},
+                     {"kind", "staircase, quest or quest_plus"},
+                     {"perturbation", "whose share it chooses"},
+                     {"logarithmic", "the share is 10^level"},
+                     {"yes", "outcome that grows likelier with the level"},
+                     {"no", "the other"},
+                     {"sigmoid", "of the psychometric function"},
+                     {"guess", "its lower end"},
+                     {"guess_is_lapse", "or the lapse rate is"}};
+    const auto yes_no = [](bool yes) { return std::string(yes ? "yes" : "no"); };
+    for (const ProcedureSpec& p : plan.task.procedures) {
+        table.rows.push_back({p.name, std::string(p.kind()), p.perturb, yes_no(p.logarithmic),
+                              p.yes, p.no, std::string(enum_name(p.sigmoid)), p.guess,
+                              yes_no(p.guess_is_lapse)});
     }
     return table;
 }

@@ -76,4 +76,7 @@ TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& dia
 /// trial-list.csv with what trials are measured by: columns named reach_... (ReachMeasure).
 Table frozen_list(const TaskPlan& plan, const scene::Scene& scene);
 
+/// procedures.csv: what those who fit the answers need to know of each.
+Table procedure_table(const TaskPlan& plan);
+
 }  // namespace dihaptic::experiment

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 
 #include "experiment/lookup.h"
@@ -55,6 +56,27 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+/// As many of each procedure as it has at most, mixed: whose turn it is tells nothing.
+std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
+                                    Random& random) {
+    trial.share = std::numeric_limits<double>::quiet_NaN();
+    std::vector<int> turns;
+    for (const std::string& name : block.procedures) {
+        const int i = index_of(names_of(task.procedures), name);
+        turns.insert(turns.end(),
+                     static_cast<size_t>(task.procedures[static_cast<size_t>(i)].trials), i);
+    }
+    shuffle(turns, random);
+    std::vector<Trial> out;
+    for (const int i : turns) {
+        trial.procedure = i;
+        trial.perturb =
+            index_of(names_of(task.perturbations), task.procedures[static_cast<size_t>(i)].perturb);
+        out.push_back(trial);
+    }
+    return out;
+}
+
 /// The block's trials, one after the other.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
                              Random& random) {
@@ -72,7 +94,17 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     trial.kind = block.kind;
     trial.perturb = index_of(perturbations, block.perturb);
     const int n = static_cast<int>(conditions.size());
-    for (int repeat = 0; repeat < block.repeats; ++repeat) {
+    if (!block.procedures.empty()) {
+        out = procedure_trials(task, block, trial, random);
+        // their conditions in the block's order, as often as it takes
+        for (size_t i = 0; i < out.size();) {
+            for (const int k : ordered(n, block.order, number, random)) {
+                if (i == out.size()) break;
+                out[i++].condition = conditions[static_cast<size_t>(k)];
+            }
+        }
+    }
+    for (int repeat = 0; repeat < block.repeats && block.procedures.empty(); ++repeat) {
         // a Latin square goes on from repeat to repeat
         const int row = block.order == Order::latin_square ? number + repeat : number;
         for (const int i : ordered(n, block.order, row, random)) {
@@ -92,6 +124,8 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
             Trial extra = out[static_cast<size_t>(i)];
             extra.kind = insert.kind;
             extra.perturb = index_of(perturbations, insert.perturb);
+            extra.procedure = -1;
+            if (std::isnan(extra.share)) extra.share = 1;
             out.insert(out.begin() + i + 1, extra);
         }
     }
@@ -170,7 +204,8 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
                      {"round", "name"},
                      {"condition", "name"},
                      {"perturbation", "name; empty: none"},
-                     {"share", "of the perturbation that acts"}};
+                     {"share", "of the perturbation that acts; empty: the procedure's to say"},
+                     {"procedure", "name; empty: none"}};
     for (size_t i = 0; i < trials.size(); ++i) {
         const Trial& t = trials[i];
         table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
@@ -178,7 +213,8 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
                               static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
                               name_at(names_of(task.rounds), t.round),
                               name_at(names_of(task.conditions), t.condition),
-                              name_at(names_of(task.perturbations), t.perturb), t.share});
+                              name_at(names_of(task.perturbations), t.perturb), t.share,
+                              name_at(names_of(task.procedures), t.procedure)});
     }
     return table;
 }
@@ -192,7 +228,7 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
             return Error({file, static_cast<int>(i) + 1}, column, "is none of this task's",
                          "Put back the list that the session was recorded with.");
         };
-        if (row.size() < 9) throw bad("trial_num");
+        if (row.size() < 10) throw bad("trial_num");
         Trial t;
         t.number = std::atoi(row[1].c_str());
         t.block = index_of(names_of(task.blocks), row[2]);
@@ -202,12 +238,15 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         t.round = task.rounds.empty() ? 0 : index_of(names_of(task.rounds), row[5]);
         t.condition = task.conditions.empty() ? 0 : index_of(names_of(task.conditions), row[6]);
         t.perturb = index_of(names_of(task.perturbations), row[7]);
-        t.share = std::strtod(row[8].c_str(), nullptr);
+        t.share = row[8].empty() ? std::numeric_limits<double>::quiet_NaN()
+                                 : std::strtod(row[8].c_str(), nullptr);
+        t.procedure = index_of(names_of(task.procedures), row[9]);
         if (t.block < 0) throw bad("block");
         if (kind == kinds.end()) throw bad("kind");
         if (t.round < 0) throw bad("round");
         if (t.condition < 0) throw bad("condition");
         if (t.perturb < 0 && !row[7].empty()) throw bad("perturbation");
+        if (t.procedure < 0 && !row[9].empty()) throw bad("procedure");
         t.kind = static_cast<TrialKind>(kind - kinds.begin());
         out.push_back(t);
     }

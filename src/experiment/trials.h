@@ -15,8 +15,9 @@ struct Trial {
     int round = 0;
     int condition = 0;
     TrialKind kind = TrialKind::baseline;
-    int perturb = -1;  ///< index among the task's perturbations; -1: none
-    double share = 1;  ///< of the perturbation
+    int perturb = -1;    ///< index among the task's perturbations; -1: none
+    int procedure = -1;  ///< index among the task's, which chooses the share; -1: none does
+    double share = 1;    ///< of the perturbation; NaN where a procedure chooses it
 };
 
 /// 0 to n - 1 in the order for a participant. Shuffled: from `random`. Latin square: row `number`

@@ -14,9 +14,14 @@
 // a unit. Source: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
 #pragma once
 
+#include <array>
+
 namespace dihaptic::model {
 
 enum class Sigmoid { normal, logistic, weibull, weibull_log10 };
+constexpr auto enum_names(Sigmoid) {
+    return std::array{"normal", "logistic", "weibull", "weibull_log10"};
+}
 
 struct Psychometric {
     Sigmoid sigmoid = Sigmoid::normal;

@@ -121,6 +121,7 @@ struct TaskFrame {
     int32_t outcome = -1;  ///< of the trial, in its last frame: index into the session's outcomes
     int32_t message = -1;  ///< that is shown: index into the session's messages
     int32_t marker = 0;    ///< event code of this tick, 1 to 255; 0: none
+    double share = 0;      ///< of the trial's perturbation that acts
     std::vector<VisualMap> visual;  ///< none: all is shown where it is
     std::vector<TargetFrame> targets;
     std::vector<PropertiesFrame> properties;
@@ -139,6 +140,7 @@ struct TaskFrame {
         attempt = 0;
         outcome = message = -1;
         marker = 0;
+        share = 0;
         visual.clear();
         targets.clear();
         properties.clear();
@@ -152,6 +154,7 @@ struct TaskFrame {
         v("outcome", t.outcome, "1");
         v("message", t.message, "1");
         v("marker", t.marker, "1");
+        v("share", t.share, "1");
         v.each("visual", t.visual);
         v.each("targets", t.targets);
         v.each("properties", t.properties);

@@ -153,6 +153,37 @@ void add_adaptation(PopulationPage& out, const std::string& title, const Session
     add_adaptation_summary(out, first_row, origin);
 }
 
+void add_thresholds(PopulationPage& out, const std::string& title, const Sessions& sessions,
+                    const std::string& origin) {
+    std::vector<std::string> procedures;
+    std::map<std::string, std::vector<double>> shares;
+    for (const SessionData* session : sessions) {
+        for (const ThresholdTrack& track : session->tracks) {
+            const auto fitted = fit_threshold(track, std::stoull(session->info.seed));
+            if (!fitted) continue;
+            if (!shares.contains(track.procedure)) procedures.push_back(track.procedure);
+            const model::Psychometric& f = fitted->fit.function;
+            shares[track.procedure].push_back(track.share(f.threshold));
+            out.thresholds.rows.push_back(
+                {title, session->participant(), track.procedure, track.perturbation,
+                 static_cast<double>(track.answers.size()), track.share(f.threshold), f.shape,
+                 f.lapse, session->folder.path()});
+        }
+    }
+    if (procedures.empty()) return;
+    Table table;
+    table.columns = {
+        {"procedure", ""}, {"people", ""}, {"mean", ""}, {"mean 95 %", ""}, {"SD", ""}};
+    for (const std::string& procedure : procedures) {
+        const Sample all = sample(shares[procedure]);
+        table.rows.push_back(
+            {procedure, static_cast<double>(all.count), all.mean,
+             fmt::format("{:.3g} to {:.3g}", all.mean_interval.low, all.mean_interval.high),
+             all.sd});
+    }
+    out.page.table(table, "Thresholds over people, as shares of the perturbation. " + origin);
+}
+
 void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
                const std::string& origin) {
     static const std::vector<const char*> kFigures = {
@@ -218,10 +249,7 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
     PopulationPage out{
         Page(titles.size() == 1 ? titles.front() : fmt::format("{} experiments", titles.size()),
              fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
-                         recording::program_version(), command)),
-        {},
-        {},
-        {}};
+                         recording::program_version(), command))};
     out.people.columns = {{"experiment", "title"},
                           {"ppid", "participant"},
                           {"round", ""},
@@ -245,6 +273,10 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
         {"experiment", ""},   {"round", ""},    {"trial", ""},  {"block", ""},
         {"people", ""},       {"mean_deg", ""}, {"sd_deg", ""}, {"mean_low_deg", "95 %"},
         {"mean_high_deg", ""}};
+    out.thresholds.columns = {
+        {"experiment", ""},   {"ppid", "participant"}, {"procedure", ""},
+        {"perturbation", ""}, {"trials", "answers"},   {"threshold_share", "of the perturbation"},
+        {"shape", ""},        {"lapse", ""},           {"session", "folder"}};
     out.lifts.columns = {{"experiment", ""},   {"trials", ""},   {"figure", ""},
                          {"people", ""},       {"mean", ""},     {"sd", ""},
                          {"mean_low", "95 %"}, {"mean_high", ""}};
@@ -257,6 +289,7 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
         out.page.text(fmt::format("{} sessions of {} people: {}.", list.size(), people.size(),
                                   fmt::join(people, ", ")));
         add_adaptation(out, title, list, origin);
+        add_thresholds(out, title, list, origin);
         add_lifts(out, title, list, origin);
     }
     return out;

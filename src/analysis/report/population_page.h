@@ -11,9 +11,10 @@ namespace dihaptic::analysis {
 
 struct PopulationPage {
     Page page;
-    Table people;      ///< a row a session and round
-    Table adaptation;  ///< a row a round and trial; empty without reaches
-    Table lifts;       ///< a row an experiment, group of trials and figure; empty without lifts
+    Table people{};      ///< a row a session and round
+    Table adaptation{};  ///< a row a round and trial; empty without reaches
+    Table thresholds{};  ///< a row a session and procedure; empty without
+    Table lifts{};       ///< a row an experiment, group of trials and figure; empty without lifts
 };
 
 PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,

@@ -28,6 +28,7 @@ ReportResult report_session(const std::string& path, const std::string& command,
     result.sessions = 1;
     write(result, made.adaptation, session.folder.file("adaptation.csv"));
     write(result, made.fits, session.folder.file("fits.csv"));
+    write(result, made.thresholds, session.folder.file("thresholds.csv"));
     result.page = session.folder.file("report.html");
     write_file(made.page.html(), result.page);
     return result;
@@ -74,6 +75,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
     write(result, made.people, file("people.csv"));
     write(result, made.adaptation, file("population-adaptation.csv"));
     write(result, made.lifts, file("population-lifts.csv"));
+    write(result, made.thresholds, file("population-thresholds.csv"));
     result.page = file("report.html");
     write_file(made.page.html(), result.page);
     return result;

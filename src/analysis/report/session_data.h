@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/adaptation.h"
+#include "analysis/thresholds.h"
 #include "base/table.h"
 #include "recording/session.h"
 
@@ -17,6 +18,7 @@ struct SessionData {
     CsvFile trials;
     std::optional<CsvFile> lifts;
     std::vector<AdaptationCurve> curves;
+    std::vector<ThresholdTrack> tracks;
 
     /// Throws Error when it is no session, or has not ended.
     static SessionData read(const std::string& path);

@@ -172,6 +172,81 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
                        origin_of(session));
 }
 
+/// Where the function has its share of yes, level by level, and the answers.
+Chart psychometric_chart(const ThresholdTrack& track, const std::optional<ThresholdFit>& fitted,
+                         const std::string& origin) {
+    Chart chart;
+    chart.title = "Answers of " + track.procedure;
+    chart.x_label = track.logarithmic ? "level (log10 of the share of " + track.perturbation + ")"
+                                      : "share of " + track.perturbation;
+    chart.y_label = "share of yes";
+    chart.caption = origin;
+    Series answers{"answers", Drawn::points, {}, {}, {}, {}};
+    const auto counts = count(track.answers);
+    for (const LevelCount& c : counts) {
+        answers.x.push_back(c.level);
+        answers.y.push_back(static_cast<double>(c.yes) / c.trials);
+    }
+    chart.series.push_back(answers);
+    if (!fitted || counts.empty()) return chart;
+    constexpr int kSteps = 100;
+    Series curve{"fit", Drawn::line, {}, {}, {}, {}};
+    for (int i = 0; i <= kSteps; ++i) {
+        const double x =
+            counts.front().level + (counts.back().level - counts.front().level) * i / kSteps;
+        curve.x.push_back(x);
+        curve.y.push_back(fitted->fit.function.probability(x));
+    }
+    chart.series.push_back(curve);
+    chart.marks.push_back({fitted->fit.function.threshold, "threshold"});
+    return chart;
+}
+
+void add_thresholds(SessionPage& out, const SessionData& session) {
+    out.page.heading("Thresholds");
+    out.page.text(
+        "Each procedure chose the share of its perturbation by the answers before. The function is "
+        "fitted to all of its answers by maximum likelihood, with lapses up to 5 %; intervals are "
+        "those of 500 bootstrap samples.");
+    out.thresholds.columns = {{"procedure", ""},
+                              {"kind", ""},
+                              {"perturbation", ""},
+                              {"trials", "answers"},
+                              {"threshold", "level"},
+                              {"threshold_95", "bootstrap"},
+                              {"threshold_share", "of the perturbation"},
+                              {"shape", "of the sigmoid"},
+                              {"shape_95", ""},
+                              {"lapse", ""},
+                              {"deviance_share", "below 0.05: the function does not fit"}};
+    for (const ThresholdTrack& track : session.tracks) {
+        const auto fitted = fit_threshold(track, std::stoull(session.info.seed));
+        Series yes{"yes", Drawn::points, {}, {}, {}, {}};
+        Series no{"no", Drawn::points, {}, {}, {}, {}};
+        for (size_t i = 0; i < track.answers.size(); ++i) {
+            Series& series = track.answers[i].yes ? yes : no;
+            series.x.push_back(static_cast<double>(i + 1));
+            series.y.push_back(track.answers[i].level);
+        }
+        out.page.chart(
+            {"Levels of " + track.procedure, "answer", "level", origin_of(session), {yes, no}, {}});
+        out.page.chart(psychometric_chart(track, fitted, origin_of(session)));
+        std::vector<Table::Cell>& row = out.thresholds.rows.emplace_back();
+        row = {track.procedure, track.kind, track.perturbation,
+               static_cast<double>(track.answers.size())};
+        if (!fitted) {
+            row.resize(out.thresholds.columns.size(), AdaptationCurve::kNone);
+            continue;
+        }
+        const model::Psychometric& f = fitted->fit.function;
+        row.insert(row.end(),
+                   {f.threshold, interval_text(fitted->intervals.threshold),
+                    track.share(f.threshold), f.shape, interval_text(fitted->intervals.shape),
+                    f.lapse, fitted->intervals.deviance_share});
+    }
+    out.page.table(transposed(out.thresholds), origin_of(session));
+}
+
 /// Medians by group.
 Table lift_summary(const SessionData& session) {
     Table table;
@@ -347,14 +422,13 @@ SessionPage session_page(const SessionData& session, const std::string& command,
                          const std::function<void(double)>& progress) {
     SessionPage out{
         Page(session.info.title, fmt::format("{}. Made by {} with: {}", origin_of(session),
-                                             recording::program_version(), command)),
-        {},
-        {}};
+                                             recording::program_version(), command))};
     out.page.table(facts(session), "");
     out.page.heading("Trials");
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
     if (!session.curves.empty()) add_adaptation(out, session);
+    if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
     add_course(out, session, progress);
     out.page.heading("Settings");

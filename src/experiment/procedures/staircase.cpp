@@ -48,6 +48,8 @@ double down_over_up_for(int down_after, double probability) {
 Staircase::Staircase(StaircaseSettings settings)
     : settings_(std::move(settings)), level_(settings_.start) {
     check(settings_);
+    // answers are taken up in the tick
+    reversals_.reserve(static_cast<size_t>(std::max(settings_.trials, settings_.reversals)));
 }
 
 void Staircase::answer(double level, bool yes) {

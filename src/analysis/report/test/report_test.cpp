@@ -113,6 +113,38 @@ TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
     EXPECT_FALSE(previous_weight(CsvFile(folder.write("same.csv", text))));
 }
 
+TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
+    testing::TemporaryFolder folder;
+    Random random(4, "observer");
+    std::string text = "trial_num,share,procedure,outcome\n";
+    const model::Psychometric observer{model::Sigmoid::normal, -0.5, 0.15, 0, 0};
+    for (int i = 1; i <= 400; ++i) {
+        const double level = random.uniform(-1, 0);
+        const bool yes = random.uniform(0, 1) < observer.probability(level);
+        text += std::to_string(i) + "," + std::to_string(std::pow(10, level)) + "," +
+                (i % 10 == 0   ? ",none\n"
+                 : i % 11 == 0 ? "a,late\n"
+                 : yes         ? "a,felt\n"
+                               : "a,not\n");
+    }
+    const auto tracks = threshold_tracks(
+        CsvFile(folder.write("trials.csv", text)),
+        CsvFile(folder.write("procedures.csv",
+                             "procedure,kind,perturbation,logarithmic,yes,no,sigmoid,guess,"
+                             "guess_is_lapse\na,staircase,p,yes,felt,not,normal,0,no\n"
+                             "b,quest,p,yes,felt,not,weibull_log10,0,no\n")));
+    ASSERT_EQ(tracks.size(), 2u);
+    EXPECT_GT(tracks[0].answers.size(), 300u);
+    EXPECT_EQ(tracks[1].answers.size(), 0u);
+    EXPECT_FALSE(fit_threshold(tracks[1], 1));
+    const auto fitted = fit_threshold(tracks[0], 1);
+    ASSERT_TRUE(fitted);
+    EXPECT_NEAR(fitted->fit.function.threshold, -0.5, 0.05);
+    EXPECT_LT(fitted->intervals.threshold.low, -0.5);
+    EXPECT_GT(fitted->intervals.threshold.high, -0.5);
+    EXPECT_NEAR(tracks[0].share(-0.5), 0.3162, 1e-4);
+}
+
 TEST(Page, ShowsAnyTextAsItIs) {
     Page page("a < b & \"c\"", "by </script>");
     Chart chart;

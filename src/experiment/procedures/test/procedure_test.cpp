@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "base/diagnostics.h"
 #include "base/random.h"
-#include "experiment/procedures/interleaved.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -133,66 +131,6 @@ TEST_P(AnyProcedure, RefusesWhatIsNoAnswer) {
     EXPECT_THROW(procedure.answer(INFINITY, true), Error);
     run(procedure, 1);
     EXPECT_THROW(procedure.answer(0, true), Error);
-}
-
-Interleaved interleaved(uint64_t seed) {
-    std::vector<Procedure> tracks;
-    for (const Case& c : cases()) tracks.push_back(c.procedure);
-    return {tracks, seed};
-}
-
-TEST(Interleaved, GivesEachTrackItsOwnTrialsUntilAllAreDone) {
-    Interleaved series = interleaved(1);
-    Random random(2, "observer");
-    std::vector<int> trials(3);
-    std::set<size_t> among_the_first;
-    for (int n = 0; !series.done(); ++n) {
-        const auto before = series.tracks();
-        const size_t track = series.track();
-        EXPECT_EQ(series.level(), series.tracks()[track].level());
-        EXPECT_FALSE(series.tracks()[track].done());
-        if (n < 20) among_the_first.insert(track);
-        ++trials[track];
-        series.answer(series.level(), random.uniform(0, 1) < kObserver.probability(series.level()));
-        for (size_t i = 0; i < before.size(); ++i) {
-            if (i != track) {
-                EXPECT_EQ(before[i].level(), series.tracks()[i].level());
-            }
-        }
-    }
-    EXPECT_EQ(trials, (std::vector<int>{300, 100, 100}));
-    EXPECT_EQ(among_the_first.size(), 3U);
-}
-
-TEST(Interleaved, OrderComesFromTheSeed) {
-    const auto order = [](uint64_t seed) {
-        Interleaved series = interleaved(seed);
-        std::vector<size_t> tracks;
-        for (int i = 0; i < 30; ++i) {
-            tracks.push_back(series.track());
-            series.answer(series.level(), i % 3 == 0);
-        }
-        return tracks;
-    };
-    EXPECT_EQ(order(5), order(5));
-    EXPECT_NE(order(5), order(6));
-}
-
-TEST(Interleaved, TheSameAnswersMakeTheSameState) {
-    Interleaved series = interleaved(3);
-    std::vector<Trial> trials;
-    for (int i = 0; i < 50; ++i) {
-        trials.push_back({series.level(), i % 4 != 0});
-        series.answer(series.level(), i % 4 != 0);
-    }
-    Interleaved resumed = interleaved(3);
-    for (const Trial& t : trials) resumed.answer(t.level, t.yes);
-    EXPECT_EQ(resumed.track(), series.track());
-    EXPECT_EQ(resumed.level(), series.level());
-}
-
-TEST(Interleaved, NeedsATrack) {
-    EXPECT_THROW(Interleaved({}, 1), Error);
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+#include "analysis/thresholds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/field.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr int kResamples = 500;
+constexpr size_t kLeast = 10;
+
+model::Sigmoid sigmoid_of(const std::string& name) {
+    const auto names = enum_names(model::Sigmoid{});
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? model::Sigmoid::normal
+                                : static_cast<model::Sigmoid>(found - names.begin());
+}
+
+}  // namespace
+
+double ThresholdTrack::share(double level) const {
+    return logarithmic ? std::pow(10, level) : level;
+}
+
+std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures) {
+    std::vector<ThresholdTrack> out;
+    for (size_t p = 0; p < procedures.rows(); ++p) {
+        ThresholdTrack& track = out.emplace_back();
+        track.procedure = procedures.text(p, "procedure");
+        track.kind = procedures.text(p, "kind");
+        track.perturbation = procedures.text(p, "perturbation");
+        track.logarithmic = procedures.text(p, "logarithmic") == "yes";
+        track.model.sigmoid = sigmoid_of(procedures.text(p, "sigmoid"));
+        track.model.guess = procedures.number(p, "guess");
+        track.model.guess_is_lapse = procedures.text(p, "guess_is_lapse") == "yes";
+        const std::string yes = procedures.text(p, "yes");
+        const std::string no = procedures.text(p, "no");
+        for (size_t i = 0; i < trials.rows(); ++i) {
+            if (trials.text(i, "procedure") != track.procedure) continue;
+            const std::string outcome = trials.text(i, "outcome");
+            const double share = trials.number(i, "share");
+            const double level = track.logarithmic ? std::log10(share) : share;
+            if ((outcome != yes && outcome != no) || !std::isfinite(level)) continue;
+            track.answers.push_back({level, outcome == yes});
+            track.trials.push_back(static_cast<int>(trials.number(i, "trial_num")));
+        }
+    }
+    return out;
+}
+
+std::optional<ThresholdFit> fit_threshold(const ThresholdTrack& track, uint64_t seed) {
+    const std::vector<LevelCount> counts = count(track.answers);
+    if (track.answers.size() < kLeast || counts.size() < 2) return std::nullopt;
+    ThresholdFit out;
+    out.fit = fit_psychometric(counts, track.model);
+    out.intervals = bootstrap(counts, out.fit, track.model, kResamples, seed);
+    return out;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,37 @@
+// Thresholds, told from a session's trials.csv and procedures.csv: for each adaptive procedure what
+// was shown and said, and the psychometric function that makes the answers most likely.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/fits/psychometric_fit.h"
+#include "base/table.h"
+
+namespace dihaptic::analysis {
+
+struct ThresholdTrack {
+    std::string procedure;
+    std::string kind;  ///< staircase, quest, quest_plus
+    std::string perturbation;
+    bool logarithmic = false;       ///< levels are log10 of shares
+    std::vector<Answer> answers;    ///< in their order
+    std::vector<int> trials;        ///< of each, its number in the session
+    PsychometricFitSettings model;  ///< that is fitted
+
+    double share(double level) const;  ///< of the perturbation
+};
+
+/// By procedure. Answers that are neither yes nor no, and trials of none, are left out.
+std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures);
+
+struct ThresholdFit {
+    PsychometricFit fit;
+    PsychometricIntervals intervals;
+};
+
+/// None of less than ten answers, or of one level. `seed`: of the bootstrap.
+std::optional<ThresholdFit> fit_threshold(const ThresholdTrack& track, uint64_t seed);
+
+}  // namespace dihaptic::analysis

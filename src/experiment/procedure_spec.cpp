@@ -1,0 +1,95 @@
+#include "experiment/procedure_spec.h"
+
+#include <fmt/format.h>
+
+namespace dihaptic::experiment {
+namespace {
+
+/// A trial's answer is taken up within a tick: 0.3 ms for the largest.
+constexpr size_t kLargestGrid = 200'000;
+
+}  // namespace
+
+Procedure make_procedure(const ProcedureSpec& spec) {
+    if (spec.staircase) {
+        const StaircaseSpec& s = *spec.staircase;
+        StaircaseSettings settings;
+        settings.down_after = s.down_after;
+        settings.start = s.start;
+        settings.steps_up = s.steps_up;
+        settings.down_over_up = s.down_over_up;
+        settings.lowest = s.lowest.value_or(spec.least());
+        settings.highest = s.highest.value_or(spec.most());
+        settings.reversals = s.reversals;
+        settings.skipped_reversals = s.skipped_reversals;
+        settings.trials = spec.trials;
+        return {Staircase(settings)};
+    }
+    if (spec.quest) {
+        const QuestSpec& s = *spec.quest;
+        return {Quest({s.prior_mean, s.prior_sd, s.target, s.slope, spec.guess, s.blind, s.grain,
+                       s.cells, spec.trials})};
+    }
+    const QuestPlusSpec& s = spec.quest_plus.value();
+    return {QuestPlus({spec.sigmoid, s.levels.values(), s.thresholds.values(), s.shapes.values(),
+                       s.lapses.values(), spec.guess, spec.guess_is_lapse, spec.trials})};
+}
+
+void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
+    const int kinds =
+        spec.staircase.has_value() + spec.quest.has_value() + spec.quest_plus.has_value();
+    if (kinds != 1) {
+        diagnostics.error(
+            spec.place, spec.name,
+            kinds == 0 ? "has no way to choose levels" : "has more than one way to choose levels",
+            "Give it one of staircase, quest and quest_plus.");
+        return;
+    }
+    if (spec.yes == spec.no)
+        diagnostics.error(spec.place, "no", "is the same outcome as yes", "Name two outcomes.");
+    if (spec.quest_plus) {
+        const QuestPlusSpec& s = *spec.quest_plus;
+        const auto cells =
+            static_cast<size_t>(s.levels.count) * static_cast<size_t>(s.thresholds.count) *
+            static_cast<size_t>(s.shapes.count) * static_cast<size_t>(s.lapses.count);
+        if (cells > kLargestGrid) {
+            diagnostics.error(
+                spec.place, "quest_plus",
+                fmt::format("has a grid of {} values, where {} are the most", cells, kLargestGrid),
+                "Lower a count.");
+            return;
+        }
+    }
+    const auto within = [&](const char* key, double level) {
+        if (level >= spec.least() && level <= spec.most()) return;
+        diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
+                          fmt::format("goes to {:g}, where levels of a share end at {:g}", level,
+                                      level > spec.most() ? spec.most() : spec.least()),
+                          spec.logarithmic
+                              ? "The share is 10^level, at most 1: raise the perturbation instead."
+                              : "The level is the perturbation's share: raise that instead.");
+    };
+    if (spec.quest_plus) {
+        within("levels", spec.quest_plus->levels.from);
+        within("levels", spec.quest_plus->levels.to);
+    }
+    if (spec.staircase) {
+        within("start", spec.staircase->start);
+        within("lowest", spec.staircase->lowest.value_or(spec.least()));
+        within("highest", spec.staircase->highest.value_or(spec.most()));
+    }
+    if (spec.quest && !spec.logarithmic)
+        diagnostics.error(spec.place, "logarithmic", "quest's levels are logarithms",
+                          "Add logarithmic: yes.");
+    try {
+        make_procedure(spec);
+    } catch (const Error& e) {
+        for (Problem problem : e.problems()) {
+            problem.place = spec.place;
+            problem.key = fmt::format("{}.{}", spec.kind(), problem.key);
+            diagnostics.add({problem});
+        }
+    }
+}
+
+}  // namespace dihaptic::experiment

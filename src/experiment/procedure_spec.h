@@ -1,0 +1,142 @@
+// Adaptive procedures as an experiment file writes them (procedures/): the share of a perturbation
+// in each trial, from 0 to 1, follows from the answers so far.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "experiment/procedures/procedure.h"
+
+namespace dihaptic::experiment {
+
+struct StaircaseSpec {
+    int down_after = 1;
+    double start = 1;
+    std::vector<double> steps_up;
+    double down_over_up = 1;
+    std::optional<double> lowest;
+    std::optional<double> highest;
+    int reversals = 0;  ///< it is done after; 0: after the procedure's trials
+    int skipped_reversals = 0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("down_after", down_after, Field::number().within(1, 10));
+        v("start", start, Field::number().required());
+        v("steps_up", steps_up, Field::number().positive().required());
+        v("down_over_up", down_over_up, Field::number().positive());
+        v("lowest", lowest, Field::number());
+        v("highest", highest, Field::number());
+        v("reversals", reversals, Field::number().within(0, 1000));
+        v("skipped_reversals", skipped_reversals, Field::number().within(0, 1000));
+    }
+};
+
+struct QuestSpec {
+    double prior_mean = 0;
+    double prior_sd = 1;
+    double target = 0.82;
+    double slope = 3.5;
+    double blind = 0.01;
+    double grain = 0.01;
+    int cells = 500;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("prior_mean", prior_mean, Field::number().required());
+        v("prior_sd", prior_sd, Field::number().positive().required());
+        v("target", target, Field::number().within(0, 1));
+        v("slope", slope, Field::number().positive());
+        v("blind", blind, Field::number().within(0, 1));
+        v("grain", grain, Field::number().positive());
+        v("cells", cells, Field::number().within(2, 10000));
+    }
+};
+
+/// Values at equal distances, both ends included.
+struct GridSpec {
+    double from = 0;
+    double to = 0;
+    int count = 1;
+
+    std::vector<double> values() const {
+        std::vector<double> out;
+        for (int i = 0; i < count; ++i)
+            out.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
+        return out;
+    }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("from", from, Field::number().required());
+        v("to", to, Field::number().required());
+        v("count", count, Field::number().within(1, 1000).required());
+    }
+};
+
+struct QuestPlusSpec {
+    GridSpec levels;
+    GridSpec thresholds;
+    GridSpec shapes;
+    GridSpec lapses{0.02, 0.02, 1};
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("levels", levels, Field::number().required());
+        v("thresholds", thresholds, Field::number().required());
+        v("shapes", shapes, Field::number().required());
+        v("lapses", lapses);
+    }
+};
+
+struct ProcedureSpec {
+    std::string name;
+    std::string perturb;       ///< whose share is the level
+    bool logarithmic = false;  ///< the share is 10^level
+    std::string yes;           ///< the outcome that grows likelier with the level
+    std::string no;
+    int trials = 40;  ///< at most
+    model::Sigmoid sigmoid = model::Sigmoid::normal;
+    double guess = 0.5;           ///< probability of "yes" far below the threshold
+    bool guess_is_lapse = false;  ///< it is the lapse rate, instead
+    std::optional<StaircaseSpec> staircase;
+    std::optional<QuestSpec> quest;
+    std::optional<QuestPlusSpec> quest_plus;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("perturb", perturb, Field::text().required());
+        v("logarithmic", logarithmic);
+        v("yes", yes, Field::text().required());
+        v("no", no, Field::text().required());
+        v("trials", trials, Field::number().within(1, 1000));
+        v("sigmoid", sigmoid);
+        v("guess", guess, Field::number().within(0, 1));
+        v("guess_is_lapse", guess_is_lapse);
+        v("staircase", staircase);
+        v("quest", quest);
+        v("quest_plus", quest_plus);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+    /// Levels go as far as shares do: to 1, and from 0 unless they are logarithms.
+    double most() const { return logarithmic ? 0 : 1; }
+    double least() const { return logarithmic ? -std::numeric_limits<double>::infinity() : 0; }
+    double share(double level) const { return logarithmic ? std::pow(10, level) : level; }
+    /// As the file calls it.
+    const char* kind() const { return staircase ? "staircase" : quest ? "quest" : "quest_plus"; }
+};
+
+/// The spec has one of the three. Throws Error when one of its settings is out of range.
+Procedure make_procedure(const ProcedureSpec& spec);
+
+/// What is wrong with it goes to `diagnostics`.
+void check(const ProcedureSpec& spec, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::experiment
