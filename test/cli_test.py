@@ -41,7 +41,7 @@ class Commands(unittest.TestCase):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
                     ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["resume"]]
+                    ["report"], ["resume"], ["export"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)

@@ -29,6 +29,7 @@ void add_tune(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_video(CLI::App& app);
 void add_report(CLI::App& app);
+void add_export(CLI::App& app);
 void add_gui(CLI::App& app);
 
 /// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each
