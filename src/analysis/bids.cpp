@@ -122,12 +122,12 @@ class Exporter {
     }
 
     std::string run(const std::function<void(double)>& progress) {
+        recording::RawLogReader log(session_.raw_log());
         std::error_code failed;
         fs::create_directories(folder_, failed);
         if (failed)
             throw Error({folder_, 0}, "", "cannot be made: " + failed.message(),
                         "Name another folder.");
-        recording::RawLogReader log(session_.raw_log());
         fingers_ = log.head().fingers;
         tick_ = log.head().tick;
         while (fs::exists(file(fingers_.front(), "motion.tsv"))) ++run_;
