@@ -82,11 +82,18 @@ def hook():
     return prism(outline, triangles, 6)
 
 
+def stone():
+    """Nothing that hands know, yet convex: a turned shape, stretched and sheared. It lies on z = 0."""
+    vertices, faces = lathe([(16, 0), (24, 14), (20, 30), (8, 40)], 7)
+    return [(1.1 * x + 0.15 * z, 0.85 * y - 0.1 * z, z) for x, y, z in vertices], faces
+
+
 MESHES = {
     # convex
     "pad": prism([(-2.5, -10), (2.5, -10), (2.5, 10), (-2.5, 10)], [(0, 1, 2), (0, 2, 3)], 20),
     "fingertip": lathe([(7, -8), (8, -2), (6, 4), (0, 6)], 8),
     "stylus": lathe([(0, 0), (4, 12), (4, 120)], 8),
+    "stone": stone(),
     # concave
     "spatula": prism([(0, 0), (60, 0), (60, 1), (2, 2), (2, 60), (0, 60)],
                      [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)], 30),

@@ -118,6 +118,37 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
     return head;
 }
 
+/// A simulated hand that never does what a trial waits for would fill the disk.
+struct Wait {
+    static constexpr double kLongestBetween = 60;  // trials [s]
+    static constexpr double kLongest = 3700;       // beyond the longest time that a state may have
+
+    void look(const servo::Frame& last, const servo::Commands& commands) noexcept {
+        const double now = seconds(last.time);
+        if (last.trial != trial || last.task.attempt != attempt || last.phase != phase) since = now;
+        trial = last.trial;
+        attempt = last.task.attempt;
+        phase = last.phase;
+        const bool same = commands.trial == trial && commands.phase == phase;
+        over = same && now - since > (phase == kBetween ? kLongestBetween : kLongest);
+    }
+    std::string describe(const std::vector<recording::PhaseInfo>& phases) const {
+        const auto i = static_cast<size_t>(phase);
+        return fmt::format(
+            "The simulated hand never ended '{}' of trial {}. {}",
+            i < phases.size() ? phases[i].name : "a state", trial,
+            phase == kBetween ? "Its fingers stay where an object is put back: let the last state "
+                                "lead them away."
+                              : "Give the state an exit by time, or the hand steps that meet one.");
+    }
+
+    int trial = 0;
+    int attempt = 0;
+    int phase = 0;
+    double since = 0;  // [s]
+    bool over = false;
+};
+
 /// Calls `progress` about ten times a second from a thread of its own while something runs.
 class Watcher {
   public:
@@ -224,6 +255,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     PhaseDirector phases(info.phases, plan.settings.tick());
     std::optional<TaskDirector> task;
     if (plan.task) task.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
+    Wait wait;
     const servo::Director director = [&](const servo::Frame& last,
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
@@ -233,7 +265,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         } else {
             phases(last, handles, commands);
         }
-        commands.stop = commands.stop || recorder.failed();
+        if (plan.seeing && !real) wait.look(last, commands);
+        commands.stop = commands.stop || recorder.failed() || wait.over;
         commands.force_off = real && stop.load(std::memory_order_relaxed);
         if (live == nullptr) return;
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
@@ -289,6 +322,11 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
         if (fault.kind != haptics::FaultKind::stopped)
             result.fault += " The second before it is in fault.csv.";
+        info.notes.push_back(result.fault);
+    }
+    if (wait.over) {
+        result.interrupted = true;
+        result.fault = wait.describe(info.phases);
         info.notes.push_back(result.fault);
     }
     if (result.timing.stall) {

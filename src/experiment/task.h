@@ -105,9 +105,25 @@ struct State {
     }
 };
 
-/// What a trial differs by: regions and perturbations in place of those of the same name.
+/// Where a body begins the trial, in place of where the scene has it.
+struct BodyPlace {
+    std::string body;
+    Vec3 position = Vec3::Zero();  ///< [m]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("body", body, Field::text().required());
+        v("position", position, Field::length().within(-100, 100).required());
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// What a trial differs by: regions and perturbations in place of those of the same name, and where
+/// bodies begin.
 struct Condition {
     std::string name;
+    std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
     Place place;
@@ -115,6 +131,7 @@ struct Condition {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
+        v("places", places);
         v("regions", regions);
         v("perturbations", perturbations);
         if constexpr (requires { v.place(); }) place = v.place();

@@ -44,9 +44,9 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
     }
     if (state_ < 0) {
         if (clear(last)) {
-            for (const TaskPlan::Home& home : plan_.homes) {
+            for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
                 const bool there =
-                    last.sequence < 0 ||
+                    last.sequence >= 0 &&
                     (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
                      last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
                 if (!there) add(commands.task.placements, {home.body, home.X_WB});
@@ -71,12 +71,14 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
 /// Whether nothing is put back where a finger is: it would be pushed out of the body.
 bool TaskDirector::clear(const servo::Frame& last) const noexcept {
     if (last.sequence < 0) return true;
-    for (const TaskPlan::Home& home : plan_.homes) {
+    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
         if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) continue;
         for (size_t i = 0; i < last.fingers.size(); ++i) {
             const Vec3 p_BP = home.X_WB.inverse() * last.fingers[i].p_WP;
             const double margin = plan_.finger_radius[i] + kClearance;
-            if ((p_BP.array().abs() < home.half_extents.array() + margin).all()) return false;
+            const bool in_the_way = (p_BP.array() > home.box.low.array() - margin).all() &&
+                                    (p_BP.array() < home.box.high.array() + margin).all();
+            if (in_the_way) return false;
         }
     }
     return true;
@@ -135,7 +137,7 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
         case When::gripped:
             return pressed(last, way.body, -1, 2);
         case When::lifted:
-            for (const TaskPlan::Home& home : plan_.homes) {
+            for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
                 if (home.body != way.body) continue;
                 const double z = last.bodies[static_cast<size_t>(way.body)].X_WB.p.z();
                 return z - home.X_WB.p.z() >= way.exit.height;

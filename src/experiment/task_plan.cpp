@@ -53,7 +53,8 @@ class Planner {
         for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
         for (const Block& block : plan_.task.blocks) check_block(block);
         check_reach();
-        make_homes();
+        for (const scene::Finger& finger : scene_.fingers)
+            plan_.finger_radius.push_back(scene::extent(finger.shape) * std::sqrt(3.0) / 2);
         return std::move(plan_);
     }
 
@@ -89,6 +90,13 @@ class Planner {
     }
 
     void check_condition(const Condition& condition) {
+        for (const BodyPlace& place : condition.places) {
+            const int body =
+                look_up(bodies_, place.body, place.place, "body", "no body", diagnostics_);
+            if (body >= 0 && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
+                error(place.place, "body", fmt::format("'{}' cannot move", place.body),
+                      "Name a body that can.");
+        }
         for (const Region& region : condition.regions)
             look_up(regions_, region.name, region.place, "name", "no region of the task",
                     diagnostics_);
@@ -247,6 +255,7 @@ class Planner {
                               condition.perturbations)) {
                     cell.perturbations.emplace_back(spec, regions, scene_, found);
                 }
+                cell.homes = homes({&round, &condition});
                 for (const Problem& problem : found.problems()) {
                     if (said.insert(problem.text()).second) diagnostics_.add({problem});
                 }
@@ -329,17 +338,21 @@ class Planner {
             error(reach.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
     }
 
-    void make_homes() {
+    /// Where bodies begin, those of later conditions over those of earlier ones.
+    std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const {
+        std::vector<TaskPlan::Home> out;
         for (size_t i = 0; i < scene_.bodies.size(); ++i) {
             const scene::Body& body = scene_.bodies[i];
             if (!body.moves_at_all()) continue;
-            const bool box = body.shape.kind == scene::ShapeKind::box;
-            const Vec3 half =
-                box ? Vec3(body.shape.size / 2) : Vec3::Constant(scene::extent(body.shape));
-            plan_.homes.push_back({static_cast<int>(i), body.pose(), half});
+            Pose X_WB = body.pose();
+            for (const Condition* condition : conditions) {
+                for (const BodyPlace& place : condition->places) {
+                    if (place.body == body.name) X_WB.p = place.position;
+                }
+            }
+            out.push_back({static_cast<int>(i), X_WB, scene::bounds(body.shape)});
         }
-        for (const scene::Finger& finger : scene_.fingers)
-            plan_.finger_radius.push_back(scene::extent(finger.shape) * std::sqrt(3.0) / 2);
+        return out;
     }
 
     const scene::Scene& scene_;

@@ -42,21 +42,20 @@ struct TaskPlan {
     };
     std::vector<Stage> stages;  ///< by state
 
-    /// What one condition in one round has of regions and perturbations.
-    struct Cell {
-        std::vector<Vec3> p_W;
-        std::vector<double> radius;
-        std::vector<Perturbation> perturbations;
-    };
-    std::vector<Cell> cells;  ///< by round, then condition
-
     /// A body that is put back between trials, and the box that must be clear of fingers for it.
     struct Home {
         int body;
         Pose X_WB;
-        Vec3 half_extents;
+        scene::Bounds box;
     };
-    std::vector<Home> homes;
+    /// What one condition in one round has of regions, perturbations and places.
+    struct Cell {
+        std::vector<Vec3> p_W;
+        std::vector<double> radius;
+        std::vector<Perturbation> perturbations;
+        std::vector<Home> homes;
+    };
+    std::vector<Cell> cells;            ///< by round, then condition
     std::vector<double> finger_radius;  ///< of the sphere around each finger's shape [m]
     int move_away = -1;                 ///< message while one is in the way
 

@@ -174,33 +174,39 @@ std::vector<Vec3> marks(const Shape& shape) {
     return out;
 }
 
-double extent(const Shape& shape) {
+Bounds bounds(const Shape& shape) {
+    const auto about_origin = [](const Vec3& half) { return Bounds{-half, half}; };
+    const double r = shape.radius;
     switch (shape.kind) {
         case ShapeKind::box:
-            return shape.size.maxCoeff();
+            return about_origin(shape.size / 2);
         case ShapeKind::sphere:
-            return 2 * shape.radius;
+            return about_origin(Vec3::Constant(r));
         case ShapeKind::cylinder:
-            return std::max(2 * shape.radius, shape.length);
+            return about_origin({r, r, shape.length / 2});
         case ShapeKind::capsule:
-            return 2 * shape.radius + shape.length;
+            return about_origin({r, r, r + shape.length / 2});
         case ShapeKind::plane:
-            return 0;
+            break;
         case ShapeKind::mesh:
         case ShapeKind::compound: {
             const std::vector<Vec3> points =
                 shape.kind == ShapeKind::mesh ? shape.hull.vertices : marks(shape);
-            if (points.empty()) return 0;
-            Vec3 low = points.front();
-            Vec3 high = low;
+            if (points.empty()) break;
+            Bounds out{points.front(), points.front()};
             for (const Vec3& v : points) {
-                low = low.cwiseMin(v);
-                high = high.cwiseMax(v);
+                out.low = out.low.cwiseMin(v);
+                out.high = out.high.cwiseMax(v);
             }
-            return (high - low).maxCoeff();
+            return out;
         }
     }
-    return 0;
+    return {};
+}
+
+double extent(const Shape& shape) {
+    const Bounds box = bounds(shape);
+    return (box.high - box.low).maxCoeff();
 }
 
 std::vector<ConvexPart> convex_parts(const Shape& shape) {

@@ -129,6 +129,13 @@ double depth(const Shape& shape, const Vec3& p_B);
 /// the axes. A plane has none.
 std::vector<Vec3> marks(const Shape& shape);
 
+/// The box along its body's axes that a shape fills; of a plane, nothing [m].
+struct Bounds {
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+};
+Bounds bounds(const Shape& shape);
+
 /// Largest extent of the shape along any axis [m]; 0 for a plane.
 double extent(const Shape& shape);
 

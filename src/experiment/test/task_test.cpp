@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <set>
 
 #include "analysis/recovery.h"
 #include "experiment/replay.h"
@@ -138,9 +139,49 @@ task:
         }
     }
     EXPECT_GT(farthest, 0.03);
-    EXPECT_EQ(placed, 2);
+    EXPECT_EQ(placed, 3);  // before each trial
     EXPECT_LT(force, 8);  // nothing is pushed out of anything
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
+}
+
+TEST(Task, ConditionsPutObjectsInPlacesOfTheirOwn) {
+    Files files;
+    files.replace(
+        "    - name: right\n",
+        "    - name: right\n      places: [{ body: block, position_mm: [100, 50, 20] }]\n");
+    const Plan plan = make_plan(files.request());
+    const auto servo = make_servo(plan);
+    TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+    servo->activate();
+    std::set<int> seen;
+    Time now{0};
+    while (!servo->stopped() && seconds(now) < 60) {
+        const servo::Frame& frame =
+            servo->tick(now, [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+                                 servo::Commands& commands) { task(last, handles, commands); });
+        plan.seeing->see(frame);
+        now += servo->period();
+        if (frame.phase < 1) continue;
+        const int condition = plan.task->trials[static_cast<size_t>(frame.trial) - 1].condition;
+        seen.insert(condition);
+        const Vec3 p = condition == 0 ? Vec3(0.1, 0.05, 0.02) : Vec3(0, 0, 0.02);
+        ASSERT_LT((frame.bodies[1].X_WB.p - p).norm(), 1e-5) << frame.trial;
+    }
+    EXPECT_EQ(seen.size(), 2u);
+}
+
+TEST(Task, ASimulatedHandThatStaysInTheWayDoesNotFillTheDisk) {
+    Files files;
+    // where the first trial ends, a block is put for the second
+    files.replace("    - name: far\n",
+                  "    - name: far\n      places: [{ body: block, position_mm: [50, 0, 120] }]\n");
+    files.replace("    - { name: before, kind: baseline, repeats: 1 }\n",
+                  "    - { name: before, kind: baseline, repeats: 1, order: sequential }\n");
+    const RunResult result = files.run(make_plan(files.request()));
+    EXPECT_TRUE(result.interrupted);
+    EXPECT_NE(result.fault.find("never ended 'between trials' of trial 2"), std::string::npos)
+        << result.fault;
+    EXPECT_LT(result.simulated, 70);
 }
 
 TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
