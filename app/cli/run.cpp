@@ -12,6 +12,7 @@
 #include "base/table.h"
 #include "command.h"
 #include "escape_key.h"
+#include "person/person.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -80,7 +81,12 @@ void ask(recording::Participant& participant) {
 }
 
 void run_one(const Options& options) {
-    run_plan(experiment::make_plan(options.request), options.run);
+    experiment::Plan plan = experiment::make_plan(options.request);
+    if (options.simulate && plan.task) {
+        person::sit_down(plan, person::draw_person(person::Objects::device, plan.seed,
+                                                   options.run.participant.id));
+    }
+    run_plan(plan, options.run);
 }
 
 }  // namespace
