@@ -29,6 +29,7 @@ struct Options {
     double rate = 0;
     std::string clock = "virtual";
     bool simulate = false;
+    bool real_objects = false;
 };
 
 /// "trial 12 of 96"
@@ -83,8 +84,10 @@ void ask(recording::Participant& participant) {
 void run_one(const Options& options) {
     experiment::Plan plan = experiment::make_plan(options.request);
     if (options.simulate && plan.task) {
-        person::sit_down(plan, person::draw_person(person::Objects::device, plan.seed,
-                                                   options.run.participant.id));
+        const auto objects =
+            options.real_objects ? person::Objects::real : person::Objects::device;
+        person::sit_down(
+            plan, person::draw_person(objects, plan.seed, options.run.participant.id));
     }
     run_plan(plan, options.run);
 }
@@ -280,6 +283,8 @@ void add_run(CLI::App& app) {
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
     command->add_flag("--simulate", options->simulate,
                       "a simulated hand on simulated devices does it, on the virtual clock");
+    command->add_flag("--real-objects", options->real_objects,
+                      "with --simulate: the person grips as one does without a device between");
     command->add_option("--participant", options->run.participant.id, "participant's identifier");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
     command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")

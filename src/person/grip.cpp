@@ -10,7 +10,7 @@ namespace {
 constexpr double kLongestLatency = 0.3;   // [s]
 constexpr double kMuscle = 0.02;          // time constant of grip force [s]
 constexpr double kAimedAbove = 1.1;       // load that is aimed at, over the weight expected
-constexpr double kRise = 5e-3;            // of fingertips that carry: it has come off [m/s]
+constexpr double kRise = 1.5e-3;           // of fingertips that carry: it has come off [m/s]
 constexpr double kProbe = 0.1;            // from one more push to the next [s]
 constexpr double kProbeShare = 0.2;       // of the weight expected ...
 constexpr double kLeastProbe = 0.3;       // ... or so much [N]
@@ -23,7 +23,11 @@ constexpr double kCorrection = 0.15;      // of the load, once the weight is fel
 constexpr double kWeighed = 0.3;          // held so long, a weight is remembered [s]
 constexpr double kSurprise = 1.15;        // load felt over load expected that is answered
 constexpr double kReplaced = 0.7;         // of the weight is felt: something else carries it
-constexpr double kLeastFriction = 0.05;
+constexpr double kTrust = 0.1;  // share of a doubt that a lift takes away
+constexpr double kReflex = 1.15;         // of grip, after a slip ...
+constexpr double kStrongestReflex = 2;   // ... all in all in a hold ...
+constexpr double kReflexTime = 0.15;     // ... and before the next is felt apart from it [s]
+constexpr double kDoubt = 0.6;  // of the friction expected: one slip tells no less
 constexpr double kMovement = 0.1;         // sum of squared accelerations by time that tells a mass
 
 Vec3 up() {
@@ -45,9 +49,10 @@ void Grip::restart() noexcept {
     end();
 }
 
-void Grip::set(double latency, double strength) noexcept {
+void Grip::set(double latency, double strength, double misfelt) noexcept {
     latency_ = std::clamp(latency, 0.0, kLongestLatency);
     strength_ = strength;
+    misfelt_ = misfelt;
 }
 
 void Grip::end() noexcept {
@@ -57,9 +62,18 @@ void Grip::end() noexcept {
     inertial_ = along_ = Vec3::Zero();
 }
 
+/// What the lift told, once it was long enough. A surface that gave no slip is trusted a bit more.
+void Grip::remember() noexcept {
+    if (!weighed_) return;
+    weighed_ = false;
+    memory().lifted(weight_, traits_.weight_learning);
+    const double looks = looks_[static_cast<size_t>(body_)].friction;
+    memory().friction += kTrust * (looks - memory().friction);
+}
+
 void Grip::close(double now, double grip) noexcept {
     phase_ = GripPhase::preload;
-    since_ = now;
+    since_ = touched_ = now;
     squeeze_ = hold_ = std::max(grip, traits_.least_grip);
     body_ = std::max(0, felt().body);
 }
@@ -74,8 +88,7 @@ void Grip::lift(double now, Strokes& aim) noexcept {
 }
 
 void Grip::release(double now, Strokes& aim) noexcept {
-    if (weighed_) memory().lifted(weight_, traits_.weight_learning);
-    weighed_ = false;
+    remember();
     aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);
     hold_ = squeeze_;
     phase_ = GripPhase::unload;
@@ -112,10 +125,17 @@ void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& ai
         end();
         return;
     }
-    if (now_felt.slips && now_felt.body == body_ && phase_ != GripPhase::unload) {
-        const double friction = std::max(kLeastFriction, now_felt.slip_friction);
-        if (friction < memory().friction) memory().friction = friction;
-        strength_ = 1;
+    // of now: the skin's own time is its delay
+    if (traits_.skin_time > 0 && newest.body == body_ &&
+        now - touched_ + latency_ > traits_.skin_time)
+        memory().friction = misfelt_ * newest.friction;
+    const bool carries = phase_ == GripPhase::load || phase_ == GripPhase::lifted;
+    if (now_felt.slips && carries && now_felt.body == body_ && now > reflex_) {
+        const double known = memory().friction;
+        const double told = std::max(now_felt.slip_friction, kDoubt * known);
+        if (now_felt.slip_friction > 0 && told < known) memory().friction = told;
+        strength_ = std::min(kStrongestReflex, std::max(1.0, strength_) * kReflex);
+        reflex_ = now + kReflexTime;
     }
     const double carried = now_felt.force_W.dot(up());
     if (phase_ == GripPhase::load && now_felt.rise > kRise) {
@@ -130,8 +150,7 @@ void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& ai
     }
 
     if (phase_ == GripPhase::lifted && weighed_ && carried < kReplaced * weight_) {
-        memory().lifted(weight_, traits_.weight_learning);
-        weighed_ = false;
+        remember();
         phase_ = GripPhase::ready;
         since_ = now;
     }

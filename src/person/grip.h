@@ -27,8 +27,9 @@ class Grip {
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
-    /// Of this trial: the reflexes' latency [s], and how strongly the hand grips, 1 as it should.
-    void set(double latency, double strength) noexcept;
+    /// Of this trial: the reflexes' latency [s]; how strongly the hand grips, 1 as it should; by
+    /// what factor its skin errs about friction.
+    void set(double latency, double strength, double misfelt) noexcept;
 
     GripPhase phase() const { return phase_; }
     bool holds() const { return phase_ != GripPhase::open; }
@@ -57,6 +58,7 @@ class Grip {
   private:
     GripMemory& memory() noexcept { return memory_[static_cast<size_t>(body_)]; }
     double needed(const Vec3& force_W, const Vec3& axis) const noexcept;
+    void remember() noexcept;
     void end() noexcept;
 
     Traits traits_;
@@ -66,11 +68,14 @@ class Grip {
     Past<Feeling> past_;
     double latency_ = 0.075;
     double strength_ = 1;
+    double misfelt_ = 1;
 
     GripPhase phase_ = GripPhase::open;
     int body_ = 0;
+    double touched_ = 0;     // when both fingers felt it [s]
     double since_ = 0;       // when the phase began [s]
     double probe_ = 0;       // when more force is added to a load phase that has lifted nothing [s]
+    double reflex_ = 0;      // until when a slip is the one that was answered [s]
     double hold_ = 0;        // squeeze before the load [N]
     double squeeze_ = 0;     // [N]
     double weight_ = 0;      // felt in this hold [N]

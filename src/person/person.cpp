@@ -21,18 +21,34 @@ constexpr double kShortest = 0.2;       // stroke [s]
 constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]
 constexpr double kGoodEnough = 4e-3;    // off the target [m]
 constexpr int kMostCorrections = 4;
+constexpr double kYields = 0.015;  // under each finger, before it presses less [m]
+constexpr double kOver = 0.02;     // up or down: more is over what lies there [m]
+constexpr double kOverlap = 0.6;   // of a movement, for each of its parts
+constexpr double kGuided = 0.4;    // of a reach's noise, where it is led by eye from above
 constexpr double kOpening = 2e-3;  // of the aperture: more is letting go [m]
 constexpr double kUpward = 2e-3;   // of a hand that grips: more is lifting [m]
 constexpr double kIdle = 0.4;      // between trials, before the hand goes to its rest [s]
 constexpr double kRestTime = 0.6;  // [s]
 constexpr double kRetry = 3;       // in a state whose steps are done [s]
 constexpr double kGivingUp = 10;   // [s]
+constexpr double kWeak = 0.5;      // grip of a slip, over one as it should be
 constexpr double kDecision = 0.4;  // of an answer, beyond the reaction [s]
 constexpr double kFeelTime = 0.05;  // as hand/finger.h's [s]
 
 std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
     std::vector<Vec3> out;
     for (const hand::FingerPlace& place : places) out.push_back(place.side);
+    return out;
+}
+
+double friction_of(const scene::Scene& scene, const scene::Body& body) {
+    const scene::Finger& finger = scene.fingers.front();
+    return scene::pair_friction(scene, body.name, body.friction, finger.name, finger.friction);
+}
+
+std::vector<double> frictions_of(const scene::Scene& scene) {
+    std::vector<double> out;
+    for (const scene::Body& body : scene.bodies) out.push_back(friction_of(scene, body));
     return out;
 }
 
@@ -43,9 +59,7 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits
     for (scene::Body body : scene.bodies) {
         GripMemory& look = out.emplace_back();
         const double misjudged = std::exp(traits.friction_error * random.normal());
-        const scene::Finger& finger = scene.fingers.front();
-        look.friction = misjudged * scene::pair_friction(scene, body.name, body.friction,
-                                                         finger.name, finger.friction);
+        look.friction = misjudged * friction_of(scene, body);
         body.mass.reset();
         body.density = kUsualDensity;
         if (body.moves_at_all()) look.weight = kGravity * scene::mass(body);
@@ -77,7 +91,7 @@ Person::Person(const Traits& traits, const experiment::Plan& plan)
       seed_(plan.seed),
       random_(seed_, fmt::format("person {}", traits.id)),
       eyes_(traits.visual_delay, plan.settings.tick()),
-      touch_(sides_of(places_), plan.settings.tick()),
+      touch_(sides_of(places_), frictions_of(plan.scene), plan.settings.tick()),
       known_(plan.task->task.regions.size(), Vec3::Zero()),
       rotations_(plan.task->stages.size(),
                  RotationMemory(traits.rotation(), traits.generalisation)),
@@ -131,7 +145,10 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     // the fingers press with a force, and carry with one: their springs are stretched by it
     const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
     const auto count = static_cast<double>(places_.size());
-    target.p_WT += (half_ - grip_.squeeze() / k) * place.side;
+    // but not on through what yields
+    const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
+    target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
+    if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
     target.p_WT += (aim.load * Vec3::UnitZ() + grip_.inertial()) / (count * k);
     return target;
 }
@@ -158,9 +175,12 @@ void Person::do_see(const servo::Frame& frame) noexcept {
     eyes_.take(frame);
     measure(frame);
     const bool held = grip_.holds();
+    const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
     // an open hand goes on from where it is
     if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
+    if (loads && grip_.phase() != GripPhase::load)
+        aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
     const Sight& sight = eyes_.sight();
     follow_cues(sight);
     watch_reach(sight);
@@ -169,7 +189,8 @@ void Person::do_see(const servo::Frame& frame) noexcept {
 
 void Person::begin_attempt() noexcept {
     grip_.set(traits_.reflex_latency + traits_.reflex_noise * random_.normal(),
-              random_.uniform(0, 1) < traits_.slip_rate ? 0.5 : 1);
+              random_.uniform(0, 1) < traits_.slip_rate ? kWeak : 1,
+              std::exp(traits_.friction_error * random_.normal()));
     delay_ = 0;
     if (random_.uniform(0, 1) < traits_.hesitation_rate)
         delay_ = -traits_.hesitation_time * std::log(1 - random_.uniform(0, 1));
@@ -258,6 +279,7 @@ void Person::go_on(const Sight& sight) noexcept {
             if (closes && !grip_.holds() && grip_.felt().held) {
                 const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
                 grip_.close(now_, k * (half_ - aim_.at(now_).aperture / 2));
+                touched_ = half_;
                 doing_ = Doing::preloading;
                 return;
             }
@@ -331,9 +353,24 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     }
     if (grip_.phase() == GripPhase::lifted && way.centre.norm() > kReach)
         grip_.carry(way.centre.normalized());
-    aim_.add(way, now_, duration);
     pending_ = way;
     doing_ = Doing::moving;
+    const double up = way.centre.z();
+    if (!from_above(way.centre)) {
+        aim_.add(way, now_, duration);
+        return;
+    }
+    reach_.going = false;  // such a way has no direction that could be judged
+    const double part = kOverlap * duration;
+    const Aim aside{way.centre - up * Vec3::UnitZ(), way.aperture, 0};
+    const Aim upward{up * Vec3::UnitZ(), 0, 0};
+    aim_.add(aside, now_, part, up > 0 ? duration - part : 0);
+    aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
+}
+
+/// An open hand comes to objects from above, and leaves them upward, so as not to sweep them away.
+bool Person::from_above(const Vec3& displacement) const noexcept {
+    return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
 /// What the hand has to do for it to be seen to go so.
@@ -348,8 +385,8 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     end_reach();
     reach_ = {true, false, static_cast<size_t>(phase_ - 1), sight.hand, displacement, Vec3::Zero()};
     const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
-    return noisy(1, traits_.extent_noise) *
-           rotated(traits_.direction_noise * noise, turned_back(displacement));
+    const double sd = traits_.direction_noise * (from_above(displacement) ? kGuided : 1);
+    return noisy(1, traits_.extent_noise) * rotated(sd * noise, turned_back(displacement));
 }
 
 /// Once the reach is seen to go somewhere, its direction is judged, and mended in part.

@@ -46,6 +46,7 @@ class Person final : public experiment::SeeingDriver {
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
+    bool from_above(const Vec3& displacement) const noexcept;
     Vec3 turned_back(const Vec3& displacement) const noexcept;
     Vec3 target(const Sight& sight, const experiment::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
@@ -66,6 +67,7 @@ class Person final : public experiment::SeeingDriver {
     Eyes eyes_;
     Touch touch_;
     double half_ = 0;                  // aperture of the handles, halved [m]
+    double touched_ = 0;               // ... when both fingers touched
     Vec3 centre_ = Vec3::Zero();       // of the handles [m]
     double felt_ = 0;                  // force on a finger, as its stiffness follows it [N]
     std::vector<Vec3> known_;          // regions, where they were seen last [m]

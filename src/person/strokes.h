@@ -38,8 +38,9 @@ class Strokes {
         end_ = 0;
     }
 
-    /// A stroke more, from `now` on; of so many that nobody makes them, the first is taken as done.
-    void add(const Aim& way, double now, double duration) noexcept {
+    /// A stroke more, from `delay` after `now` on; of so many that nobody makes them, the first is
+    /// taken as done.
+    void add(const Aim& way, double now, double duration, double delay = 0) noexcept {
         size_t kept = 0;
         for (size_t i = 0; i < count_; ++i) {
             const Stroke stroke = strokes_[i];
@@ -51,8 +52,8 @@ class Strokes {
             }
         }
         count_ = kept;
-        strokes_[count_++] = {way, now, duration};
-        end_ = std::max(end_, now + duration);
+        strokes_[count_++] = {way, now + delay, duration};
+        end_ = std::max(end_, now + delay + duration);
     }
 
     /// The aim is another by so much, at once.

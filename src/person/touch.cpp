@@ -8,6 +8,7 @@ namespace {
 constexpr double kLeastForce = 0.03;       // that is felt [N]
 constexpr double kSlipSpeed = 1e-3;        // [m/s]
 constexpr double kSlipDistance = 1e-4;     // that is felt [m]
+constexpr double kPad = 0.01;              // of a fingertip [m]
 constexpr double kAccelerationTime = 0.02;  // that accelerations are smoothed over [s]
 
 /// The contact in which proxy `finger` presses a body of the scene hardest, or null.
@@ -25,8 +26,11 @@ const servo::ContactFrame* hardest(const servo::Frame& frame, size_t finger) noe
 
 }  // namespace
 
-Touch::Touch(std::vector<Vec3> sides, double tick)
-    : sides_(std::move(sides)), tick_(tick), slid_(sides_.size(), 0) {}
+Touch::Touch(std::vector<Vec3> sides, std::vector<double> frictions, double tick)
+    : sides_(std::move(sides)),
+      frictions_(std::move(frictions)),
+      tick_(tick),
+      slid_(sides_.size(), 0) {}
 
 void Touch::restart() noexcept {
     std::fill(slid_.begin(), slid_.end(), 0);
@@ -65,10 +69,18 @@ Feeling Touch::feel(const servo::Frame& frame) noexcept {
             out.slips = true;
             const double normal = std::abs(contact->f_B_W.dot(n_W));
             const double across = (contact->f_B_W - contact->f_B_W.dot(n_W) * n_W).norm();
-            out.slip_friction = normal > 0 ? across / normal : 0;
+            // what turns under the finger slips too, but does not tell how rough it is
+            const bool turns = body.w_WB.norm() * kPad > slip.norm() / 2;
+            out.slip_friction = normal > 0 && !turns ? across / normal : 0;
         }
     }
     out.held = pressing >= 2;
+    if (out.body >= 0) {
+        out.friction = frictions_[static_cast<size_t>(out.body)];
+        for (const servo::PropertiesFrame& properties : frame.task.properties) {
+            if (properties.body == out.body) out.friction *= properties.friction_scale;
+        }
+    }
     if (started_) a_WH_ += ((v_WH - v_WH_) / tick_ - a_WH_) * std::min(1.0, tick_ / kAccelerationTime);
     v_WH_ = v_WH;
     started_ = true;

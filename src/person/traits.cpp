@@ -78,6 +78,9 @@ std::vector<Row> population(Objects objects) {
         // the last lift rules (Neuropsychologia 2008); more trials with devices (EMBC 2022)
         {"weight_learning", &Traits::weight_learning, Law::logit, real ? 0.8 : 0.5, 0.3},
         {"friction_error", &Traits::friction_error, Law::log_normal, real ? 0.05 : 0.1, 0.2},
+        // Delhaye 2024: grip has adapted 0.37 s after contact, strain tells 0.1 s before; a device
+        // has none
+        {"skin_time", &Traits::skin_time, Law::log_normal, real ? 0.15 : 0, 0.15},
         // Ingram et al. 2011: in a few trials, single-rate
         {"mass_retention", &Traits::mass_retention, Law::forgetting, 0.97, 0.3},
         {"mass_learning", &Traits::mass_learning, Law::logit, real ? 0.4 : 0.25, 0.3},

@@ -48,7 +48,8 @@ struct Traits {
     double reflex_latency = 0;   ///< from a touch, slip, or load to the response [s]
     double reflex_noise = 0;     ///< SD over trials [s]
     double weight_learning = 0;  ///< share of a weight's error that the next lift has learned
-    double friction_error = 0;   ///< SD of a surface's friction as it looks, share of it
+    double friction_error = 0;   ///< SD of a surface's friction as it looks or feels, share of it
+    double skin_time = 0;        ///< from touch until the skin tells the friction; 0: never [s]
     double mass_retention = 0;   ///< of adaptation to a mass that the weight does not tell of
     double mass_learning = 0;
 
@@ -100,6 +101,7 @@ struct Traits {
         v("reflex_noise", reflex_noise, time);
         v("weight_learning", weight_learning, share);
         v("friction_error", friction_error, share);
+        v("skin_time", skin_time, Field::of(Quantity::time).within(0, 1));
         v("mass_retention", mass_retention, share);
         v("mass_learning", mass_learning, share);
         v("answer_bias", answer_bias);
