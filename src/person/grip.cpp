@@ -12,7 +12,7 @@ constexpr double kMuscle = 0.02;          // time constant of grip force [s]
 constexpr double kAimedAbove = 1.1;       // load that is aimed at, over the weight expected
 constexpr double kRise = 1.5e-3;           // of fingertips that carry: it has come off [m/s]
 constexpr double kProbe = 0.1;            // from one more push to the next [s]
-constexpr double kProbeShare = 0.2;       // of the weight expected ...
+constexpr double kProbeShare = 0.35;      // of the weight expected ...
 constexpr double kLeastProbe = 0.3;       // ... or so much [N]
 constexpr double kStrongest = 40;         // that anybody tries with [N]
 constexpr double kPeakTime = 0.1;         // of peak grip, from lift-off ...
@@ -158,7 +158,10 @@ void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& ai
     inertial_ = Vec3::Zero();
     Vec3 expected = aim.at(now).load * up();
     double peak = 1;
-    if (phase_ == GripPhase::load) peak = traits_.peak_grip;
+    if (phase_ == GripPhase::load) {
+        peak = traits_.peak_grip;
+        expected /= kAimedAbove;  // it is not expected to weigh more
+    }
     if (phase_ == GripPhase::lifted) {
         weight_ += (carried - weight_) * tick_ / kWeighing;
         if (!weighed_ && now - since_ > kWeighed) {

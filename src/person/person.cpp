@@ -16,7 +16,8 @@ using experiment::When;
 
 constexpr double kUsualDensity = 1000;  // of what one has not lifted yet [kg/m^3]
 constexpr double kReach = 0.03;         // a movement that teaches about rotations [m]
-constexpr double kSeenShare = 0.3;      // of a reach, when its direction is judged
+constexpr double kGlance = 0.15;        // share of a reach after which it is mended ...
+constexpr double kJudged = 0.4;         // ... and its error taken as the one to learn from
 constexpr double kShortest = 0.2;       // stroke [s]
 constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]
 constexpr double kGoodEnough = 4e-3;    // off the target [m]
@@ -383,24 +384,33 @@ Vec3 Person::turned_back(const Vec3& displacement) const noexcept {
 Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     if (displacement.norm() < kReach) return turned_back(displacement);
     end_reach();
-    reach_ = {true, false, static_cast<size_t>(phase_ - 1), sight.hand, displacement, Vec3::Zero()};
+    reach_ = {.going = true,
+              .state = static_cast<size_t>(phase_ - 1),
+              .from = sight.hand,
+              .way = displacement};
     const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
     const double sd = traits_.direction_noise * (from_above(displacement) ? kGuided : 1);
     return noisy(1, traits_.extent_noise) * rotated(sd * noise, turned_back(displacement));
 }
 
-/// Once the reach is seen to go somewhere, its direction is judged, and mended in part.
+/// Once the reach is seen to go somewhere it is mended in part, and its direction is judged before
+/// that shows.
 void Person::watch_reach(const Sight& sight) noexcept {
     if (!reach_.going || reach_.seen) return;
-    Vec3 arm = sight.hand - reach_.from;
-    if (arm.norm() < kSeenShare * reach_.way.norm()) return;
-    arm = look(arm, traits_.visual_noise, random_);
+    const Vec3 shown = sight.hand - reach_.from;
+    const double length = reach_.way.norm();
+    if (!reach_.mended && shown.norm() >= kGlance * length) {
+        reach_.mended = true;
+        const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
+        const Vec3 missed = reach_.way - length * arm;
+        const double left = std::max(kShortest, aim_.end() - now_);
+        if (doing_ == Doing::moving && traits_.online_correction > 0)
+            aim_.add({traits_.online_correction * turned_back(missed), 0, 0}, now_, left);
+    }
+    if (shown.norm() < kJudged * length) return;
     reach_.seen = true;
+    const Vec3 arm = look(shown, traits_.visual_noise, random_);
     reach_.error = rotation_between(reach_.way.normalized(), arm.normalized());
-    const Vec3 missed = reach_.way - reach_.way.norm() * arm.normalized();
-    const Vec3 mended = traits_.online_correction * turned_back(missed);
-    if (doing_ == Doing::moving)
-        aim_.add({mended, 0, 0}, now_, std::max(kShortest, aim_.end() - now_));
 }
 
 void Person::end_reach() noexcept {

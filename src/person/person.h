@@ -94,6 +94,7 @@ class Person final : public experiment::SeeingDriver {
     double delay_ = 0;       // of this trial's next movement: hesitation [s]
     struct Reach {
         bool going = false;
+        bool mended = false;
         bool seen = false;
         size_t state = 0;
         Vec3 from = Vec3::Zero();  // where the hand was shown [m]

@@ -1,0 +1,183 @@
+// Reaches of simulated people, through the whole program: seen, planned, made by the simulated hand,
+// and measured from its path.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "analysis/fits/adaptation_fit.h"
+#include "analysis/trials.h"
+#include "person/test/sitting.h"
+
+namespace dihaptic::person {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kRotation = 30;  // [degrees]
+
+struct Curve {
+    std::vector<double> hand;   ///< compensation by trial, at the reach's distance [degrees]
+    std::vector<double> shown;  ///< error shown there
+    std::vector<std::string> outcome;
+};
+
+/// Angles of the first finger about z in the phase "reach" of each trial's last attempt.
+Curve reaches(const experiment::Plan& plan) {
+    const experiment::ReachMeasure& measure = *plan.task->task.reach;
+    const size_t trials = plan.task->trials.size();
+    Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
+                std::vector<std::string>(trials)};
+    std::vector<int> measured(trials, 0);  // in which attempt
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.trial < 1) return;
+        const auto i = static_cast<size_t>(frame.trial - 1);
+        if (frame.task.outcome >= 0)
+            curve.outcome[i] =
+                plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name;
+        if (frame.phase != 2 || measured[i] == frame.task.attempt) return;
+        const auto& cell = plan.task->cell(plan.task->trials[i]);
+        const Vec3 arm = frame.fingers[0].p_WH - cell.p_W[0];
+        if (arm.norm() < measure.distance) return;
+        measured[i] = frame.task.attempt;
+        const Vec3 way = cell.p_W[1] - cell.p_W[0];
+        const Vec3 z = Vec3::UnitZ();
+        curve.hand[i] = -analysis::angle_about(z, way, arm) / kDegree;
+        const Vec3 shown = servo::displayed_handle(frame, 0).p - cell.p_W[0];
+        curve.shown[i] = analysis::angle_about(z, way, shown) / kDegree;
+    });
+    return curve;
+}
+
+/// The schedule as adaptation sees it.
+std::vector<model::AdaptationTrial> schedule(const experiment::Plan& plan) {
+    std::vector<model::AdaptationTrial> out;
+    for (const experiment::Trial& trial : plan.task->trials) {
+        const std::string& name =
+            trial.perturb < 0 ? ""
+                              : plan.task->task.perturbations[static_cast<size_t>(trial.perturb)].name;
+        out.push_back({name == "rotation" ? kRotation : name == "reversal" ? -kRotation : 0,
+                       name == "clamp"});
+    }
+    return out;
+}
+
+TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndTheClamp) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: baseline, kind: baseline, repeats: 4 }
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 40, insert: [{ kind: catch, count: 4 }] }
+    - { name: reversal, kind: perturbed, perturb: reversal, repeats: 8 }
+    - { name: clamp, kind: error_clamp, perturb: clamp, repeats: 24 }
+    - { name: washout, kind: washout, repeats: 8 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.online_correction = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    const std::vector<double> x = model::compensation(traits.rotation(), schedule(plan));
+    for (size_t i = 0; i < x.size(); ++i) {
+        EXPECT_NEAR(curve.hand[i], x[i], 0.6) << i;
+        EXPECT_EQ(curve.outcome[i], "reached") << i;
+        // a catch trial shows what was learned, and nothing else
+        if (plan.task->trials[i].kind == experiment::TrialKind::catch_trial) {
+            EXPECT_GT(curve.hand[i], 5);
+            EXPECT_NEAR(curve.shown[i], -curve.hand[i], 0.6);
+        }
+    }
+    // rebound: what was learned first comes back in the clamp
+    const size_t clamp = 4 + 44 + 8;
+    EXPECT_GT(curve.hand[clamp + 12], curve.hand[clamp] + 3);
+    EXPECT_GT(curve.hand[clamp + 12], 2);
+    // after-effect in the washout, which goes away
+    const size_t washout = clamp + 24;
+    EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
+}
+
+TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
+    experiment::Plan plan = Sitting("rotation-reversal").plan();
+    Traits traits = draw_person(Objects::device, 1, "P01");
+    traits.online_correction = 0;
+    traits.give_up_rate = traits.hesitation_rate = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    const auto trials = schedule(plan);
+    const analysis::TwoRateFit fit = analysis::fit_two_rate(curve.hand, trials);
+    const std::vector<double> truth = model::compensation(traits.rotation(), trials);
+    double square = 0;  // of the true parameters
+    for (size_t i = 0; i < truth.size(); ++i) square += std::pow(curve.hand[i] - truth[i], 2);
+    EXPECT_LE(fit.mean_square, square / static_cast<double>(truth.size()));
+    double off = 0;
+    for (size_t i = 0; i < truth.size(); ++i) off += std::pow(fit.predicted[i] - truth[i], 2);
+    off = std::sqrt(off / static_cast<double>(truth.size()));
+    // noise feeds what is learned, too: the curve is known to about its own wandering
+    EXPECT_LT(off, 0.5 * fit.residual_sd);
+    EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
+    const auto within = [](double value, const analysis::Interval& interval) {
+        return value >= interval.low && value <= interval.high;
+    };
+    EXPECT_TRUE(within(traits.fast_learning, fit.learning_fast));
+    EXPECT_TRUE(within(traits.slow_learning, fit.learning_slow));
+    EXPECT_TRUE(within(traits.fast_retention, fit.retention_fast));
+    EXPECT_TRUE(within(traits.slow_retention, fit.retention_slow));
+}
+
+TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 1 }
+)");
+    experiment::Plan plan = sitting.plan();
+    sit_down(plan, median_person(Objects::device));
+    const Curve curve = reaches(plan);
+    EXPECT_GT(curve.hand[0], 1);  // 3.5 degrees in people
+    EXPECT_LT(curve.hand[0], 6);
+}
+
+TEST(Reaches, OfNoLearnerStayWrong) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 12 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.fast_learning = traits.slow_learning = 0;
+    traits.online_correction = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    for (size_t i = 0; i < curve.hand.size(); ++i) {
+        EXPECT_NEAR(curve.hand[i], 0, 0.6);
+        EXPECT_NEAR(curve.shown[i], kRotation, 0.6);
+    }
+}
+
+TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: baseline, kind: baseline, repeats: 3 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.tempo = 0.8;
+    sit_down(plan, traits);
+    std::vector<double> shown(4, -1);
+    std::vector<double> begun(4, -1);
+    std::vector<double> over(4, -1);
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.phase < 2 || frame.trial < 1) return;
+        const auto i = static_cast<size_t>(frame.trial);
+        const double now = seconds(frame.time);
+        const double way = (frame.fingers[0].p_WH - Vec3(0, -0.04, 0.12)).norm();
+        if (shown[i] < 0) shown[i] = now;
+        // minimum jerk: 1 % and half of the way at 0.101 and 0.5 of its time
+        if (begun[i] < 0 && way > 1e-3) begun[i] = now;
+        if (over[i] < 0 && way > 50e-3) over[i] = now;
+    });
+    for (size_t i = 1; i < 4; ++i) {
+        const double lag = 0.01;  // of the handle behind its target
+        EXPECT_NEAR(begun[i] - shown[i], traits.reaction_time + 0.101 * 0.8 * 0.7 + lag, 0.01);
+        EXPECT_NEAR(over[i] - shown[i], traits.reaction_time + 0.5 * 0.8 * 0.7 + lag, 0.01);
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::person
