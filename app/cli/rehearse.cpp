@@ -69,19 +69,16 @@ int run_person(const Options& options, const std::string& id) {
         experiment::Request request = options.request;
         request.participant = id;
         experiment::Plan plan = experiment::make_plan(request);
-        const auto objects =
-            options.real_objects ? person::Objects::real : person::Objects::device;
+        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
         person::sit_down(plan, person::draw_person(objects, plan.seed, id));
         experiment::RunOptions run;
         run.out = folder;
         run.command = command_line();
         run.participant.id = id;
-        const experiment::RunResult result =
-            experiment::run_session(plan, run, stop_requested, {});
+        const experiment::RunResult result = experiment::run_session(plan, run, stop_requested, {});
         if (result.interrupted) return kFailed;
         const auto session = recording::SessionFolder::open(result.folder);
-        const analysis::SessionFigures figures =
-            analysis::finish_session(session, result.info, {});
+        const analysis::SessionFigures figures = analysis::finish_session(session, result.info, {});
         if (figures.failed()) {
             fmt::print("{}\n", result.fault.empty() ? "the simulation diverged" : result.fault);
             return kFailed;
@@ -150,8 +147,8 @@ void rehearse(Options& options) {
         }
     }
     fmt::print("{}\n{}\n", plan.title,
-               there == 0 ? fmt::format("{} to do", counted(static_cast<int64_t>(waiting.size()),
-                                                            "session"))
+               there == 0 ? fmt::format("{} to do",
+                                        counted(static_cast<int64_t>(waiting.size()), "session"))
                           : fmt::format("{} to do, {} done before", waiting.size(), there));
     std::map<pid_t, std::string> running;
     std::vector<std::string> failed;
@@ -262,8 +259,8 @@ void collect(const CollectOptions& options) {
 }  // namespace
 
 void add_rehearse(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "rehearse", "Let a population of simulated people do an experiment");
+    auto* command =
+        app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
     auto options = std::make_shared<Options>();
     command->add_option("FILE", options->request.file, "experiment with trials")->required();
     command->add_option("--people", options->people, "how many, P001 and so on")
@@ -294,8 +291,8 @@ void add_rehearse(CLI::App& app) {
 }
 
 void add_collect(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("collect", "Join the tables of rehearsed people: trials, and who they were");
+    auto* command = app.add_subcommand(
+        "collect", "Join the tables of rehearsed people: trials, and who they were");
     auto options = std::make_shared<CollectOptions>();
     command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");

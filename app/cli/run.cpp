@@ -84,10 +84,8 @@ void ask(recording::Participant& participant) {
 void run_one(const Options& options) {
     experiment::Plan plan = experiment::make_plan(options.request);
     if (options.simulate && plan.task) {
-        const auto objects =
-            options.real_objects ? person::Objects::real : person::Objects::device;
-        person::sit_down(
-            plan, person::draw_person(objects, plan.seed, options.run.participant.id));
+        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
+        person::sit_down(plan, person::draw_person(objects, plan.seed, options.run.participant.id));
     }
     run_plan(plan, options.run);
 }
@@ -281,10 +279,13 @@ void add_run(CLI::App& app) {
         "--movement", options->request.movement,
         "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
-    command->add_flag("--simulate", options->simulate,
-                      "a simulated hand on simulated devices does it, on the virtual clock");
-    command->add_flag("--real-objects", options->real_objects,
-                      "with --simulate: the person grips as one does without a device between");
+    auto* simulate = command->add_flag(
+        "--simulate", options->simulate,
+        "a simulated person on simulated devices does the trials, on the virtual clock");
+    command
+        ->add_flag("--real-objects", options->real_objects,
+                   "the person grips as one does without a device between")
+        ->needs(simulate);
     command->add_option("--participant", options->run.participant.id, "participant's identifier");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
     command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")

@@ -12,9 +12,9 @@ namespace dihaptic::person {
 struct Sight {
     int trial = 0;
     int attempt = 0;
-    int phase = 0;               ///< which of the task's states it is: its targets, its message
-    Vec3 hand = Vec3::Zero();    ///< shown: middle of the fingers [m]
-    uint32_t shown = 0;          ///< regions, a bit each
+    int phase = 0;             ///< which of the task's states it is: its targets, its message
+    Vec3 hand = Vec3::Zero();  ///< shown: middle of the fingers [m]
+    uint32_t shown = 0;        ///< regions, a bit each
     std::array<Vec3, servo::TaskFrame::kMostTargets> target{};  ///< by region; where shown [m]
 };
 
@@ -30,8 +30,8 @@ class Eyes {
         sight.attempt = frame.task.attempt;
         sight.phase = frame.phase;
         for (size_t i = 0; i < frame.fingers.size(); ++i) {
-            sight.hand += servo::displayed_proxy(frame, i).p /
-                          static_cast<double>(frame.fingers.size());
+            sight.hand +=
+                servo::displayed_proxy(frame, i).p / static_cast<double>(frame.fingers.size());
         }
         for (size_t i = 0; i < frame.task.targets.size(); ++i) {
             const auto region = static_cast<size_t>(frame.task.targets[i].region);

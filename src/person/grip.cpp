@@ -7,28 +7,28 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kLongestLatency = 0.3;   // [s]
-constexpr double kMuscle = 0.02;          // time constant of grip force [s]
-constexpr double kAimedAbove = 1.1;       // load that is aimed at, over the weight expected
-constexpr double kRise = 1.5e-3;           // of fingertips that carry: it has come off [m/s]
-constexpr double kProbe = 0.1;            // from one more push to the next [s]
-constexpr double kProbeShare = 0.35;      // of the weight expected ...
-constexpr double kLeastProbe = 0.3;       // ... or so much [N]
-constexpr double kStrongest = 40;         // that anybody tries with [N]
-constexpr double kPeakTime = 0.1;         // of peak grip, from lift-off ...
-constexpr double kPeakDecay = 0.25;       // ... and its decay [s]
-constexpr double kUnload = 0.25;          // [s]
-constexpr double kWeighing = 0.3;         // time constant of the weight felt [s]
-constexpr double kCorrection = 0.15;      // of the load, once the weight is felt [s]
-constexpr double kWeighed = 0.3;          // held so long, a weight is remembered [s]
-constexpr double kSurprise = 1.15;        // load felt over load expected that is answered
-constexpr double kReplaced = 0.7;         // of the weight is felt: something else carries it
-constexpr double kTrust = 0.1;  // share of a doubt that a lift takes away
+constexpr double kLongestLatency = 0.3;  // [s]
+constexpr double kMuscle = 0.02;         // time constant of grip force [s]
+constexpr double kAimedAbove = 1.1;      // load that is aimed at, over the weight expected
+constexpr double kRise = 1.5e-3;         // of fingertips that carry: it has come off [m/s]
+constexpr double kProbe = 0.1;           // from one more push to the next [s]
+constexpr double kProbeShare = 0.35;     // of the weight expected ...
+constexpr double kLeastProbe = 0.3;      // ... or so much [N]
+constexpr double kStrongest = 40;        // that anybody tries with [N]
+constexpr double kPeakTime = 0.1;        // of peak grip, from lift-off ...
+constexpr double kPeakDecay = 0.25;      // ... and its decay [s]
+constexpr double kUnload = 0.25;         // [s]
+constexpr double kWeighing = 0.3;        // time constant of the weight felt [s]
+constexpr double kCorrection = 0.15;     // of the load, once the weight is felt [s]
+constexpr double kWeighed = 0.3;         // held so long, a weight is remembered [s]
+constexpr double kSurprise = 1.15;       // load felt over load expected that is answered
+constexpr double kReplaced = 0.7;        // of the weight is felt: something else carries it
+constexpr double kTrust = 0.1;           // share of a doubt that a lift takes away
 constexpr double kReflex = 1.15;         // of grip, after a slip ...
 constexpr double kStrongestReflex = 2;   // ... all in all in a hold ...
 constexpr double kReflexTime = 0.15;     // ... and before the next is felt apart from it [s]
-constexpr double kDoubt = 0.6;  // of the friction expected: one slip tells no less
-constexpr double kMovement = 0.1;         // sum of squared accelerations by time that tells a mass
+constexpr double kDoubt = 0.6;           // of the friction expected: one slip tells no less
+constexpr double kMovement = 0.1;        // sum of squared accelerations by time that tells a mass
 
 Vec3 up() {
     return Vec3::UnitZ();
@@ -180,7 +180,7 @@ void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& ai
     }
     double grip = strength_ * peak * needed(expected, axis);
     if (phase_ == GripPhase::load || phase_ == GripPhase::lifted) {
-        const double surprise = needed(now_felt.force_W, axis);
+        const double surprise = strength_ * needed(now_felt.force_W, axis);
         if (surprise > kSurprise * grip) grip = surprise;
     }
     grip = std::max(grip, phase_ == GripPhase::lifted ? traits_.least_grip : hold_);

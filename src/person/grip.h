@@ -72,14 +72,14 @@ class Grip {
 
     GripPhase phase_ = GripPhase::open;
     int body_ = 0;
-    double touched_ = 0;     // when both fingers felt it [s]
-    double since_ = 0;       // when the phase began [s]
-    double probe_ = 0;       // when more force is added to a load phase that has lifted nothing [s]
-    double reflex_ = 0;      // until when a slip is the one that was answered [s]
-    double hold_ = 0;        // squeeze before the load [N]
-    double squeeze_ = 0;     // [N]
-    double weight_ = 0;      // felt in this hold [N]
-    bool weighed_ = false;   // long enough to be remembered
+    double touched_ = 0;    // when both fingers felt it [s]
+    double since_ = 0;      // when the phase began [s]
+    double probe_ = 0;      // when more force is added to a load phase that has lifted nothing [s]
+    double reflex_ = 0;     // until when a slip is the one that was answered [s]
+    double hold_ = 0;       // squeeze before the load [N]
+    double squeeze_ = 0;    // [N]
+    double weight_ = 0;     // felt in this hold [N]
+    bool weighed_ = false;  // long enough to be remembered
     Vec3 inertial_ = Vec3::Zero();
     Vec3 along_ = Vec3::Zero();  // that it is carried; zero: it is not
     double push_ = 0;            // sums of force times acceleration along it, and ...

@@ -10,7 +10,7 @@ namespace dihaptic::person {
 constexpr double kGravity = 9.81;  // that people live in [m/s^2]
 
 struct GripMemory {
-    double weight = 1;     ///< that is expected [N]
+    double weight = 1;      ///< that is expected [N]
     double friction = 0.5;  ///< of fingers on it, that is expected
     /// Mass beyond the weight's, by world axis: learned from carrying it along that axis [kg].
     Vec3 more_mass = Vec3::Zero();

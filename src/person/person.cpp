@@ -22,18 +22,18 @@ constexpr double kShortest = 0.2;       // stroke [s]
 constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]
 constexpr double kGoodEnough = 4e-3;    // off the target [m]
 constexpr int kMostCorrections = 4;
-constexpr double kYields = 0.015;  // under each finger, before it presses less [m]
-constexpr double kOver = 0.02;     // up or down: more is over what lies there [m]
-constexpr double kOverlap = 0.6;   // of a movement, for each of its parts
-constexpr double kGuided = 0.4;    // of a reach's noise, where it is led by eye from above
-constexpr double kOpening = 2e-3;  // of the aperture: more is letting go [m]
-constexpr double kUpward = 2e-3;   // of a hand that grips: more is lifting [m]
-constexpr double kIdle = 0.4;      // between trials, before the hand goes to its rest [s]
-constexpr double kRestTime = 0.6;  // [s]
-constexpr double kRetry = 3;       // in a state whose steps are done [s]
-constexpr double kGivingUp = 10;   // [s]
-constexpr double kWeak = 0.5;      // grip of a slip, over one as it should be
-constexpr double kDecision = 0.4;  // of an answer, beyond the reaction [s]
+constexpr double kYields = 0.015;   // under each finger, before it presses less [m]
+constexpr double kOver = 0.02;      // up or down: more is over what lies there [m]
+constexpr double kOverlap = 0.6;    // of a movement, for each of its parts
+constexpr double kGuided = 0.4;     // of a reach's noise, where it is led by eye from above
+constexpr double kOpening = 2e-3;   // of the aperture: more is letting go [m]
+constexpr double kUpward = 2e-3;    // of a hand that grips: more is lifting [m]
+constexpr double kIdle = 0.4;       // between trials, before the hand goes to its rest [s]
+constexpr double kRestTime = 0.6;   // [s]
+constexpr double kRetry = 3;        // in a state whose steps are done [s]
+constexpr double kGivingUp = 10;    // [s]
+constexpr double kWeak = 0.4;       // grip of a slip, over one as it should be
+constexpr double kDecision = 0.4;   // of an answer, beyond the reaction [s]
 constexpr double kFeelTime = 0.05;  // as hand/finger.h's [s]
 
 std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
@@ -167,8 +167,7 @@ void Person::measure(const servo::Frame& frame) noexcept {
     felt_ += (force - felt_) * std::clamp(tick / kFeelTime, 0.0, 1.0);
     half_ = 0;
     for (size_t i = 0; i < places_.size(); ++i) {
-        half_ +=
-            (frame.fingers[i].p_WH - places_[i].offset - centre_).dot(places_[i].side) / count;
+        half_ += (frame.fingers[i].p_WH - places_[i].offset - centre_).dot(places_[i].side) / count;
     }
 }
 

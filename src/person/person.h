@@ -66,12 +66,12 @@ class Person final : public experiment::SeeingDriver {
     double now_ = 0;  // [s]
     Eyes eyes_;
     Touch touch_;
-    double half_ = 0;                  // aperture of the handles, halved [m]
-    double touched_ = 0;               // ... when both fingers touched
-    Vec3 centre_ = Vec3::Zero();       // of the handles [m]
-    double felt_ = 0;                  // force on a finger, as its stiffness follows it [N]
-    std::vector<Vec3> known_;          // regions, where they were seen last [m]
-    uint32_t seen_ = 0;                // which of them were
+    double half_ = 0;             // aperture of the handles, halved [m]
+    double touched_ = 0;          // ... when both fingers touched
+    Vec3 centre_ = Vec3::Zero();  // of the handles [m]
+    double felt_ = 0;             // force on a finger, as its stiffness follows it [N]
+    std::vector<Vec3> known_;     // regions, where they were seen last [m]
+    uint32_t seen_ = 0;           // which of them were
 
     // memory
     std::vector<RotationMemory> rotations_;  // by state: what is learned in one stays there
@@ -85,13 +85,13 @@ class Person final : public experiment::SeeingDriver {
     int attempt_ = 0;
     int phase_ = 0;
     bool between_ = true;
-    double since_ = 0;       // when this began: the state, the time between trials, or being done [s]
+    double since_ = 0;  // when this began: the state, the time between trials, or being done [s]
     double wait_until_ = 0;  // [s]
     size_t step_ = 0;
-    Aim pending_;            // once the object is felt to come off ...
+    Aim pending_;              // once the object is felt to come off ...
     double pending_time_ = 0;  // ... in so long [s]
     int corrections_ = 0;
-    double delay_ = 0;       // of this trial's next movement: hesitation [s]
+    double delay_ = 0;  // of this trial's next movement: hesitation [s]
     struct Reach {
         bool going = false;
         bool mended = false;

@@ -5,10 +5,10 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kLeastForce = 0.03;       // that is felt [N]
-constexpr double kSlipSpeed = 1e-3;        // [m/s]
-constexpr double kSlipDistance = 1e-4;     // that is felt [m]
-constexpr double kPad = 0.01;              // of a fingertip [m]
+constexpr double kLeastForce = 0.03;        // that is felt [N]
+constexpr double kSlipSpeed = 1e-3;         // [m/s]
+constexpr double kSlipDistance = 1e-4;      // that is felt [m]
+constexpr double kPad = 0.01;               // of a fingertip [m]
 constexpr double kAccelerationTime = 0.02;  // that accelerations are smoothed over [s]
 
 /// The contact in which proxy `finger` presses a body of the scene hardest, or null.
@@ -81,7 +81,8 @@ Feeling Touch::feel(const servo::Frame& frame) noexcept {
             if (properties.body == out.body) out.friction *= properties.friction_scale;
         }
     }
-    if (started_) a_WH_ += ((v_WH - v_WH_) / tick_ - a_WH_) * std::min(1.0, tick_ / kAccelerationTime);
+    if (started_)
+        a_WH_ += ((v_WH - v_WH_) / tick_ - a_WH_) * std::min(1.0, tick_ / kAccelerationTime);
     v_WH_ = v_WH;
     started_ = true;
     out.acceleration_W = a_WH_;

@@ -12,8 +12,8 @@ struct Feeling {
     double grip = 0;              ///< how hard fingers press inward, mean of them [N]
     bool held = false;            ///< two fingers or more press
     bool slips = false;           ///< a finger slides over what it presses
-    double slip_friction = 0;     ///< tangential over normal force there; 0: it turns under the finger
-    double rise = 0;              ///< upward speed of the fingertips [m/s]
+    double slip_friction = 0;  ///< tangential over normal force there; 0: it turns under the finger
+    double rise = 0;           ///< upward speed of the fingertips [m/s]
     Vec3 acceleration_W = Vec3::Zero();  ///< of the hand [m/s^2]
     double friction = 0;                 ///< of the skin on what it touches; 0: none
     int body = -1;                       ///< of the scene, that fingers press; -1: none

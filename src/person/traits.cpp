@@ -65,7 +65,8 @@ std::vector<Row> population(Objects objects) {
         // Westling and Johansson 1984: margins of 10 to 40 % of classic weights; Kinoshita's group:
         // 45 % at 200 g. Through devices more (EMBC 2022, no figure)
         {"safety_margin", &Traits::safety_margin, Law::logit, real ? 0.38 : 0.5, 0.15},
-        {"least_grip", &Traits::least_grip, Law::log_normal, 0.4, 0.2},  // Hiramatsu 2015: below 30 g
+        {"least_grip", &Traits::least_grip, Law::log_normal, 0.4,
+         0.2},  // Hiramatsu 2015: below 30 g
         // Johansson and Westling 1984: 1.1 to 1.4; 50 to 150 ms; load phases of 150 to 400 ms
         {"peak_grip", &Traits::peak_grip, Law::normal, 1.25, 0.06},
         {"preload_time", &Traits::preload_time, Law::log_normal, 0.085, 0.2},

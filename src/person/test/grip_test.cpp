@@ -117,8 +117,8 @@ struct Lift {
     double touch = NAN;   // both fingers [s]
     double onset = NAN;   // of the load
     double off = NAN;
-    double peak_grip = 0;        // [N]
-    double peak_grip_rate = 0;   // until lift-off, over 20 ms [N/s]
+    double peak_grip = 0;       // [N]
+    double peak_grip_rate = 0;  // until lift-off, over 20 ms [N/s]
     double peak_load_rate = 0;
     double grip = 0;  // static: in the second half of the hold [N]
     double load = 0;
@@ -165,7 +165,8 @@ std::vector<Lift> lifts(const experiment::Plan& plan) {
             sum_grip = sum_load = count = held = 0;
         }
         if (frame.task.outcome >= 0)
-            lift.done = plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name == "lifted";
+            lift.done =
+                plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name == "lifted";
         if (frame.phase <= 2) lift.peak_grip = std::max(lift.peak_grip, frame.grip_force);
         if (frame.phase == 2) {
             if (held == 0) held = now;
@@ -188,8 +189,10 @@ std::vector<Lift> lifts(const experiment::Plan& plan) {
             if (grip.size() > kStep) {
                 const size_t i = grip.size() - 1;
                 const double h = kStep * plan.settings.tick();
-                lift.peak_grip_rate = std::max(lift.peak_grip_rate, (grip[i] - grip[i - kStep]) / h);
-                lift.peak_load_rate = std::max(lift.peak_load_rate, (load[i] - load[i - kStep]) / h);
+                lift.peak_grip_rate =
+                    std::max(lift.peak_grip_rate, (grip[i] - grip[i - kStep]) / h);
+                lift.peak_load_rate =
+                    std::max(lift.peak_load_rate, (load[i] - load[i - kStep]) / h);
             }
         }
         if (frame.bodies[1].X_WB.p.z() > 0.0202) {
@@ -202,8 +205,9 @@ std::vector<Lift> lifts(const experiment::Plan& plan) {
 
 TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
     Sitting sitting("grip-and-lift");
-    sitting.replace("repeats: 4, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 4,",
-                    "repeats: 2, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 3,");
+    sitting.replace(
+        "repeats: 4, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 4,",
+        "repeats: 2, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 3,");
     experiment::Plan plan = sitting.plan(3);
     Traits traits = draw_person(Objects::real, 3, "S03");
     traits.slip_rate = traits.give_up_rate = 0;
@@ -223,8 +227,8 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         EXPECT_GT(margin, 0.1);
         EXPECT_LT(margin, 0.5);
         EXPECT_NEAR(lift.onset - lift.touch, 0.1, 0.05);  // 50 to 150 ms
-        if (i == 0) continue;  // nobody knows what it weighs
-        EXPECT_GT(lift.peak_load_rate, 15);  // 15 to 60 N/s
+        if (i == 0) continue;                             // nobody knows what it weighs
+        EXPECT_GT(lift.peak_load_rate, 15);               // 15 to 60 N/s
         EXPECT_LT(lift.peak_load_rate, 60);
         const double rate = lift.peak_grip_rate * lift.friction;
         const double before = all[i - 1].mass;

@@ -81,9 +81,7 @@ TEST(RotationMemory, IsTheTwoRateModelForOneTarget) {
 TEST(RotationMemory, GeneralisesWhatIsSlowByAGaussianOfDirections) {
     const double width = 0.6;
     RotationMemory memory({{0.6, 0}, {0.99, 0.03}}, width);
-    const auto direction = [](double angle) {
-        return Vec3(std::sin(angle), std::cos(angle), 0);
-    };
+    const auto direction = [](double angle) { return Vec3(std::sin(angle), std::cos(angle), 0); };
     for (int n = 0; n < 50; ++n) memory.learn(direction(0), Vec3(0, 0, 0.1));
     const double here = memory.expected(direction(0)).z();
     EXPECT_NEAR(memory.expected(direction(width)).z(), std::exp(-0.5) * here, 1e-9);

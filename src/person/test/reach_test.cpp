@@ -1,64 +1,12 @@
-// Reaches of simulated people, through the whole program: seen, planned, made by the simulated hand,
-// and measured from its path.
+// Reaches of simulated people, through the whole program: seen, planned, made by the simulated
+// hand, and measured from its path.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "analysis/fits/adaptation_fit.h"
-#include "analysis/trials.h"
-#include "person/test/sitting.h"
+#include "person/test/reaches.h"
 
 namespace dihaptic::person {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kRotation = 30;  // [degrees]
-
-struct Curve {
-    std::vector<double> hand;   ///< compensation by trial, at the reach's distance [degrees]
-    std::vector<double> shown;  ///< error shown there
-    std::vector<std::string> outcome;
-};
-
-/// Angles of the first finger about z in the phase "reach" of each trial's last attempt.
-Curve reaches(const experiment::Plan& plan) {
-    const experiment::ReachMeasure& measure = *plan.task->task.reach;
-    const size_t trials = plan.task->trials.size();
-    Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
-                std::vector<std::string>(trials)};
-    std::vector<int> measured(trials, 0);  // in which attempt
-    run_trials(plan, [&](const servo::Frame& frame) {
-        if (frame.trial < 1) return;
-        const auto i = static_cast<size_t>(frame.trial - 1);
-        if (frame.task.outcome >= 0)
-            curve.outcome[i] =
-                plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name;
-        if (frame.phase != 2 || measured[i] == frame.task.attempt) return;
-        const auto& cell = plan.task->cell(plan.task->trials[i]);
-        const Vec3 arm = frame.fingers[0].p_WH - cell.p_W[0];
-        if (arm.norm() < measure.distance) return;
-        measured[i] = frame.task.attempt;
-        const Vec3 way = cell.p_W[1] - cell.p_W[0];
-        const Vec3 z = Vec3::UnitZ();
-        curve.hand[i] = -analysis::angle_about(z, way, arm) / kDegree;
-        const Vec3 shown = servo::displayed_handle(frame, 0).p - cell.p_W[0];
-        curve.shown[i] = analysis::angle_about(z, way, shown) / kDegree;
-    });
-    return curve;
-}
-
-/// The schedule as adaptation sees it.
-std::vector<model::AdaptationTrial> schedule(const experiment::Plan& plan) {
-    std::vector<model::AdaptationTrial> out;
-    for (const experiment::Trial& trial : plan.task->trials) {
-        const std::string& name =
-            trial.perturb < 0 ? ""
-                              : plan.task->task.perturbations[static_cast<size_t>(trial.perturb)].name;
-        out.push_back({name == "rotation" ? kRotation : name == "reversal" ? -kRotation : 0,
-                       name == "clamp"});
-    }
-    return out;
-}
 
 TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndTheClamp) {
     Sitting sitting("rotation-reversal");
