@@ -183,10 +183,11 @@ void rehearse(Options& options) {
         if (done < all) exit_code = kFailed;
     }
     for (const std::string& text : failed) fmt::print(stderr, "{}\n", text);
-    fmt::print("{}: {}\n", exit_code == kOk ? "complete" : "some are missing", options.out);
-    fmt::print(exit_code == kOk ? "next: dihaptic collect {}\n"
-                                : "the same command goes on with those that are missing\n",
-               options.out);
+    if (exit_code == kOk) {
+        fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out, options.out);
+    } else {
+        fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
+    }
 }
 
 struct CollectOptions {
