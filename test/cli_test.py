@@ -41,7 +41,7 @@ class Commands(unittest.TestCase):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
                     ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["resume"], ["export"]]
+                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -687,6 +687,86 @@ class Interruptions(unittest.TestCase):
             recovered = dihaptic("recover", folder)
             self.assertEqual(recovered.returncode, 0, recovered.stderr)
             self.assertEqual(dihaptic("replay", folder).returncode, 0)
+
+
+class Rehearsals(unittest.TestCase):
+    """Populations of simulated people, in parts and in parallel."""
+
+    PEOPLE = ["P001", "P002", "P003", "P004"]
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
+        for repeats in ["64", "160", "16", "48"]:
+            text = text.replace("repeats: " + repeats, "repeats: 2")
+        self.experiment = self.folder + "/short.yaml"
+        pathlib.Path(self.experiment).write_text(text)
+
+    def rehearse(self, out, *arguments):
+        return dihaptic("rehearse", self.experiment, "--people", "4", "--out", out, *arguments)
+
+    def tables(self, *folders):
+        out = tempfile.mkdtemp(dir=self.folder)
+        result = dihaptic("collect", *folders, "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [pathlib.Path(out + "/" + name).read_bytes() for name in ["trials.csv", "people.csv"]]
+
+    def test_jobs_and_shards_give_the_same_tables_to_the_byte(self):
+        whole = self.folder + "/whole"
+        result = self.rehearse(whole)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("dihaptic collect " + whole, result.stdout)
+        self.assertEqual(sorted(os.listdir(whole)), self.PEOPLE)
+        self.assertFalse(os.path.exists(whole + "/P001/raw.log"))
+        parts = []
+        for shard in ["1/3", "2/3", "3/3"]:
+            parts.append(self.folder + "/part-" + shard[0])
+            result = self.rehearse(parts[-1], "--shard", shard, "--jobs", "2")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(parts[0])), ["P001", "P004"])
+        tables = self.tables(whole)
+        self.assertEqual(tables, self.tables(*reversed(parts)))
+        rows = list(csv.DictReader(tables[0].decode().splitlines()))
+        self.assertEqual(sorted({row["ppid"] for row in rows}), self.PEOPLE)
+        people = list(csv.DictReader(tables[1].decode().splitlines()))
+        self.assertEqual([row["id"] for row in people], self.PEOPLE)
+        self.assertEqual(len({row["slow_learning"] for row in people}), 4)
+
+    def test_a_second_call_goes_on_with_those_that_are_missing(self):
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out).returncode, 0)
+        before = self.tables(out)
+        shutil.rmtree(out + "/P002")
+        os.makedirs(out + "/unfinished-P003")  # as a kill leaves it
+        shutil.rmtree(out + "/P003")
+        kept = os.path.getmtime(out + "/P001/trials.csv")
+        result = self.rehearse(out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 to do, 2 done before", result.stdout)
+        self.assertEqual(sorted(os.listdir(out)), self.PEOPLE)
+        self.assertEqual(os.path.getmtime(out + "/P001/trials.csv"), kept)
+        self.assertEqual(self.tables(out), before)
+
+    def test_tells_of_sessions_that_failed(self):
+        out = self.folder + "/out"
+        result = dihaptic("rehearse", self.experiment, "--people", "2", "--out", out,
+                          preexec_fn=with_largest_file(500_000))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("P001: failed.", result.stderr)
+        self.assertIn("cannot be written", result.stderr)
+        self.assertIn("the same command goes on with those", result.stdout)
+        self.assertEqual(self.rehearse(out).returncode, 0)
+
+    def test_refuses_what_cannot_be(self):
+        for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is no part"),
+                                   (["rehearse", "experiments/lift-block.yaml"], "has no trials that people could do"),
+                                   (["collect", self.folder], "has no complete session"),
+                                   (["run", self.experiment, "--real-objects"], "requires --simulate")]:
+            result = dihaptic(*arguments)
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn(message, result.stderr)
 
 
 if __name__ == "__main__":

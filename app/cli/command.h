@@ -23,6 +23,8 @@ void add_run(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_recover(CLI::App& app);
 void add_resume(CLI::App& app);
+void add_rehearse(CLI::App& app);
+void add_collect(CLI::App& app);
 void add_check(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);

@@ -70,6 +70,8 @@ int main(int argc, char** argv) {
     cli::add_replay(app);
     cli::add_recover(app);
     cli::add_resume(app);
+    cli::add_rehearse(app);
+    cli::add_collect(app);
     cli::add_check(app);
     cli::add_bench(app);
     cli::add_tune(app);

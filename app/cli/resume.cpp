@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include "analysis/recovery.h"
+#include "base/field_reader.h"
 #include "base/plural.h"
 #include "command.h"
+#include "person/person.h"
 #include "recording/raw_log.h"
 #include "summary.h"
 
@@ -25,7 +27,14 @@ void resume(const Options& options) {
         print(recovery.warnings);
     }
     recording::SessionInfo info;
-    const experiment::Plan plan = experiment::make_rest(options.session, info);
+    experiment::Plan plan = experiment::make_rest(options.session, info);
+    if (const std::string person = folder.file("person.yaml"); std::filesystem::exists(person)) {
+        Diagnostics diagnostics;
+        person::Traits traits;
+        read_fields(traits, read_yaml(person), diagnostics);
+        diagnostics.throw_if_errors();
+        person::sit_down(plan, traits);
+    }
     fmt::print("goes on with {}: {} done\n", folder.path(),
                counted(static_cast<int64_t>(plan.done.size()), "attempt"));
     experiment::RunOptions run;

@@ -12,6 +12,7 @@
 #include "base/table.h"
 #include "command.h"
 #include "escape_key.h"
+#include "person/person.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -28,6 +29,7 @@ struct Options {
     double rate = 0;
     std::string clock = "virtual";
     bool simulate = false;
+    bool real_objects = false;
 };
 
 /// "trial 12 of 96"
@@ -80,7 +82,12 @@ void ask(recording::Participant& participant) {
 }
 
 void run_one(const Options& options) {
-    run_plan(experiment::make_plan(options.request), options.run);
+    experiment::Plan plan = experiment::make_plan(options.request);
+    if (options.simulate && plan.task) {
+        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
+        person::sit_down(plan, person::draw_person(objects, plan.seed, options.run.participant.id));
+    }
+    run_plan(plan, options.run);
 }
 
 }  // namespace
@@ -272,8 +279,13 @@ void add_run(CLI::App& app) {
         "--movement", options->request.movement,
         "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
-    command->add_flag("--simulate", options->simulate,
-                      "a simulated hand on simulated devices does it, on the virtual clock");
+    auto* simulate = command->add_flag(
+        "--simulate", options->simulate,
+        "a simulated person on simulated devices does the trials, on the virtual clock");
+    command
+        ->add_flag("--real-objects", options->real_objects,
+                   "the person grips as one does without a device between")
+        ->needs(simulate);
     command->add_option("--participant", options->run.participant.id, "participant's identifier");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
     command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")

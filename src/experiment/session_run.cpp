@@ -100,6 +100,10 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         if (!plan.task->task.procedures.empty())
             write_csv(procedure_table(*plan.task), folder.file("procedures.csv"));
     }
+    if (!plan.person.empty()) {
+        write_file(plan.person, folder.file("person.yaml"));
+        names.emplace_back("person.yaml");
+    }
     if (!plan.resumes.empty())
         fs::copy_file(plan.resumes + "/trials.csv", folder.file("trials-before.csv"));
     std::vector<recording::InputFile> inputs;
@@ -261,6 +265,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                                          servo::Commands& commands) {
         if (task) {
             if (options.keys != nullptr) task->press(options.keys->exchange(0));
+            if (const char key = plan.seeing ? plan.seeing->take_key() : '\0'; key != 0)
+                task->press(key);
             (*task)(last, handles, commands);
         } else {
             phases(last, handles, commands);

@@ -23,6 +23,12 @@ constexpr MinimumJerk minimum_jerk(double s) {
     return {s * s * s * (10 + s * (6 * s - 15)), 30 * s * s * (1 - s) * (1 - s)};
 }
 
+/// Second derivative of the share by s; 0 outside [0, 1].
+constexpr double minimum_jerk_acceleration(double s) {
+    if (s < 0 || s > 1) return 0;
+    return 60 * s * (1 - s) * (1 - 2 * s);
+}
+
 /// What a speed of one at the start, and one at the end, adds to the share: the two brackets above.
 constexpr MinimumJerk start_speed_part(double s) {
     s = std::clamp(s, 0.0, 1.0);

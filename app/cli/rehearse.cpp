@@ -1,0 +1,306 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "base/plural.h"
+#include "base/text_file.h"
+#include "command.h"
+#include "person/person.h"
+#include "summary.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    experiment::Request request;
+    std::string out;
+    std::string shard = "1/1";
+    int people = 1;
+    int jobs = 1;
+    bool real_objects = false;
+    bool keep_recordings = false;
+};
+
+struct Shard {
+    int number = 1;  ///< from 1
+    int of = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+    Shard shard;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%d/%d%c", &shard.number, &shard.of, &rest) != 2 ||
+        shard.number < 1 || shard.number > shard.of) {
+        throw Error({"--shard", 0}, text, "is no part of a whole",
+                    "Write e.g. --shard 3/20: the third of twenty parts.");
+    }
+    return shard;
+}
+
+std::string id_of(int person) {
+    return fmt::format("P{:03d}", person);
+}
+/// Where a person's session is made, and where it is once it is complete.
+std::string unfinished(const Options& options, const std::string& id) {
+    return options.out + "/unfinished-" + id;
+}
+std::string finished(const Options& options, const std::string& id) {
+    return options.out + "/" + id;
+}
+
+/// One person's session, in a process of its own: whatever becomes of it, the others go on.
+/// Returns what the process returns.
+int run_person(const Options& options, const std::string& id) {
+    const std::string folder = unfinished(options, id);
+    const int messages = open((folder + "/messages.txt").c_str(), O_CREAT | O_WRONLY, 0644);
+    if (messages >= 0) {
+        dup2(messages, STDOUT_FILENO);
+        dup2(messages, STDERR_FILENO);
+    }
+    try {
+        experiment::Request request = options.request;
+        request.participant = id;
+        experiment::Plan plan = experiment::make_plan(request);
+        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
+        person::sit_down(plan, person::draw_person(objects, plan.seed, id));
+        experiment::RunOptions run;
+        run.out = folder;
+        run.command = command_line();
+        run.participant.id = id;
+        const experiment::RunResult result = experiment::run_session(plan, run, stop_requested, {});
+        if (result.interrupted) return kFailed;
+        const auto session = recording::SessionFolder::open(result.folder);
+        const analysis::SessionFigures figures = analysis::finish_session(session, result.info, {});
+        if (figures.failed()) {
+            fmt::print("{}\n", result.fault.empty() ? "the simulation diverged" : result.fault);
+            return kFailed;
+        }
+        if (!options.keep_recordings) {
+            fs::remove(session.raw_log());
+            fs::remove(session.nwb());
+        }
+        fs::rename(result.folder, finished(options, id));  // all of it, or nothing
+        fs::remove_all(folder);
+        return kOk;
+    } catch (const std::exception& e) {
+        fmt::print("{}\n", e.what());
+        std::fflush(stdout);
+        return kFailed;
+    }
+}
+
+/// Starts a person's process.
+pid_t start(const Options& options, const std::string& id) {
+    fs::remove_all(unfinished(options, id));
+    fs::create_directories(unfinished(options, id));
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        const int code = run_person(options, id);
+        std::fflush(nullptr);
+        _exit(code);
+    }
+    if (child < 0) {
+        throw Error(fmt::format("cannot start another process: {}", std::strerror(errno)),
+                    "Ask for fewer --jobs.");
+    }
+    return child;
+}
+
+std::string what_became(int status) {
+    if (WIFSIGNALED(status)) return fmt::format("killed by signal {}", WTERMSIG(status));
+    return stop_requested ? "interrupted" : "failed";
+}
+
+void rehearse(Options& options) {
+    const Shard shard = parse_shard(options.shard);
+    options.request.simulate = true;
+    options.request.participant = id_of(1);
+    const experiment::Plan plan = experiment::make_plan(options.request);
+    if (!plan.task) {
+        throw Error({options.request.file, 0}, "task", "has no trials that people could do",
+                    "Rehearse an experiment with 'task:', or see dihaptic run.");
+    }
+    print(plan.warnings);
+    if (options.out.empty()) {
+        options.out =
+            fmt::format("rehearsals/{}_{}", fs::path(options.request.file).stem().string(),
+                        options.request.seed);
+    }
+    fs::create_directories(options.out);
+
+    std::vector<std::string> waiting;
+    int there = 0;
+    for (int person = shard.number; person <= options.people; person += shard.of) {
+        if (fs::exists(finished(options, id_of(person)))) {
+            ++there;
+        } else {
+            waiting.push_back(id_of(person));
+        }
+    }
+    fmt::print("{}\n{}\n", plan.title,
+               there == 0 ? fmt::format("{} to do",
+                                        counted(static_cast<int64_t>(waiting.size()), "session"))
+                          : fmt::format("{} to do, {} done before", waiting.size(), there));
+    std::map<pid_t, std::string> running;
+    std::vector<std::string> failed;
+    {
+        ProgressLine line("rehearsing");
+        const size_t all = waiting.size();
+        size_t next = 0;
+        size_t done = 0;
+        while (!running.empty() || (next < all && !stop_requested)) {
+            while (static_cast<int>(running.size()) < options.jobs && next < all &&
+                   !stop_requested) {
+                const std::string& id = waiting[next++];
+                running[start(options, id)] = id;
+            }
+            int status = 0;
+            const pid_t child = waitpid(-1, &status, 0);
+            if (child < 0 && errno == EINTR) continue;
+            const auto ended = running.find(child);
+            if (ended == running.end()) continue;
+            if (status != 0) {
+                const std::string messages =
+                    read_text_file(unfinished(options, ended->second) + "/messages.txt");
+                failed.push_back(
+                    fmt::format("{}: {}. {}", ended->second, what_became(status), messages));
+            } else {
+                ++done;
+            }
+            running.erase(ended);
+            line.show(static_cast<double>(done + failed.size()) / static_cast<double>(all),
+                      fmt::format("{} of {}", done, all));
+        }
+        if (done < all) exit_code = kFailed;
+    }
+    for (const std::string& text : failed) fmt::print(stderr, "{}\n", text);
+    if (exit_code == kOk) {
+        fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out, options.out);
+    } else {
+        fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
+    }
+}
+
+struct CollectOptions {
+    std::vector<std::string> folders;
+    std::string out;
+};
+
+/// The rows of a session's table under `rows`, whose header is the first session's.
+void append(std::vector<std::vector<std::string>>& rows, const std::string& file) {
+    const auto table = read_csv(file);
+    if (rows.empty()) rows.push_back(table.at(0));
+    if (table.at(0) != rows[0]) {
+        throw Error({file, 1}, "", "has other columns than the sessions before",
+                    "Collect sessions of one experiment and one version only.");
+    }
+    rows.insert(rows.end(), table.begin() + 1, table.end());
+}
+
+void write_rows(const std::vector<std::vector<std::string>>& rows, const std::string& file) {
+    std::string text;
+    for (const auto& row : rows) {
+        for (size_t i = 0; i < row.size(); ++i)
+            text += (i == 0 ? "" : ",") + to_csv(Table::Cell(row[i]));
+        text += "\n";
+    }
+    write_file(text, file);
+}
+
+void collect(const CollectOptions& options) {
+    std::map<std::string, std::string> sessions;  // by person
+    for (const std::string& folder : options.folders) {
+        if (!fs::is_directory(folder)) {
+            throw Error({folder, 0}, "", "is no folder",
+                        "Name the folders that dihaptic rehearse made.");
+        }
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string id = entry.path().filename().string();
+            if (!fs::exists(entry.path() / "person.yaml")) continue;
+            if (!sessions.emplace(id, entry.path().string()).second) {
+                throw Error({entry.path().string(), 0}, "", "is there twice: " + sessions[id],
+                            "Name folders of different shards.");
+            }
+        }
+    }
+    if (sessions.empty()) {
+        throw Error({options.folders.front(), 0}, "", "has no complete session",
+                    "Rehearse first: dihaptic rehearse --help.");
+    }
+    std::vector<std::vector<std::string>> trials;
+    std::vector<std::vector<std::string>> people;
+    for (const auto& [id, session] : sessions) {
+        append(trials, session + "/trials.csv");
+        const Node person = read_yaml(session + "/person.yaml");
+        if (people.empty()) {
+            people.emplace_back();
+            for (const auto& entry : person.entries) people[0].push_back(entry.key);
+        }
+        people.emplace_back();
+        for (const auto& entry : person.entries) people.back().push_back(entry.value.scalar);
+    }
+    const std::string out = options.out.empty() ? options.folders.front() : options.out;
+    fs::create_directories(out);
+    write_rows(trials, out + "/trials.csv");
+    write_rows(people, out + "/people.csv");
+    fmt::print("{}, {}: {}/trials.csv, people.csv\n",
+               counted(static_cast<int64_t>(sessions.size()), "session"),
+               counted(static_cast<int64_t>(trials.size()) - 1, "attempt"), out);
+}
+
+}  // namespace
+
+void add_rehearse(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
+    auto options = std::make_shared<Options>();
+    command->add_option("FILE", options->request.file, "experiment with trials")->required();
+    command->add_option("--people", options->people, "how many, P001 and so on")
+        ->check(CLI::Range(1, 9999))
+        ->capture_default_str();
+    command->add_option("--jobs", options->jobs, "sessions at a time")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_option("--shard", options->shard, "only every 20th person, from the 3rd: 3/20")
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
+    command->add_option("--seed", options->request.seed, "of everything random")
+        ->check(seed_range())
+        ->capture_default_str();
+    command->add_flag("--real-objects", options->real_objects,
+                      "people grip as one does without a device between");
+    command->add_flag("--keep-recordings", options->keep_recordings,
+                      "keep raw.log and session.nwb of each: hundreds of MB");
+    command->footer(
+        "\nWho is there already is not done again: after a break the same command goes on.\n"
+        "Results are the same to the byte whatever --jobs and --shard.\n"
+        "\nExamples:\n"
+        "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
+        "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
+        "{}/4 ::: 1 2 3 4\n"
+        "  dihaptic collect rehearsals/visuomotor-rotation_1");
+    command->callback([options] { rehearse(*options); });
+}
+
+void add_collect(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "collect", "Join the tables of rehearsed people: trials, and who they were");
+    auto options = std::make_shared<CollectOptions>();
+    command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
+    command->add_option("--out", options->out, "folder for the tables; default: the first one");
+    command->footer(
+        "\nExample:\n"
+        "  dihaptic collect rehearsals/visuomotor-rotation_1");
+    command->callback([options] { collect(*options); });
+}
+
+}  // namespace dihaptic::cli

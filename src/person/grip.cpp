@@ -1,0 +1,197 @@
+#include "person/grip.h"
+
+#include <algorithm>
+
+#include "model/grasp.h"
+
+namespace dihaptic::person {
+namespace {
+
+constexpr double kLongestLatency = 0.3;  // [s]
+constexpr double kMuscle = 0.02;         // time constant of grip force [s]
+constexpr double kAimedAbove = 1.1;      // load that is aimed at, over the weight expected
+constexpr double kRise = 1.5e-3;         // of fingertips that carry: it has come off [m/s]
+constexpr double kProbe = 0.1;           // from one more push to the next [s]
+constexpr double kProbeShare = 0.35;     // of the weight expected ...
+constexpr double kLeastProbe = 0.3;      // ... or so much [N]
+constexpr double kStrongest = 40;        // that anybody tries with [N]
+constexpr double kPeakTime = 0.1;        // of peak grip, from lift-off ...
+constexpr double kPeakDecay = 0.25;      // ... and its decay [s]
+constexpr double kUnload = 0.25;         // [s]
+constexpr double kWeighing = 0.3;        // time constant of the weight felt [s]
+constexpr double kCorrection = 0.15;     // of the load, once the weight is felt [s]
+constexpr double kWeighed = 0.3;         // held so long, a weight is remembered [s]
+constexpr double kSurprise = 1.15;       // load felt over load expected that is answered
+constexpr double kReplaced = 0.7;        // of the weight is felt: something else carries it
+constexpr double kTrust = 0.1;           // share of a doubt that a lift takes away
+constexpr double kReflex = 1.15;         // of grip, after a slip ...
+constexpr double kStrongestReflex = 2;   // ... all in all in a hold ...
+constexpr double kReflexTime = 0.15;     // ... and before the next is felt apart from it [s]
+constexpr double kDoubt = 0.6;           // of the friction expected: one slip tells no less
+constexpr double kMovement = 0.1;        // sum of squared accelerations by time that tells a mass
+
+Vec3 up() {
+    return Vec3::UnitZ();
+}
+
+}  // namespace
+
+Grip::Grip(const Traits& traits, std::vector<GripMemory> memory, double tick)
+    : traits_(traits),
+      looks_(std::move(memory)),
+      memory_(looks_),
+      tick_(tick),
+      past_(kLongestLatency, tick) {}
+
+void Grip::restart() noexcept {
+    std::copy(looks_.begin(), looks_.end(), memory_.begin());
+    past_.clear();
+    end();
+}
+
+void Grip::set(double latency, double strength, double misfelt) noexcept {
+    latency_ = std::clamp(latency, 0.0, kLongestLatency);
+    strength_ = strength;
+    misfelt_ = misfelt;
+}
+
+void Grip::end() noexcept {
+    phase_ = GripPhase::open;
+    squeeze_ = weight_ = 0;
+    weighed_ = false;
+    inertial_ = along_ = Vec3::Zero();
+}
+
+/// What the lift told, once it was long enough. A surface that gave no slip is trusted a bit more.
+void Grip::remember() noexcept {
+    if (!weighed_) return;
+    weighed_ = false;
+    memory().lifted(weight_, traits_.weight_learning);
+    const double looks = looks_[static_cast<size_t>(body_)].friction;
+    memory().friction += kTrust * (looks - memory().friction);
+}
+
+void Grip::close(double now, double grip) noexcept {
+    phase_ = GripPhase::preload;
+    since_ = touched_ = now;
+    squeeze_ = hold_ = std::max(grip, traits_.least_grip);
+    body_ = std::max(0, felt().body);
+}
+
+void Grip::lift(double now, Strokes& aim) noexcept {
+    const double weight = memory().weight;
+    const double duration = traits_.load_time + traits_.load_time_rise * weight;
+    aim.add({Vec3::Zero(), 0, kAimedAbove * weight - aim.goal().load}, now, duration);
+    phase_ = GripPhase::load;
+    since_ = now;
+    probe_ = now + duration + latency_;
+}
+
+void Grip::release(double now, Strokes& aim) noexcept {
+    remember();
+    aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);
+    hold_ = squeeze_;
+    phase_ = GripPhase::unload;
+    since_ = now;
+}
+
+void Grip::carry(const Vec3& u) noexcept {
+    along_ = u;
+    push_ = moved_ = 0;
+}
+
+void Grip::carried() noexcept {
+    if (moved_ * tick_ > kMovement) memory().carried(along_, push_ / moved_, traits_.mass());
+    along_ = Vec3::Zero();
+}
+
+/// Grip that a force on the object takes, with the margin: a force along the axis takes from one of
+/// the fingers.
+double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
+    const double along = force_W.dot(axis);
+    const double across = (force_W - along * axis).norm();
+    const double friction = memory_[static_cast<size_t>(body_)].friction;
+    return model::grip_with_margin(across, friction, traits_.safety_margin) + std::abs(along) / 2;
+}
+
+void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& aim) noexcept {
+    past_.add(newest);
+    if (phase_ == GripPhase::open) return;
+    const Feeling& now_felt = felt();
+    if (phase_ == GripPhase::preload && now - since_ >= traits_.preload_time - latency_)
+        phase_ = GripPhase::ready;
+    if (!now_felt.held && now - since_ > latency_ && phase_ != GripPhase::unload) {  // lost
+        aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);
+        end();
+        return;
+    }
+    // of now: the skin's own time is its delay
+    if (traits_.skin_time > 0 && newest.body == body_ &&
+        now - touched_ + latency_ > traits_.skin_time)
+        memory().friction = misfelt_ * newest.friction;
+    const bool carries = phase_ == GripPhase::load || phase_ == GripPhase::lifted;
+    if (now_felt.slips && carries && now_felt.body == body_ && now > reflex_) {
+        const double known = memory().friction;
+        const double told = std::max(now_felt.slip_friction, kDoubt * known);
+        if (now_felt.slip_friction > 0 && told < known) memory().friction = told;
+        strength_ = std::min(kStrongestReflex, std::max(1.0, strength_) * kReflex);
+        reflex_ = now + kReflexTime;
+    }
+    const double carried = now_felt.force_W.dot(up());
+    if (phase_ == GripPhase::load && now_felt.rise > kRise) {
+        phase_ = GripPhase::lifted;
+        since_ = now;
+        weight_ = carried;
+        aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
+    } else if (phase_ == GripPhase::load && now > probe_ && aim.goal().load < kStrongest) {
+        const double more = std::max(kLeastProbe, kProbeShare * memory().weight);
+        aim.add({Vec3::Zero(), 0, more}, now, kProbe);
+        probe_ = now + kProbe;
+    }
+
+    if (phase_ == GripPhase::lifted && weighed_ && carried < kReplaced * weight_) {
+        remember();
+        phase_ = GripPhase::ready;
+        since_ = now;
+    }
+
+    inertial_ = Vec3::Zero();
+    Vec3 expected = aim.at(now).load * up();
+    double peak = 1;
+    if (phase_ == GripPhase::load) {
+        peak = traits_.peak_grip;
+        expected /= kAimedAbove;  // it is not expected to weigh more
+    }
+    if (phase_ == GripPhase::lifted) {
+        weight_ += (carried - weight_) * tick_ / kWeighing;
+        if (!weighed_ && now - since_ > kWeighed) {
+            weighed_ = true;
+            aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
+        }
+        inertial_ = memory().inertial(aim.acceleration(now));
+        expected += inertial_;
+        const double late = std::max(0.0, now - since_ - kPeakTime);
+        peak = 1 + (traits_.peak_grip - 1) * std::exp(-late / kPeakDecay);
+        if (along_ != Vec3::Zero()) {
+            const double a = newest.acceleration_W.dot(along_);
+            push_ += (newest.force_W - weight_ * up()).dot(along_) * a;
+            moved_ += a * a;
+        }
+    }
+    double grip = strength_ * peak * needed(expected, axis);
+    if (phase_ == GripPhase::load || phase_ == GripPhase::lifted) {
+        const double surprise = strength_ * needed(now_felt.force_W, axis);
+        if (surprise > kSurprise * grip) grip = surprise;
+    }
+    grip = std::max(grip, phase_ == GripPhase::lifted ? traits_.least_grip : hold_);
+    if (phase_ == GripPhase::unload) {
+        grip = hold_ * (1 - model::minimum_jerk((now - since_) / kUnload).share);
+        if (now - since_ >= kUnload) {
+            end();
+            return;
+        }
+    }
+    squeeze_ += (grip - squeeze_) * std::min(1.0, tick_ / kMuscle);
+}
+
+}  // namespace dihaptic::person

@@ -1,0 +1,460 @@
+#include "person/person.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/field_writer.h"
+#include "hand/places.h"
+
+namespace dihaptic::person {
+namespace {
+
+using experiment::TaskPlan;
+using experiment::When;
+
+constexpr double kUsualDensity = 1000;  // of what one has not lifted yet [kg/m^3]
+constexpr double kReach = 0.03;         // a movement that teaches about rotations [m]
+constexpr double kGlance = 0.15;        // share of a reach after which it is mended ...
+constexpr double kJudged = 0.4;         // ... and its error taken as the one to learn from
+constexpr double kShortest = 0.2;       // stroke [s]
+constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]
+constexpr double kGoodEnough = 4e-3;    // off the target [m]
+constexpr int kMostCorrections = 4;
+constexpr double kYields = 0.015;   // under each finger, before it presses less [m]
+constexpr double kOver = 0.02;      // up or down: more is over what lies there [m]
+constexpr double kOverlap = 0.6;    // of a movement, for each of its parts
+constexpr double kGuided = 0.4;     // of a reach's noise, where it is led by eye from above
+constexpr double kOpening = 2e-3;   // of the aperture: more is letting go [m]
+constexpr double kUpward = 2e-3;    // of a hand that grips: more is lifting [m]
+constexpr double kIdle = 0.4;       // between trials, before the hand goes to its rest [s]
+constexpr double kRestTime = 0.6;   // [s]
+constexpr double kRetry = 3;        // in a state whose steps are done [s]
+constexpr double kGivingUp = 10;    // [s]
+constexpr double kWeak = 0.4;       // grip of a slip, over one as it should be
+constexpr double kDecision = 0.4;   // of an answer, beyond the reaction [s]
+constexpr double kFeelTime = 0.05;  // as hand/finger.h's [s]
+
+std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
+    std::vector<Vec3> out;
+    for (const hand::FingerPlace& place : places) out.push_back(place.side);
+    return out;
+}
+
+double friction_of(const scene::Scene& scene, const scene::Body& body) {
+    const scene::Finger& finger = scene.fingers.front();
+    return scene::pair_friction(scene, body.name, body.friction, finger.name, finger.friction);
+}
+
+std::vector<double> frictions_of(const scene::Scene& scene) {
+    std::vector<double> out;
+    for (const scene::Body& body : scene.bodies) out.push_back(friction_of(scene, body));
+    return out;
+}
+
+/// Objects as they look: of an even, usual density, with about the friction that they have.
+std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
+    std::vector<GripMemory> out;
+    Random random(seed, fmt::format("looks to {}", traits.id));
+    for (scene::Body body : scene.bodies) {
+        GripMemory& look = out.emplace_back();
+        const double misjudged = std::exp(traits.friction_error * random.normal());
+        look.friction = misjudged * friction_of(scene, body);
+        body.mass.reset();
+        body.density = kUsualDensity;
+        if (body.moves_at_all()) look.weight = kGravity * scene::mass(body);
+    }
+    return out;
+}
+
+Vec3 rotation_between(const Vec3& from, const Vec3& to) noexcept {
+    const Vec3 axis = from.cross(to);
+    const double sine = axis.norm();
+    if (sine < 1e-12) return Vec3::Zero();
+    return std::atan2(sine, from.dot(to)) / sine * axis;
+}
+
+Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
+    const double angle = rotation.norm();
+    if (angle < 1e-12) return v;
+    return Eigen::AngleAxisd(angle, rotation / angle) * v;
+}
+
+}  // namespace
+
+Person::Person(const Traits& traits, const experiment::Plan& plan)
+    : traits_(traits),
+      plan_(plan.task),
+      places_(hand::finger_places(plan.hand, scene::finger_names(plan.scene))),
+      impedance_(plan.hand.impedance),
+      start_{plan.hand.centre, plan.hand.aperture, 0},
+      seed_(plan.seed),
+      random_(seed_, fmt::format("person {}", traits.id)),
+      eyes_(traits.visual_delay, plan.settings.tick()),
+      touch_(sides_of(places_), frictions_of(plan.scene), plan.settings.tick()),
+      known_(plan.task->task.regions.size(), Vec3::Zero()),
+      rotations_(plan.task->stages.size(),
+                 RotationMemory(traits.rotation(), traits.generalisation)),
+      grip_(traits, looks_of(plan.scene, traits, plan.seed), plan.settings.tick()) {
+    for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
+    restart();
+}
+
+void Person::restart() {
+    random_ = Random(seed_, fmt::format("person {}", traits_.id));
+    now_ = 0;
+    eyes_.restart();
+    touch_.restart();
+    grip_.restart();
+    std::fill(rotations_.begin(), rotations_.end(),
+              RotationMemory(traits_.rotation(), traits_.generalisation));
+    felt_ = 0;
+    seen_ = 0;
+    doing_ = Doing::nothing;
+    aim_.rest(start_);
+    trial_ = attempt_ = phase_ = 0;
+    between_ = true;
+    since_ = wait_until_ = delay_ = 0;
+    step_ = 0;
+    corrections_ = 0;
+    reach_ = {};
+    answer_at_ = -1;
+    key_ = 0;
+}
+
+const std::vector<TaskPlan::Step>& Person::steps() const noexcept {
+    return plan_->stages[static_cast<size_t>(phase_ - 1)].hand;
+}
+
+double Person::noisy(double value, double share) noexcept {
+    return value * std::max(0.3, 1 + share * random_.normal());
+}
+
+hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
+    const hand::FingerPlace& place = places_[static_cast<size_t>(finger)];
+    const Aim aim = aim_.at(t);
+    const Aim rate = aim_.rate(t);
+    hand::FingerTarget target;
+    target.p_WT = aim.centre + place.offset;
+    target.v_WT = rate.centre;
+    if (!grip_.holds()) {
+        target.p_WT += aim.aperture / 2 * place.side;
+        target.v_WT += rate.aperture / 2 * place.side;
+        return target;
+    }
+    // the fingers press with a force, and carry with one: their springs are stretched by it
+    const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
+    const auto count = static_cast<double>(places_.size());
+    // but not on through what yields
+    const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
+    target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
+    if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
+    target.p_WT += (aim.load * Vec3::UnitZ() + grip_.inertial()) / (count * k);
+    return target;
+}
+
+void Person::measure(const servo::Frame& frame) noexcept {
+    const auto count = static_cast<double>(places_.size());
+    centre_ = Vec3::Zero();
+    double force = 0;
+    for (size_t i = 0; i < places_.size(); ++i) {
+        centre_ += (frame.fingers[i].p_WH - places_[i].offset) / count;
+        force += frame.fingers[i].f_sent_W.norm() / count;
+    }
+    const double tick = seconds(frame.time) - now_;
+    now_ = seconds(frame.time);
+    felt_ += (force - felt_) * std::clamp(tick / kFeelTime, 0.0, 1.0);
+    half_ = 0;
+    for (size_t i = 0; i < places_.size(); ++i) {
+        half_ += (frame.fingers[i].p_WH - places_[i].offset - centre_).dot(places_[i].side) / count;
+    }
+}
+
+void Person::do_see(const servo::Frame& frame) noexcept {
+    eyes_.take(frame);
+    measure(frame);
+    const bool held = grip_.holds();
+    const bool loads = grip_.phase() == GripPhase::load;
+    grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
+    // an open hand goes on from where it is
+    if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
+    if (loads && grip_.phase() != GripPhase::load)
+        aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
+    const Sight& sight = eyes_.sight();
+    follow_cues(sight);
+    watch_reach(sight);
+    go_on(sight);
+}
+
+void Person::begin_attempt() noexcept {
+    grip_.set(traits_.reflex_latency + traits_.reflex_noise * random_.normal(),
+              random_.uniform(0, 1) < traits_.slip_rate ? kWeak : 1,
+              std::exp(traits_.friction_error * random_.normal()));
+    delay_ = 0;
+    if (random_.uniform(0, 1) < traits_.hesitation_rate)
+        delay_ = -traits_.hesitation_time * std::log(1 - random_.uniform(0, 1));
+    if (random_.uniform(0, 1) < traits_.give_up_rate) delay_ = kGivingUp;
+}
+
+/// A new state shows by its targets and its message.
+void Person::follow_cues(const Sight& sight) noexcept {
+    const bool between = sight.trial < 1 || sight.phase == experiment::kBetween;
+    if (between) {
+        if (!between_) since_ = now_;
+        between_ = true;
+        if (now_ - since_ > kIdle && phase_ > 0 && trial_ != 0) rest();
+        return;
+    }
+    between_ = false;
+    for (size_t i = 0; i < known_.size(); ++i) {
+        if ((sight.shown >> i & 1u) != 0) known_[i] = sight.target[i];
+    }
+    seen_ |= sight.shown;
+    if (sight.trial == trial_ && sight.attempt == attempt_ && sight.phase == phase_) return;
+    end_reach();
+    if (sight.trial != trial_ || sight.attempt != attempt_) begin_attempt();
+    trial_ = sight.trial;
+    attempt_ = sight.attempt;
+    phase_ = sight.phase;
+    step_ = 0;
+    doing_ = Doing::waiting;
+    since_ = now_;
+    const double reaction = noisy(traits_.reaction_time, traits_.reaction_noise);
+    wait_until_ = now_ + std::max(0.0, reaction - traits_.visual_delay) + delay_;
+    delay_ = 0;
+    answer_at_ = -1;
+    for (const TaskPlan::Way& way : plan_->stages[static_cast<size_t>(phase_ - 1)].ways) {
+        if (way.exit.when == When::key && answer_at_ < 0) answer_at_ = wait_until_ + kDecision;
+    }
+}
+
+/// Something is to be put back, and the hand is in its way.
+void Person::rest() noexcept {
+    end_reach();
+    doing_ = Doing::nothing;
+    if (grip_.holds()) {
+        if (grip_.phase() != GripPhase::unload) grip_.release(now_, aim_);
+        return;
+    }
+    trial_ = 0;  // whatever comes next is new
+    const Aim goal = aim_.goal();
+    aim_.add({start_.centre - goal.centre, start_.aperture - goal.aperture, 0}, now_, kRestTime);
+}
+
+void Person::go_on(const Sight& sight) noexcept {
+    if (answer_at_ >= 0 && now_ >= answer_at_) answer(sight);
+    switch (doing_) {
+        case Doing::nothing:
+            // it did not do, so that the trial goes on: try again
+            if (!between_ && trial_ > 0 && now_ - since_ > kRetry && !steps().empty() &&
+                steps().front().reach >= 0) {
+                step_ = 0;
+                begin_step(sight);
+            }
+            return;
+        case Doing::waiting:
+            if (now_ < wait_until_) return;
+            if (steps().empty()) {
+                doing_ = Doing::nothing;
+            } else {
+                begin_step(sight);
+            }
+            return;
+        case Doing::preloading:
+            if (grip_.phase() != GripPhase::preload) finish_step(sight);
+            return;
+        case Doing::loading:
+            if (grip_.phase() == GripPhase::lifted) {
+                move(pending_, pending_time_, sight);
+            } else if (!grip_.holds()) {
+                finish_step(sight);
+            }
+            return;
+        case Doing::releasing:
+            if (!grip_.holds()) begin_step(sight);
+            return;
+        case Doing::moving: {
+            const bool closes = pending_.aperture < 0 && places_.size() > 1;
+            if (closes && !grip_.holds() && grip_.felt().held) {
+                const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
+                grip_.close(now_, k * (half_ - aim_.at(now_).aperture / 2));
+                touched_ = half_;
+                doing_ = Doing::preloading;
+                return;
+            }
+            if (now_ < aim_.end()) return;
+            if (correct(sight)) return;
+            if (grip_.phase() == GripPhase::lifted) grip_.carried();
+            finish_step(sight);
+            return;
+        }
+    }
+}
+
+void Person::finish_step(const Sight& sight) noexcept {
+    end_reach();
+    ++step_;
+    if (step_ < steps().size()) {
+        begin_step(sight);
+    } else {
+        doing_ = Doing::nothing;
+        since_ = now_;
+    }
+}
+
+Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexcept {
+    const auto region = static_cast<size_t>(step.reach);
+    if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
+    if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
+    const auto trial = static_cast<size_t>(std::max(1, trial_) - 1);
+    return plan_->cell(plan_->trials[trial]).p_W[region] + step.step.move;  // as it was told
+}
+
+void Person::begin_step(const Sight& sight) noexcept {
+    const TaskPlan::Step& next = steps()[step_];
+    corrections_ = 0;
+    const double aperture = grip_.holds() ? 2 * half_ : aim_.goal().aperture;
+    const double wanted = next.step.aperture.value_or(aperture);
+    if (grip_.phase() == GripPhase::preload) {
+        doing_ = Doing::waiting;  // until the fingers have settled
+        return;
+    }
+    if (grip_.holds() && next.step.aperture && wanted > aperture + kOpening) {
+        if (grip_.phase() != GripPhase::unload) grip_.release(now_, aim_);
+        doing_ = Doing::releasing;
+        return;
+    }
+    Aim way;
+    if (!grip_.holds()) way.aperture = wanted - aperture;
+    if (next.reach >= 0) {
+        const Vec3 seen = look(target(sight, next), traits_.visual_noise, random_) -
+                          look(sight.hand, traits_.visual_noise, random_);
+        way.centre = plan_reach(sight, seen);
+    } else {
+        way.centre = noisy(1, traits_.extent_noise) * next.step.move;
+    }
+    const double duration =
+        std::max(kShortest, noisy(traits_.tempo * next.step.duration, traits_.tempo_noise));
+    if (grip_.phase() == GripPhase::ready && way.centre.z() > kUpward) {
+        grip_.lift(now_, aim_);
+        pending_ = way;
+        pending_time_ = duration;
+        doing_ = Doing::loading;
+        return;
+    }
+    move(way, duration, sight);
+}
+
+void Person::move(const Aim& way, double duration, const Sight& sight) noexcept {
+    if (way.centre.norm() > kReach) {
+        shown_from_ = sight.hand;
+        felt_from_ = centre_;
+    }
+    if (grip_.phase() == GripPhase::lifted && way.centre.norm() > kReach)
+        grip_.carry(way.centre.normalized());
+    pending_ = way;
+    doing_ = Doing::moving;
+    const double up = way.centre.z();
+    if (!from_above(way.centre)) {
+        aim_.add(way, now_, duration);
+        return;
+    }
+    reach_.going = false;  // such a way has no direction that could be judged
+    const double part = kOverlap * duration;
+    const Aim aside{way.centre - up * Vec3::UnitZ(), way.aperture, 0};
+    const Aim upward{up * Vec3::UnitZ(), 0, 0};
+    aim_.add(aside, now_, part, up > 0 ? duration - part : 0);
+    aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
+}
+
+/// An open hand comes to objects from above, and leaves them upward, so as not to sweep them away.
+bool Person::from_above(const Vec3& displacement) const noexcept {
+    return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
+}
+
+/// What the hand has to do for it to be seen to go so.
+Vec3 Person::turned_back(const Vec3& displacement) const noexcept {
+    if (displacement.norm() < 1e-9) return displacement;
+    const RotationMemory& memory = rotations_[static_cast<size_t>(phase_ - 1)];
+    return rotated(-memory.expected(displacement.normalized()), displacement);
+}
+
+Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
+    if (displacement.norm() < kReach) return turned_back(displacement);
+    end_reach();
+    reach_ = {.going = true,
+              .state = static_cast<size_t>(phase_ - 1),
+              .from = sight.hand,
+              .way = displacement};
+    const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
+    const double sd = traits_.direction_noise * (from_above(displacement) ? kGuided : 1);
+    return noisy(1, traits_.extent_noise) * rotated(sd * noise, turned_back(displacement));
+}
+
+/// Once the reach is seen to go somewhere it is mended in part, and its direction is judged before
+/// that shows.
+void Person::watch_reach(const Sight& sight) noexcept {
+    if (!reach_.going || reach_.seen) return;
+    const Vec3 shown = sight.hand - reach_.from;
+    const double length = reach_.way.norm();
+    if (!reach_.mended && shown.norm() >= kGlance * length) {
+        reach_.mended = true;
+        const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
+        const Vec3 missed = reach_.way - length * arm;
+        const double left = std::max(kShortest, aim_.end() - now_);
+        if (doing_ == Doing::moving && traits_.online_correction > 0)
+            aim_.add({traits_.online_correction * turned_back(missed), 0, 0}, now_, left);
+    }
+    if (shown.norm() < kJudged * length) return;
+    reach_.seen = true;
+    const Vec3 arm = look(shown, traits_.visual_noise, random_);
+    reach_.error = rotation_between(reach_.way.normalized(), arm.normalized());
+}
+
+void Person::end_reach() noexcept {
+    if (reach_.going && reach_.seen)
+        rotations_[reach_.state].learn(reach_.way.normalized(), reach_.error);
+    reach_.going = false;
+}
+
+/// After a reach, by what is seen of its end: whether there is another stroke, or a look, to come.
+bool Person::correct(const Sight& sight) noexcept {
+    const TaskPlan::Step& step = steps()[step_];
+    if (step.reach < 0 || corrections_ >= kMostCorrections) return false;
+    if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
+    const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
+    if (missed.norm() < kGoodEnough) return false;
+    ++corrections_;
+    aim_.add({turned_back(missed), 0, 0}, now_, kShortest);
+    return true;
+}
+
+/// "More or less?", of the last movement: was it shown larger than it was felt? The first key that
+/// the state waits for says yes, the second no.
+void Person::answer(const Sight& sight) noexcept {
+    answer_at_ = -1;
+    const double felt = (centre_ - felt_from_).norm();
+    const double shown = (sight.hand - shown_from_).norm();
+    const double evidence = felt > 0 && shown > 0 ? std::log(shown / felt) : 0;
+    const bool yes = random_.uniform(0, 1) < traits_.answers().probability(evidence);
+    char first = 0;
+    char second = 0;
+    for (const TaskPlan::Way& way : plan_->stages[static_cast<size_t>(phase_ - 1)].ways) {
+        if (way.exit.when != When::key) continue;
+        if (first == 0) {
+            first = way.exit.key.front();
+        } else if (second == 0) {
+            second = way.exit.key.front();
+        }
+    }
+    key_ = yes || second == 0 ? first : second;
+}
+
+void sit_down(experiment::Plan& plan, const Traits& traits) {
+    plan.person = to_yaml(write_fields(traits));
+    plan.seeing = std::make_shared<Person>(traits, plan);
+    plan.driver = plan.seeing;
+}
+
+}  // namespace dihaptic::person

@@ -1,0 +1,131 @@
+// Reaches of simulated people, through the whole program: seen, planned, made by the simulated
+// hand, and measured from its path.
+#include <gtest/gtest.h>
+
+#include "analysis/fits/adaptation_fit.h"
+#include "person/test/reaches.h"
+
+namespace dihaptic::person {
+namespace {
+
+TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndTheClamp) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: baseline, kind: baseline, repeats: 4 }
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 40, insert: [{ kind: catch, count: 4 }] }
+    - { name: reversal, kind: perturbed, perturb: reversal, repeats: 8 }
+    - { name: clamp, kind: error_clamp, perturb: clamp, repeats: 24 }
+    - { name: washout, kind: washout, repeats: 8 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.online_correction = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    const std::vector<double> x = model::compensation(traits.rotation(), schedule(plan));
+    for (size_t i = 0; i < x.size(); ++i) {
+        EXPECT_NEAR(curve.hand[i], x[i], 0.6) << i;
+        EXPECT_EQ(curve.outcome[i], "reached") << i;
+        // a catch trial shows what was learned, and nothing else
+        if (plan.task->trials[i].kind == experiment::TrialKind::catch_trial) {
+            EXPECT_GT(curve.hand[i], 5);
+            EXPECT_NEAR(curve.shown[i], -curve.hand[i], 0.6);
+        }
+    }
+    // rebound: what was learned first comes back in the clamp
+    const size_t clamp = 4 + 44 + 8;
+    EXPECT_GT(curve.hand[clamp + 12], curve.hand[clamp] + 3);
+    EXPECT_GT(curve.hand[clamp + 12], 2);
+    // after-effect in the washout, which goes away
+    const size_t washout = clamp + 24;
+    EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
+}
+
+TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
+    experiment::Plan plan = Sitting("rotation-reversal").plan();
+    Traits traits = draw_person(Objects::device, 1, "P01");
+    traits.online_correction = 0;
+    traits.give_up_rate = traits.hesitation_rate = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    const auto trials = schedule(plan);
+    const analysis::TwoRateFit fit = analysis::fit_two_rate(curve.hand, trials);
+    const std::vector<double> truth = model::compensation(traits.rotation(), trials);
+    double square = 0;  // of the true parameters
+    for (size_t i = 0; i < truth.size(); ++i) square += std::pow(curve.hand[i] - truth[i], 2);
+    EXPECT_LE(fit.mean_square, square / static_cast<double>(truth.size()));
+    double off = 0;
+    for (size_t i = 0; i < truth.size(); ++i) off += std::pow(fit.predicted[i] - truth[i], 2);
+    off = std::sqrt(off / static_cast<double>(truth.size()));
+    // noise feeds what is learned, too: the curve is known to about its own wandering
+    EXPECT_LT(off, 0.5 * fit.residual_sd);
+    EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
+    const auto within = [](double value, const analysis::Interval& interval) {
+        return value >= interval.low && value <= interval.high;
+    };
+    EXPECT_TRUE(within(traits.fast_learning, fit.learning_fast));
+    EXPECT_TRUE(within(traits.slow_learning, fit.learning_slow));
+    EXPECT_TRUE(within(traits.fast_retention, fit.retention_fast));
+    EXPECT_TRUE(within(traits.slow_retention, fit.retention_slow));
+}
+
+TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 1 }
+)");
+    experiment::Plan plan = sitting.plan();
+    sit_down(plan, median_person(Objects::device));
+    const Curve curve = reaches(plan);
+    EXPECT_GT(curve.hand[0], 1);  // 3.5 degrees in people
+    EXPECT_LT(curve.hand[0], 6);
+}
+
+TEST(Reaches, OfNoLearnerStayWrong) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 12 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.fast_learning = traits.slow_learning = 0;
+    traits.online_correction = 0;
+    sit_down(plan, traits);
+    const Curve curve = reaches(plan);
+    for (size_t i = 0; i < curve.hand.size(); ++i) {
+        EXPECT_NEAR(curve.hand[i], 0, 0.6);
+        EXPECT_NEAR(curve.shown[i], kRotation, 0.6);
+    }
+}
+
+TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: baseline, kind: baseline, repeats: 3 }
+)");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.tempo = 0.8;
+    sit_down(plan, traits);
+    std::vector<double> shown(4, -1);
+    std::vector<double> begun(4, -1);
+    std::vector<double> over(4, -1);
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.phase < 2 || frame.trial < 1) return;
+        const auto i = static_cast<size_t>(frame.trial);
+        const double now = seconds(frame.time);
+        const double way = (frame.fingers[0].p_WH - Vec3(0, -0.04, 0.12)).norm();
+        if (shown[i] < 0) shown[i] = now;
+        // minimum jerk: 1 % and half of the way at 0.101 and 0.5 of its time
+        if (begun[i] < 0 && way > 1e-3) begun[i] = now;
+        if (over[i] < 0 && way > 50e-3) over[i] = now;
+    });
+    for (size_t i = 1; i < 4; ++i) {
+        const double lag = 0.01;  // of the handle behind its target
+        EXPECT_NEAR(begun[i] - shown[i], traits.reaction_time + 0.101 * 0.8 * 0.7 + lag, 0.01);
+        EXPECT_NEAR(over[i] - shown[i], traits.reaction_time + 0.5 * 0.8 * 0.7 + lag, 0.01);
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::person

@@ -1,0 +1,64 @@
+// Reaches of a person in experiments/rotation-reversal.yaml, measured from the hand's path.
+#pragma once
+
+#include <numbers>
+
+#include "person/test/sitting.h"
+
+namespace dihaptic::person {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+inline constexpr double kRotation = 30;  // [degrees]
+
+struct Curve {
+    std::vector<double> hand;   ///< compensation by trial, at the reach's distance [degrees]
+    std::vector<double> shown;  ///< error shown there
+    std::vector<std::string> outcome;
+};
+
+inline double angle_about_z(const Vec3& from, const Vec3& to) {
+    return std::atan2(from.cross(to).z(), from.head<2>().dot(to.head<2>()));
+}
+
+/// Angles of the first finger about z in the phase "reach" of each trial's last attempt.
+inline Curve reaches(const experiment::Plan& plan) {
+    const experiment::ReachMeasure& measure = *plan.task->task.reach;
+    const size_t trials = plan.task->trials.size();
+    Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
+                std::vector<std::string>(trials)};
+    std::vector<int> measured(trials, 0);  // in which attempt
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.trial < 1) return;
+        const auto i = static_cast<size_t>(frame.trial - 1);
+        if (frame.task.outcome >= 0)
+            curve.outcome[i] = plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name;
+        if (frame.phase != 2 || measured[i] == frame.task.attempt) return;
+        const auto& cell = plan.task->cell(plan.task->trials[i]);
+        const Vec3 arm = frame.fingers[0].p_WH - cell.p_W[0];
+        if (arm.norm() < measure.distance) return;
+        measured[i] = frame.task.attempt;
+        const Vec3 way = cell.p_W[1] - cell.p_W[0];
+        curve.hand[i] = -angle_about_z(way, arm) / kDegree;
+        const Vec3 shown = servo::displayed_handle(frame, 0).p - cell.p_W[0];
+        curve.shown[i] = angle_about_z(way, shown) / kDegree;
+    });
+    return curve;
+}
+
+/// The schedule as adaptation sees it.
+inline std::vector<model::AdaptationTrial> schedule(const experiment::Plan& plan) {
+    std::vector<model::AdaptationTrial> out;
+    for (const experiment::Trial& trial : plan.task->trials) {
+        const std::string& name =
+            trial.perturb < 0
+                ? ""
+                : plan.task->task.perturbations[static_cast<size_t>(trial.perturb)].name;
+        out.push_back({name == "rotation"   ? kRotation
+                       : name == "reversal" ? -kRotation
+                                            : 0,
+                       name == "clamp"});
+    }
+    return out;
+}
+
+}  // namespace dihaptic::person

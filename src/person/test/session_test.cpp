@@ -1,0 +1,131 @@
+// A person in a session: recorded, replayed to the bit, allocating nothing, answering questions.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "base/field_reader.h"
+#include "experiment/replay.h"
+#include "person/test/sitting.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::person {
+namespace {
+
+constexpr const char* kShort = R"(  blocks:
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 3 }
+)";
+
+TEST(Session, OfAPersonIsRecordedWithWhoItWasAndReplaysToTheBit) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", kShort);
+    experiment::RunOptions options;
+    options.out = sitting.folder.file("sessions");
+    const auto run = [&](const std::string& id) {
+        experiment::Plan plan = sitting.plan();
+        sit_down(plan, draw_person(Objects::device, plan.seed, id));
+        options.participant.id = id;
+        return experiment::run_session(plan, options, kGoOn, {}).folder;
+    };
+    const std::string first = run("S01");
+    EXPECT_TRUE(experiment::replay_session(first, kGoOn, {}).good());
+    Diagnostics diagnostics;
+    Traits traits;
+    read_fields(traits, read_yaml(first + "/person.yaml"), diagnostics);
+    diagnostics.throw_if_errors();
+    EXPECT_EQ(traits.slow_learning, draw_person(Objects::device, 1, "S01").slow_learning);
+    const auto frames = [](const std::string& folder) {
+        return testing::read_file(folder + "/raw.log");
+    };
+    EXPECT_EQ(frames(first).size(), frames(run("S01")).size());
+    EXPECT_NE(frames(first).size(), frames(run("S02")).size());
+}
+
+TEST(Session, OfAPersonAllocatesNothingInTheTick) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    for (const char* name : {"rotation-reversal", "directional-mass"}) {
+        Sitting sitting(name);
+        sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 2 }]\n");
+        experiment::Plan plan = sitting.plan();
+        sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
+        const auto servo = experiment::make_servo(plan);
+        experiment::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+        plan.seeing->restart();
+        servo->activate();
+        const servo::Director director =
+            [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+                servo::Commands& commands) { task(last, handles, commands); };
+        Time now{0};
+        const testing::AllocationGuard guard;
+        while (!servo->stopped() && seconds(now) < 60) {
+            plan.seeing->see(servo->tick(now, director));
+            now += servo->period();
+        }
+        EXPECT_EQ(guard.count(), 0u);
+        EXPECT_EQ(task.share(), 1) << name;
+    }
+}
+
+TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 6 }]\n");
+    experiment::Plan plan = sitting.plan();
+    Traits traits = median_person(Objects::device);
+    traits.give_up_rate = 0.5;
+    traits.hesitation_rate = 0.5;
+    sit_down(plan, traits);
+    int done = 0;
+    run_trials(plan, [&](const servo::Frame& frame) { done += frame.task.outcome >= 0 ? 1 : 0; });
+    EXPECT_GE(done, 6);
+}
+
+/// "Was it shown larger than it felt?" with keys y and n, after reaches that were shown scaled.
+std::vector<std::string> answers(double scale, const Traits& traits, int trials) {
+    Sitting sitting("rotation-reversal");
+    sitting.end_with("  perturbations:", fmt::format(R"(  perturbations:
+    - name: scaling
+      visual: {{ moves: [proxies], about: start, scale: [1, {}, 1] }}
+  states:
+    - name: go to the start
+      show: [start]
+      perturbed: no
+      exits: [{{ when: inside, region: start, hold_s: 0.2, to: reach }}]
+      hand: [{{ duration_s: 0.5, reach: start }}]
+    - name: reach
+      show: [target]
+      exits: [{{ when: time, hold_s: 1.5, to: ask }}]
+      hand: [{{ duration_s: 0.5, reach: target }}]
+    - name: ask
+      exits:
+        - {{ when: key, key: y, outcome: larger }}
+        - {{ when: key, key: n, outcome: smaller }}
+  blocks: [{{ name: all, kind: perturbed, perturb: scaling, repeats: {} }}]
+)",
+                                                     scale, trials));
+    experiment::Plan plan = sitting.plan();
+    sit_down(plan, traits);
+    std::vector<std::string> out;
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.task.outcome >= 0)
+            out.push_back(plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name);
+    });
+    return out;
+}
+
+TEST(Session, AnswersByThePsychometricFunction) {
+    Traits traits = median_person(Objects::device);
+    traits.answer_bias = 0;
+    traits.answer_sd = 0.1;
+    traits.answer_lapse = 0.02;
+    constexpr int kTrials = 60;
+    for (const double level : {-0.3, 0.1, 0.3}) {
+        const auto given = answers(std::exp(level), traits, kTrials);
+        ASSERT_EQ(given.size(), size_t{kTrials});
+        const double share =
+            static_cast<double>(std::count(given.begin(), given.end(), "larger")) / kTrials;
+        const double p = traits.answers().probability(level);
+        EXPECT_NEAR(share, p, 3 * std::sqrt(p * (1 - p) / kTrials) + 0.01) << level;
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::person

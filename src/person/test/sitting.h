@@ -1,0 +1,69 @@
+// A person before a shipped experiment, changed where a test says so; each Frame goes to the test.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "experiment/session_run.h"
+#include "experiment/task_director.h"
+#include "person/person.h"
+#include "servo/run.h"
+#include "testing/files.h"
+
+namespace dihaptic::person {
+
+inline const std::atomic<bool> kGoOn{false};
+
+/// A shipped experiment as text, to be changed and planned; tests run in the project's folder.
+struct Sitting {
+    testing::TemporaryFolder folder;
+    std::string text;
+
+    explicit Sitting(const std::string& name)
+        : text(testing::read_file("experiments/" + name + ".yaml")) {
+        const std::string here = std::filesystem::current_path().string();
+        for (size_t at = 0; (at = text.find("../", at)) != std::string::npos;)
+            text.replace(at, 3, here + "/");
+    }
+    void replace(const std::string& what, const std::string& by) {
+        const size_t at = text.find(what);
+        ASSERT_NE(at, std::string::npos) << what;
+        text.replace(at, what.size(), by);
+    }
+    /// From `from` on, all of it is `by`.
+    void end_with(const std::string& from, const std::string& by) {
+        const size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text = text.substr(0, at) + by;
+    }
+    experiment::Plan plan(uint64_t seed = 1) {
+        experiment::Request request;
+        request.file = folder.write("experiment.yaml", text);
+        request.simulate = true;
+        request.seed = seed;
+        request.participant = "S01";
+        return experiment::make_plan(request);
+    }
+};
+
+/// Runs the plan's trials as a session does, without a file.
+inline void run_trials(const experiment::Plan& plan, const servo::FrameSink& sink) {
+    const auto servo = experiment::make_servo(plan);
+    servo->activate();
+    plan.seeing->restart();
+    experiment::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+    const servo::Director director = [&](const servo::Frame& last,
+                                         std::span<const haptics::Handle> handles,
+                                         servo::Commands& commands) {
+        if (const char key = plan.seeing->take_key(); key != 0) task.press(key);
+        task(last, handles, commands);
+    };
+    const servo::FrameSink see = [&](const servo::Frame& frame) {
+        plan.seeing->see(frame);
+        sink(frame);
+    };
+    servo::run_virtual(*servo, director, see, std::chrono::hours(2), kGoOn, nullptr);
+}
+
+}  // namespace dihaptic::person

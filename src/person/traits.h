@@ -1,0 +1,123 @@
+// What one simulated person is like, and the populations that people are drawn from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/field.h"
+#include "model/adaptation.h"
+#include "model/psychometric.h"
+
+namespace dihaptic::person {
+
+/// Objects that are felt directly, or through a haptic device: there people grip harder and learn
+/// weights more slowly (EMBC 2022).
+enum class Objects { real, device };
+constexpr auto enum_names(Objects) {
+    return std::array{"real", "device"};
+}
+
+/// README.md says what each does; traits.cpp has the medians, the spreads and their sources.
+struct Traits {
+    std::string id;
+    Objects objects = Objects::device;
+
+    double visual_delay = 0;       ///< from the screen to the movement that follows [s]
+    double visual_noise = 0;       ///< SD of a position that is looked at, per axis [m]
+    double reaction_time = 0;      ///< from the cue to the movement [s]
+    double reaction_noise = 0;     ///< SD over trials, share of it
+    double tempo = 0;              ///< movement times over those that the file asks for
+    double tempo_noise = 0;        ///< SD over movements, share of it
+    double direction_noise = 0;    ///< SD of a reach's direction, per axis across it [rad]
+    double extent_noise = 0;       ///< SD of a movement's length, share of it
+    double online_correction = 0;  ///< share of a seen error that is mended within the reach
+
+    double fast_retention = 0;  ///< of the two processes of adaptation to rotations, a reach
+    double fast_learning = 0;
+    double slow_retention = 0;
+    double slow_learning = 0;
+    double generalisation = 0;  ///< SD of the slow one over target directions [rad]
+
+    double safety_margin = 0;    ///< of the static grip
+    double least_grip = 0;       ///< however light the object [N]
+    double peak_grip = 0;        ///< grip at lift-off over static grip
+    double preload_time = 0;     ///< from touch to the onset of the load [s]
+    double load_time = 0;        ///< of a load phase of no weight ... [s]
+    double load_time_rise = 0;   ///< ... and its rise with the weight expected [s/N]
+    double reflex_latency = 0;   ///< from a touch, slip, or load to the response [s]
+    double reflex_noise = 0;     ///< SD over trials [s]
+    double weight_learning = 0;  ///< share of a weight's error that the next lift has learned
+    double friction_error = 0;   ///< SD of a surface's friction as it looks or feels, share of it
+    double skin_time = 0;        ///< from touch until the skin tells the friction; 0: never [s]
+    double mass_retention = 0;   ///< of adaptation to a mass that the weight does not tell of
+    double mass_learning = 0;
+
+    double answer_bias = 0;   ///< log of displayed over felt movement that looks like 0
+    double answer_sd = 0;     ///< SD of its psychometric function
+    double answer_lapse = 0;  ///< share of answers that are wrong whatever is seen
+
+    double hesitation_rate = 0;  ///< share of trials begun late ...
+    double hesitation_time = 0;  ///< ... by so much, on average [s]
+    double slip_rate = 0;        ///< share of grips that are too weak
+    double give_up_rate = 0;     ///< share of attempts that are not made
+
+    model::TwoRate rotation() const {
+        return {{fast_retention, fast_learning}, {slow_retention, slow_learning}};
+    }
+    model::SingleRate mass() const { return {mass_retention, mass_learning}; }
+    model::Psychometric answers() const {
+        return {model::Sigmoid::normal, answer_bias, answer_sd, answer_lapse, answer_lapse};
+    }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const Field time = Field::of(Quantity::time).at_least(0);
+        const Field share = Field::number().within(0, 1);
+        const Field angle = Field::of(Quantity::angle).at_least(0);
+        v("id", id);
+        v("objects", objects);
+        v("visual_delay", visual_delay, Field::of(Quantity::time).within(0, 1));
+        v("visual_noise", visual_noise, Field::length().at_least(0));
+        v("reaction_time", reaction_time, time);
+        v("reaction_noise", reaction_noise, share);
+        v("tempo", tempo, Field::number().within(0.1, 10));
+        v("tempo_noise", tempo_noise, share);
+        v("direction_noise", direction_noise, angle);
+        v("extent_noise", extent_noise, share);
+        v("online_correction", online_correction, share);
+        v("fast_retention", fast_retention, share);
+        v("fast_learning", fast_learning, share);
+        v("slow_retention", slow_retention, share);
+        v("slow_learning", slow_learning, share);
+        v("generalisation", generalisation, angle.positive());
+        v("safety_margin", safety_margin, Field::number().within(0, 0.95));
+        v("least_grip", least_grip, Field::of(Quantity::force).at_least(0));
+        v("peak_grip", peak_grip, Field::number().at_least(1));
+        v("preload_time", preload_time, time);
+        v("load_time", load_time, time.positive());
+        v("load_time_rise", load_time_rise, Field::number().at_least(0));
+        v("reflex_latency", reflex_latency, Field::of(Quantity::time).within(0, 1));
+        v("reflex_noise", reflex_noise, time);
+        v("weight_learning", weight_learning, share);
+        v("friction_error", friction_error, share);
+        v("skin_time", skin_time, Field::of(Quantity::time).within(0, 1));
+        v("mass_retention", mass_retention, share);
+        v("mass_learning", mass_learning, share);
+        v("answer_bias", answer_bias);
+        v("answer_sd", answer_sd, Field::number().positive());
+        v("answer_lapse", answer_lapse, Field::number().within(0, 0.5));
+        v("hesitation_rate", hesitation_rate, share);
+        v("hesitation_time", hesitation_time, time);
+        v("slip_rate", slip_rate, share);
+        v("give_up_rate", give_up_rate, share);
+    }
+};
+
+/// The median person, who makes neither noise nor mistakes.
+Traits median_person(Objects objects);
+
+/// Person `id` of the population with this seed: the same whenever, and whoever else is drawn.
+Traits draw_person(Objects objects, uint64_t seed, const std::string& id);
+
+}  // namespace dihaptic::person
