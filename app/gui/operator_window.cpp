@@ -406,8 +406,9 @@ void OperatorWindow::show_progress(const servo::Frame& frame) {
         if (frame.task.attempt > 1) what += QString("attempt %1").arg(frame.task.attempt);
         session_->set_trial(what.join(" \u00b7 "));
         const double done = runner_.done();
-        session_->set_progress(done, done > 0 ? "about " + duration(now * (1 - done) / done) + " left"
-                                              : duration(now));
+        session_->set_progress(done, done > 0
+                                         ? "about " + duration(now * (1 - done) / done) + " left"
+                                         : duration(now));
         return;
     }
     if (mouse_) return session_->set_progress(0, duration(now));
@@ -415,8 +416,8 @@ void OperatorWindow::show_progress(const servo::Frame& frame) {
     const double end = plan.driver->duration();
     const bool has_phase = static_cast<size_t>(frame.phase) < phases.size();
     const std::string phase = has_phase ? phases[static_cast<size_t>(frame.phase)].name : "";
-    session_->set_progress(
-        now / end, QString("%1: %2 s left").arg(phase.c_str()).arg(end - now, 0, 'f', 1));
+    session_->set_progress(now / end,
+                           QString("%1: %2 s left").arg(phase.c_str()).arg(end - now, 0, 'f', 1));
 }
 
 void OperatorWindow::move_hand(double h) {
@@ -462,8 +463,7 @@ QString OperatorWindow::banner() const {
 
 QString OperatorWindow::message() const {
     if (!runner_.running() || message_ < 0 || !runner_.plan().task) return "";
-    return QString::fromStdString(
-        runner_.plan().task->messages[static_cast<size_t>(message_)]);
+    return QString::fromStdString(runner_.plan().task->messages[static_cast<size_t>(message_)]);
 }
 
 void OperatorWindow::update_state() {

@@ -32,8 +32,7 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
 
     auto* form = new QFormLayout(this);
     form->addRow("S&ubject", id_);
-    if (needs_number)
-        form->addRow(new QLabel("The number that it ends in orders the trials."));
+    if (needs_number) form->addRow(new QLabel("The number that it ends in orders the trials."));
     form->addRow("&Age in years", age_);
     form->addRow("&Sex", sex_);
     form->addRow("&Handedness", handedness_);

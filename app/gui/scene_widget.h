@@ -22,7 +22,8 @@ class SceneWidget : public QOpenGLWidget {
     /// What frames are of from now on, the first of them, where the devices can go, and how all of
     /// it turns.
     void set_scene(const scene::Scene& scene, const servo::Frame& frame,
-                   std::vector<view::Workspace> workspaces = {}, const servo::WorkspaceTurn& turn = {});
+                   std::vector<view::Workspace> workspaces = {},
+                   const servo::WorkspaceTurn& turn = {});
     /// The newest frame; drawn with the screen's next picture.
     void show_frame(const servo::Frame& frame);
     /// While it is set, the mouse moves this hand; null: the camera.

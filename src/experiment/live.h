@@ -33,8 +33,8 @@ struct Live {
     Latest<servo::Frame> frame;       ///< the newest; its `sequence` is -1 before the first
     std::atomic<bool> paused{false};  ///< as long as it is, time stands still and no force acts
     std::atomic<bool> ended{false};   ///< the session is to end, in order
-    std::atomic<bool> skip{false};   ///< the trial that runs is to end, in the next tick
-    std::atomic<double> done{0};     ///< share of the trials that are over
+    std::atomic<bool> skip{false};    ///< the trial that runs is to end, in the next tick
+    std::atomic<double> done{0};      ///< share of the trials that are over
     Latest<std::optional<dynamics::Solver>> solver;  ///< from the next step on
     /// To be had soon: stiffness and damping go there in kEase, so that what is held stays held.
     Latest<std::optional<haptics::Tuning>> tuning;
@@ -55,8 +55,8 @@ struct Live {
     std::optional<haptics::Tuning> tune(const haptics::Tuning& now, double h) noexcept;
     /// In the tick: the rate at which the workspaces turn from now on [rad/s]. `h`: a tick [s].
     double turn(const servo::Frame& last, double h) noexcept {
-        return servo::WorkspaceTurn::rate_toward(
-            workspace.read(), last.workspace_turn + h * last.workspace_rate);
+        return servo::WorkspaceTurn::rate_toward(workspace.read(),
+                                                 last.workspace_turn + h * last.workspace_rate);
     }
     /// The oldest sample that was not taken yet.
     std::optional<CurveSample> take_sample();

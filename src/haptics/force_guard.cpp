@@ -31,12 +31,10 @@ Vec3 ForceGuard::push(const Handle& handle, unsigned& flags) const noexcept {
     return X_WD_.R * push_D;
 }
 
-Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share,
-                         unsigned& flags) noexcept {
+Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept {
     if (allowed && share < 1 && !felt.is_zero()) flags |= kSoftStarted;
     Wrench limited{limiter_.limit(share * felt.force, tick_, flags), Vec3::Zero()};
-    if (torque_limiter_)
-        limited.torque = torque_limiter_->limit(share * felt.torque, tick_, flags);
+    if (torque_limiter_) limited.torque = torque_limiter_->limit(share * felt.torque, tick_, flags);
     if (allowed) return limited;
     flags |= kSwitchedOff;
     limiter_.drop();

@@ -37,14 +37,14 @@ class ForceGuard {
                const Pose& X_WD);
 
     /// What the handle is to feel of its coupling, for what that wants. `X_WP`: its proxy after the
-    /// tick's step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in this
-    /// tick. No torque where the device renders none.
+    /// tick's step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in
+    /// this tick. No torque where the device renders none.
     Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
                  bool stepped, unsigned& flags) noexcept;
     /// And of the wall [N].
     Vec3 push(const Handle& handle, unsigned& flags) const noexcept;
-    /// The part of both that the device may be told. `allowed`: by the dead-man switch, without which
-    /// it is zero at once; `share`: of SoftStart.
+    /// The part of both that the device may be told. `allowed`: by the dead-man switch, without
+    /// which it is zero at once; `share`: of SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept;
     /// Energy that the coupling generated, as EnergyGuard counts it [J].
     double generated() const { return energy_.generated(); }

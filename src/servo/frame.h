@@ -160,7 +160,7 @@ struct Frame {
     double friction_scale = 1;  ///< in force, of every coefficient of friction
     double workspace_turn = 0;  ///< angle of WorkspaceTurn in this tick [rad]
     double workspace_rate = 0;  ///< at which it goes on to the next tick [rad/s]
-    int32_t solver = 0;     ///< that was asked for: index into dynamics::Solver
+    int32_t solver = 0;         ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;         ///< 1: another solver than that answered
     double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|

@@ -33,7 +33,7 @@ struct Commands {
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
     std::optional<double> friction_scale;    ///< of every coefficient, from this tick on
-    double workspace_rate = 0;  ///< of the workspaces' turn, from this tick on [rad/s]
+    double workspace_rate = 0;               ///< of the workspaces' turn, from this tick on [rad/s]
 
     TaskFrame task;  ///< of this tick alone: it is empty before the director is asked
 };

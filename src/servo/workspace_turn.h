@@ -61,8 +61,8 @@ class WorkspaceTurn {
         return std::clamp(kMostAcceleration / kMostRate * way, -kMostRate, kMostRate);
     }
 
-    const Quat& R() const noexcept { return R_; }                       ///< T
-    Vec3 angular_velocity() const noexcept { return {0, 0, rate_}; }    ///< [rad/s]
+    const Quat& R() const noexcept { return R_; }                     ///< T
+    Vec3 angular_velocity() const noexcept { return {0, 0, rate_}; }  ///< [rad/s]
     Vec3 turned(const Vec3& p) const noexcept { return angle_ == 0 ? p : p_WC_ + R_ * (p - p_WC_); }
     Vec3 unturned(const Vec3& p) const noexcept {
         return angle_ == 0 ? p : p_WC_ + R_.conjugate() * (p - p_WC_);

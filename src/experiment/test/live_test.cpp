@@ -6,7 +6,6 @@
 #include <numbers>
 #include <thread>
 
-
 #include "experiment/replay.h"
 #include "experiment/test/reaches.h"
 #include "recording/raw_log.h"
@@ -167,8 +166,7 @@ TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
     for (const servo::Frame& frame : frames) {
         if (frame.task.outcome < 0) continue;
         EXPECT_EQ(frame.task.attempt, 1);
-        outcomes.push_back(
-            desk.result.info.outcomes[static_cast<size_t>(frame.task.outcome)]);
+        outcomes.push_back(desk.result.info.outcomes[static_cast<size_t>(frame.task.outcome)]);
     }
     ASSERT_EQ(outcomes.size(), desk.plan.task->trials.size());
     EXPECT_EQ(outcomes.front(), "skipped");

@@ -302,8 +302,8 @@ TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
             settings.proxy.friction = friction;
             // down into the plane, and along it
             Desk desk(true, 0.5, {0.2, 0, -0.115}, settings);
-            const double mu =
-                scene::pair_friction(desk.scene, "plane", 0.5, "index", desk.scene.fingers[0].friction);
+            const double mu = scene::pair_friction(desk.scene, "plane", 0.5, "index",
+                                                   desk.scene.fingers[0].friction);
             int slid = 0;
             for (int i = 0; i < 380; ++i) {
                 const Frame& frame =

@@ -1,4 +1,5 @@
-// Workspaces that turn about the vertical: what is read and told turns with them, and nothing steps.
+// Workspaces that turn about the vertical: what is read and told turns with them, and nothing
+// steps.
 #include "servo/workspace_turn.h"
 
 #include <gtest/gtest.h>
@@ -257,11 +258,9 @@ struct Held {
         servo->activate();
     }
     const Frame& tick(double goal) {
-        return servo->tick(
-            next++ * std::chrono::milliseconds(1),
-            [&](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
-                commands.workspace_rate = rate(last, goal);
-            });
+        return servo->tick(next++ * std::chrono::milliseconds(1),
+                           [&](const Frame& last, std::span<const haptics::Handle>,
+                               Commands& commands) { commands.workspace_rate = rate(last, goal); });
     }
 };
 
