@@ -189,7 +189,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     }
     if (!plan.task) info.phases = phases_of(*plan.driver);
     if (plan.task) {
-        for (const std::string& name : plan.task->phases()) info.phases.push_back({name, 0, 0});
+        for (const std::string& phase : plan.task->phases()) info.phases.push_back({phase, 0, 0});
         for (const TaskPlan::Outcome& outcome : plan.task->outcomes)
             info.outcomes.push_back(outcome.name);
         info.messages = plan.task->messages;
