@@ -285,17 +285,27 @@ class Trials(Window):
         pathlib.Path(file).write_text(text + "\nsettings:\n  safety: {max_pause_ms: 1000}\n")
         return file
 
+    def dialog(self):
+        return self.xdotool("search", "--onlyvisible", "--name", "^Who does the trials")
+
     def ask(self):
         self.key("F5")
-        self.wait("the dialog", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Who does the trials"))
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+
+    def answered(self, key):
+        """There is no window manager that gives the focus back."""
+        self.key(key)
+        self.wait("the dialog's end", lambda: not self.dialog())
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)
         time.sleep(0.5)
 
     def start(self):
         self.ask()
         self.xdotool("type", "--delay", "50", "S07\t31\tF\tr")
-        self.key("Return")
+        self.answered("Return")
         self.wait("the start", lambda: glob.glob(self.out + "/*/raw.log"))
-        self.xdotool("windowfocus", self.name)
 
     def outcomes(self):
         with open(self.recording() + "trials.csv") as file:
@@ -316,9 +326,7 @@ class Trials(Window):
         time.sleep(1)
         self.ask()
         self.screenshot("participant")
-        self.key("Escape")
-        time.sleep(0.5)
-        self.xdotool("windowfocus", self.name)
+        self.answered("Escape")
         self.assertEqual(glob.glob(self.out + "/*"), [])
         self.start()
         time.sleep(1)
