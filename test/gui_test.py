@@ -3,6 +3,7 @@
 Usage: gui_test.py PROGRAM [SCREENSHOTS], from the project's folder. Pictures of the window go to the folder
 SCREENSHOTS.
 """
+import csv
 import glob
 import os
 import pathlib
@@ -145,6 +146,8 @@ class Mouse(Window):
         self.move(0, -4, 40)
         time.sleep(1.5)
         self.screenshot("lifted")
+        self.key("alt+i", "ctrl+a")
+        self.xdotool("type", "1.5\n")  # friction
         self.key("alt+n", "ctrl+a")
         self.xdotool("type", "2000\n")
         time.sleep(0.5)
@@ -158,6 +161,7 @@ class Mouse(Window):
             solver = self.series(file, "solver")
             self.assertEqual(sorted(set(solver)), [0, 1, 2, 3])
             self.assertEqual(sorted(set(self.series(file, "coupling"))), [0, 2])
+            self.assertEqual(sorted(set(self.series(file, "friction_scale"))), [1, 1.5])
             stiffness = self.series(file, "stiffness")
             self.assertEqual((stiffness[0], stiffness[-1]), (1000, 2000))
             changed = np.flatnonzero(stiffness != stiffness[0])[0]
@@ -165,6 +169,40 @@ class Mouse(Window):
             self.assertGreater(height[changed:].min(), 0.05)
         self.replay()
         self.quit()
+
+    def test_holds_while_the_workspace_follows_the_camera(self):
+        self.open()
+        self.start()
+        self.wheel(self.CLOSE, 19)
+        self.move(0, -4, 30)
+        time.sleep(1)
+        self.key("F9")  # the scene's own camera is at -0.59 rad
+        self.xdotool("mousedown", "3")
+        self.move(-5, 0, 52)  # by 1.56 rad
+        self.xdotool("mouseup", "3")
+        time.sleep(3)
+        self.move(4, 0, 20)  # to the right of the picture
+        time.sleep(0.7)
+        self.screenshot("followed")
+        self.key("F7")
+        with self.ended("complete") as file:
+            turn = self.series(file, "workspace_turn")
+            self.assertAlmostEqual(turn[-1], 0.97, delta=0.01)
+            self.assertLess(turn.min(), -0.1)
+            self.assertLessEqual(np.abs(self.series(file, "workspace_rate")).max(), 1)
+            position = self.series(file, "block_position")
+            turned = position[np.flatnonzero(turn)[0]:]
+            self.assertGreater(turned[:, 2].min(), 0.05)
+            right = np.array([np.cos(0.97), np.sin(0.97)])
+            arrived = np.flatnonzero(np.abs(turn - turn[-1]) > 0.005)[-1]
+            way = position[-1, :2] - position[arrived, :2]
+            self.assertGreater(way @ right, 0.02)
+            self.assertLess(np.linalg.norm(way - way @ right * right), 0.003)
+            w, x, y, z = self.series(file, "block_orientation")[-1]
+            self.assertAlmostEqual(2 * np.arctan2(z, w), 0.97, delta=0.1)
+        self.replay()
+        self.quit()
+        self.assertIn("follow_camera=true", (pathlib.Path(self.folder.name) / ".config/dihaptic/dihaptic.conf").read_text())
 
     def test_squeezes_by_a_key_and_lets_go(self):
         self.open()
@@ -240,6 +278,98 @@ class Sessions(Window):
         self.replay()
 
 
+class Trials(Window):
+    def experiment(self, name, change):
+        text = change(pathlib.Path(f"experiments/{name}.yaml").read_text()).replace("../scenes", os.getcwd() + "/scenes")
+        file = self.folder.name + "/experiment.yaml"
+        pathlib.Path(file).write_text(text + "\nsettings:\n  safety: {max_pause_ms: 1000}\n")
+        return file
+
+    def dialog(self):
+        return self.xdotool("search", "--onlyvisible", "--name", "^Who does the trials")
+
+    def ask(self):
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+
+    def answered(self, key):
+        """There is no window manager that gives the focus back."""
+        self.key(key)
+        self.wait("the dialog's end", lambda: not self.dialog())
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)
+        time.sleep(0.5)
+
+    def start(self):
+        self.ask()
+        self.xdotool("type", "--delay", "50", "S07\t31\tF\tr")
+        self.answered("Return")
+        self.wait("the start", lambda: glob.glob(self.out + "/*/raw.log"))
+
+    def outcomes(self):
+        with open(self.recording() + "trials.csv") as file:
+            return [row["outcome"] for row in csv.DictReader(file)]
+
+    def test_run_from_start_to_end_by_the_simulated_hand(self):
+        def short(text):
+            return text[:text.index("  redo: end_of_block")] + """  redo: never
+  blocks:
+    - { name: baseline, conditions: [right far up], order: sequential }
+    - { name: rotation, kind: perturbed, perturb: rotation, conditions: [left near up] }
+"""
+        self.open(self.experiment("visuomotor-rotation", short))
+        self.key("alt+v", "s")
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)
+        self.key("alt+h", "Down")
+        time.sleep(1)
+        self.ask()
+        self.screenshot("participant")
+        self.answered("Escape")
+        self.assertEqual(glob.glob(self.out + "/*"), [])
+        self.start()
+        time.sleep(1)
+        self.screenshot("trial")
+        self.key("F8")
+        with self.ended("complete"):
+            pass
+        outcomes = self.outcomes()
+        self.assertEqual(len(outcomes), 8)
+        self.assertEqual(outcomes.count("skipped"), 1)
+        self.assertEqual(outcomes.count("reached"), 7)
+        info = pathlib.Path(self.recording() + "session.yaml").read_text()
+        for line in ("id: S07", "age: 31", "sex: F", "handedness: right"):
+            self.assertRegex(info, line.replace(": ", ": \"?"))
+        self.replay()
+        self.quit()
+
+    def test_get_the_keys_that_they_wait_for(self):
+        def keys(text):
+            return text[:text.index("task:")] + """task:
+  regions:
+    - { name: start, position_mm: [0, 0, 120], radius_mm: 8 }
+  states:
+    - name: ready
+      show: [start]
+      message: Press G when you are ready
+      exits:
+        - { when: key, key: g, outcome: ready, feedback: Good }
+  blocks:
+    - { name: all, repeats: 2 }
+"""
+        self.open(self.experiment("visuomotor-rotation", keys))
+        self.start()
+        time.sleep(1)
+        self.screenshot("key")
+        self.key("h", "g")
+        time.sleep(0.5)
+        self.key("g")
+        with self.ended("complete"):
+            pass
+        self.assertEqual(self.outcomes(), ["ready", "ready"])
+
+
 class Looks(Window):
     def test_has_a_subjects_window_and_is_dark_and_remembers_it(self):
         self.open()
@@ -263,7 +393,7 @@ class Looks(Window):
         scene = pathlib.Path("scenes/tools.yaml").read_text().replace("../meshes", os.getcwd() + "/meshes")
         pathlib.Path(self.scene).write_text(scene)
         self.open()
-        for layer in "hfcgaw":
+        for layer in "hfcgap":
             self.key("alt+v", layer)
         self.key("alt+h", "Down")
         self.key("F5")

@@ -17,6 +17,7 @@ Opened open(const experiment::Request& request) {
         if (info.workspace)
             out.workspaces.push_back({X_WD[static_cast<size_t>(i)], *info.workspace});
     }
+    out.turn = servo::WorkspaceTurn(X_WD);
     // on simulated devices: real ones are left alone
     experiment::Plan still = out.plan;
     still.rig = rig::simulated_rig(fingers);

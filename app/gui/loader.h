@@ -17,6 +17,7 @@ struct Opened {
     servo::Frame frame;  ///< the first
     std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
+    servo::WorkspaceTurn turn;
 };
 
 class Loader : public QObject {

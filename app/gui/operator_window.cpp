@@ -25,6 +25,12 @@ const QString kMouseHelp =
     "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
     "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.   Escape: force off.";
 
+QString duration(double seconds) {
+    if (seconds < 60) return QString("%1 s").arg(seconds, 0, 'f', 1);
+    const int whole = static_cast<int>(seconds);
+    return QString("%1 min %2 s").arg(whole / 60).arg(whole % 60);
+}
+
 }  // namespace
 
 OperatorWindow::OperatorWindow(QString out)
@@ -42,6 +48,8 @@ OperatorWindow::OperatorWindow(QString out)
 
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
+    connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
+    connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, &OperatorWindow::reload);
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
@@ -57,6 +65,11 @@ OperatorWindow::OperatorWindow(QString out)
         if (!runner_.running()) return;
         runner_.set_solver(solver);
         log(QString("contact solver: %1").arg(enum_name(solver).data()));
+    });
+    connect(tuning_, &TuningPanel::friction_scaled, this, [this](double scale) {
+        if (!runner_.running()) return;
+        runner_.set_friction_scale(scale);
+        log(QString("friction: %1 times the scene's").arg(scale));
     });
     connect(tuning_, &TuningPanel::tuned, this, [this](const haptics::Tuning& tuning) {
         if (!runner_.running()) return;
@@ -114,18 +127,32 @@ void OperatorWindow::make_menus() {
     file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
 
     QMenu* session = menuBar()->addMenu("&Session");
-    session->addAction("&Start", QKeySequence(Qt::Key_F5), this, &OperatorWindow::start);
-    session->addAction("&Pause, or go on", QKeySequence(Qt::Key_F6), this, [this] {
+    const auto add = [&](const QString& name, int key, auto what) {
+        QAction* action = session->addAction(name, QKeySequence(key), this, what);
+        action->setShortcutContext(Qt::ApplicationShortcut);  // in the subject's window too
+    };
+    add("&Start", Qt::Key_F5, &OperatorWindow::start);
+    add("&Pause, or go on", Qt::Key_F6, [this] {
         if (runner_.running()) Q_EMIT session_->pause_requested(!runner_.paused());
     });
-    session->addAction("S&top", QKeySequence(Qt::Key_F7), this, &OperatorWindow::stop);
-    session->addAction("&Force off", QKeySequence(Qt::Key_Escape), this,
-                       &OperatorWindow::force_off);
+    add("S&top", Qt::Key_F7, &OperatorWindow::stop);
+    add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
+    add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
 
     view_menu_ = menuBar()->addMenu("&View");
     camera_menu_ = view_menu_->addMenu("C&amera");
     view_menu_->addAction("&Reset the camera", QKeySequence(Qt::Key_Home), scene_,
                           &SceneWidget::reset_camera);
+    follow_action_ = view_menu_->addAction("&Workspace follows camera");
+    follow_action_->setShortcut(QKeySequence(Qt::Key_F9));
+    follow_action_->setCheckable(true);
+    follow_action_->setChecked(QSettings().value("follow_camera", false).toBool());
+    connect(follow_action_, &QAction::toggled, this, [this](bool on) {
+        QSettings().setValue("follow_camera", on);
+        log(on ? "the devices' workspace follows the camera"
+               : "the devices' workspace turns back to where the rig has it");
+        turn_workspaces();
+    });
     const auto layer = [&](const QString& name, bool SceneWidget::Layers::*which) {
         QAction* action = view_menu_->addAction(name);
         action->setCheckable(true);
@@ -141,7 +168,7 @@ void OperatorWindow::make_menus() {
     layer("C&ontacts", &SceneWidget::Layers::contacts);
     layer("&Grip axis", &SceneWidget::Layers::grip_axis);
     layer("P&ath of the object", &SceneWidget::Layers::path);
-    layer("&Workspaces", &SceneWidget::Layers::workspaces);
+    layer("Works&paces", &SceneWidget::Layers::workspaces);
     view_menu_->addSeparator();
     subject_action_ = view_menu_->addAction("&Subject's window");
     subject_action_->setCheckable(true);
@@ -177,6 +204,8 @@ experiment::Request OperatorWindow::request() const {
     request.rig = session_->rig().toStdString();
     request.mouse = session_->by_mouse();
     request.participant = session_->participant().toStdString();
+    // to look at a file that asks for one; a session has its own
+    if (request.participant.empty()) request.participant = "S01";
     if (!tuning_->proxy().isEmpty())
         request.set.push_back("proxy.kind=" + tuning_->proxy().toStdString());
     return request;
@@ -210,7 +239,7 @@ void OperatorWindow::opened(const Opened& opened) {
     complaint_.clear();
     for (const Problem& warning : plan_->warnings)
         log(QString::fromStdString(warning.text()), true);
-    scene_->set_scene(plan_->scene, frame_, opened.workspaces);
+    scene_->set_scene(plan_->scene, frame_, opened.workspaces, opened.turn);
     if (subject_) subject_->scene().set_scene(plan_->scene, frame_);
     plots_->set_scene(plan_->scene);
     tuning_->set_settings(plan_->settings);
@@ -239,12 +268,37 @@ void OperatorWindow::refused(const QStringList& problems) {
 void OperatorWindow::start() {
     start_when_opened_ = loader_.loading();
     if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (plan_->task) {
+        start_trials();
+    } else {
+        begin({session_->participant().toStdString(), "", "", ""});
+    }
+}
+
+void OperatorWindow::start_trials() {
+    const std::string id = session_->participant().toStdString();
+    if (id != participant_.id) participant_ = {id, "", "", ""};
+    auto* dialog =
+        new ParticipantDialog(participant_, experiment::needs_number(plan_->task->task), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] {
+        participant_ = dialog->participant();
+        session_->set_participant(QString::fromStdString(participant_.id));
+        begin(participant_);
+    });
+    dialog->open();
+}
+
+void OperatorWindow::begin(const recording::Participant& participant) {
+    if (!plan_ || runner_.running() || loader_.loading()) return;
     experiment::RunOptions options;
     options.out = out_.toStdString();
     options.command = "dihaptic gui " + file_.toStdString();
-    options.participant.id = session_->participant().toStdString();
+    options.participant = participant;
+    experiment::Request asked = request();
+    asked.participant = participant.id;
     try {
-        runner_.start(experiment::make_plan(request()), options);
+        runner_.start(experiment::make_plan(asked), options);
     } catch (const Error& e) {
         log(QString::fromStdString(e.what()), true);
         return;
@@ -256,12 +310,35 @@ void OperatorWindow::start() {
         scene_->set_hand(&*mouse_);
         scene_->set_help(kMouseHelp);
     }
+    turn_workspaces();
+    scene_->setFocus();
     log("started: " + QString::fromStdString(plan.title));
     update_state();
 }
 
 void OperatorWindow::stop() {
     if (runner_.running()) runner_.end();
+}
+
+void OperatorWindow::skip() {
+    if (!runner_.running() || !runner_.plan().task || runner_.paused()) return;
+    runner_.skip();
+    log("trial skipped");
+}
+
+void OperatorWindow::press(char key) {
+    if (key != 0 && runner_.running() && runner_.plan().task) runner_.press(key);
+}
+
+void OperatorWindow::keyPressEvent(QKeyEvent* event) {
+    press(task_key(*event));
+}
+
+void OperatorWindow::turn_workspaces() {
+    const bool follow = follow_action_->isChecked();
+    // what is felt to the right is to be seen to the right, by the subject too
+    if (subject_ && follow) subject_->scene().set_camera(scene_->camera());
+    if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
 
 void OperatorWindow::force_off() {
@@ -274,6 +351,8 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     mouse_.reset();
     scene_->set_hand(nullptr);
     scene_->set_help("");
+    message_ = -1;
+    session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
     if (!end.folder.isEmpty()) log("recorded in " + end.folder);
     update_state();
@@ -297,12 +376,48 @@ void OperatorWindow::show_frame(const servo::Frame& frame) {
     if (subject_) subject_->scene().show_frame(frame);
     devices_->show_frame(frame);
     if (runner_.finishing()) return;
-    const auto& phases = runner_.plan().driver->phases();
+    if (message_ != frame.task.message) {
+        message_ = frame.task.message;
+        update_state();
+    }
+    show_progress(frame);
+}
+
+bool OperatorWindow::has_trials() const {
+    return runner_.running() ? runner_.plan().task != nullptr : plan_ && plan_->task;
+}
+
+void OperatorWindow::show_progress(const servo::Frame& frame) {
+    const experiment::Plan& plan = runner_.plan();
+    const double now = seconds(frame.time);
+    if (plan.task) {
+        const experiment::Task& task = plan.task->task;
+        const auto trials = static_cast<int>(plan.task->trials.size());
+        const int n = std::clamp(frame.trial, 1, trials);
+        const experiment::Trial& trial = plan.task->trials[static_cast<size_t>(n - 1)];
+        QStringList what{QString("Trial %1 of %2").arg(n).arg(trials)};
+        const auto name = [&](const auto& list, int which) {
+            if (static_cast<size_t>(which) < list.size())
+                what += QString::fromStdString(list[static_cast<size_t>(which)].name);
+        };
+        name(task.rounds, trial.round);
+        name(task.blocks, trial.block);
+        name(task.conditions, trial.condition);
+        if (frame.task.attempt > 1) what += QString("attempt %1").arg(frame.task.attempt);
+        session_->set_trial(what.join(" \u00b7 "));
+        const double done = runner_.done();
+        session_->set_progress(done, done > 0
+                                         ? "about " + duration(now * (1 - done) / done) + " left"
+                                         : duration(now));
+        return;
+    }
+    if (mouse_) return session_->set_progress(0, duration(now));
+    const auto& phases = plan.driver->phases();
+    const double end = plan.driver->duration();
     const bool has_phase = static_cast<size_t>(frame.phase) < phases.size();
-    session_->set_progress(
-        seconds(frame.time),
-        mouse_ ? std::numeric_limits<double>::infinity() : runner_.plan().driver->duration(),
-        has_phase ? QString::fromStdString(phases[static_cast<size_t>(frame.phase)].name) : "");
+    const std::string phase = has_phase ? phases[static_cast<size_t>(frame.phase)].name : "";
+    session_->set_progress(now / end,
+                           QString("%1: %2 s left").arg(phase.c_str()).arg(end - now, 0, 'f', 1));
 }
 
 void OperatorWindow::move_hand(double h) {
@@ -323,10 +438,13 @@ void OperatorWindow::show_subject_window(bool shown) {
     if (plan_) {
         subject_->scene().set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
     }
+    connect(subject_.get(), &SubjectWindow::key_pressed, this, &OperatorWindow::press);
     connect(
         subject_.get(), &SubjectWindow::closed, this,
         [this] { subject_action_->setChecked(false); }, Qt::QueuedConnection);
     subject_->show_beside(*this);
+    turn_workspaces();
+    update_state();
 }
 
 SessionPanel::State OperatorWindow::state() const {
@@ -337,15 +455,21 @@ SessionPanel::State OperatorWindow::state() const {
 }
 
 QString OperatorWindow::banner() const {
-    if (runner_.running()) return runner_.paused() ? "Paused: press F6 to go on" : "";
+    if (runner_.running()) return runner_.paused() ? "Paused: press F6 to go on" : message();
     if (loader_.loading()) return "Opening " + file_ + " ...";
     if (!complaint_.isEmpty()) return complaint_;
     return plan_ ? "Press F5 to start" : "Open a scene or an experiment: Ctrl+O";
 }
 
+QString OperatorWindow::message() const {
+    if (!runner_.running() || message_ < 0 || !runner_.plan().task) return "";
+    return QString::fromStdString(runner_.plan().task->messages[static_cast<size_t>(message_)]);
+}
+
 void OperatorWindow::update_state() {
-    session_->set_state(state());
+    session_->set_state(state(), has_trials());
     scene_->set_banner(banner());
+    if (subject_) subject_->scene().set_banner(message());
     tuning_->set_running(runner_.running());
 }
 

@@ -12,6 +12,7 @@
 
 #include "device_panel.h"
 #include "loader.h"
+#include "participant_dialog.h"
 #include "plots_panel.h"
 #include "session_panel.h"
 #include "session_runner.h"
@@ -34,6 +35,7 @@ class OperatorWindow : public QMainWindow {
 
   protected:
     void closeEvent(QCloseEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
   private:
     void make_docks();
@@ -44,14 +46,26 @@ class OperatorWindow : public QMainWindow {
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
+    /// Asks for the person first.
+    void start_trials();
+    void begin(const recording::Participant& participant);
     void stop();
+    void skip();
+    /// A key that a task may wait for.
+    void press(char key);
+    /// The workspaces go where the camera is, if they are to follow it.
+    void turn_workspaces();
     void force_off();
     void session_ended(const SessionEnd& end);
     void refresh();
     void show_frame(const servo::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
+    void show_progress(const servo::Frame& frame);
+    bool has_trials() const;
     SessionPanel::State state() const;
+    /// What the task tells the person; empty: nothing.
+    QString message() const;
     /// Over the scene: what to do next, or what is wrong.
     QString banner() const;
     void update_state();
@@ -62,6 +76,8 @@ class OperatorWindow : public QMainWindow {
     QString file_;
     std::optional<experiment::Plan> plan_;  ///< of the file as it was last good
     servo::Frame frame_;                    ///< its first
+    int message_ = -1;                      ///< of the task, that is shown
+    recording::Participant participant_;    ///< who did the last trials
     std::optional<MouseHand> mouse_;        ///< of the session that runs
     bool start_when_opened_ = false;
     bool closing_ = false;
@@ -76,6 +92,7 @@ class OperatorWindow : public QMainWindow {
     QPlainTextEdit* log_;
     std::unique_ptr<SubjectWindow> subject_;
     QAction* subject_action_ = nullptr;
+    QAction* follow_action_ = nullptr;
     QMenu* view_menu_ = nullptr;
     QMenu* camera_menu_ = nullptr;
     QTimer timer_;

@@ -24,9 +24,6 @@ SceneWidget::SceneWidget(QWidget* parent)
         label->setAttribute(Qt::WA_TransparentForMouseEvents);
         label->hide();
     }
-    banner_->setStyleSheet(
-        "background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; font-size: 20px; "
-        "border-radius: 8px;");
     help_->setStyleSheet(
         "background: rgba(255, 255, 255, 190); color: #20242a; padding: 8px 12px; border-radius: "
         "6px;");
@@ -44,20 +41,22 @@ void SceneWidget::release() {
 }
 
 void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame,
-                            std::vector<view::Workspace> workspaces) {
+                            std::vector<view::Workspace> workspaces,
+                            const servo::WorkspaceTurn& turn) {
     release();
     workspaces_ = std::move(workspaces);
+    turn_ = turn;
     path_.clear();
     scene_ = scene;
     frame_ = frame;
     cameras_ = view::cameras(scene_);
-    camera_ = cameras_.front();
-    update();
+    set_camera(cameras_.front());
 }
 
 void SceneWidget::show_frame(const servo::Frame& frame) {
     if (frame.time < frame_.time) path_.clear();
     frame_ = frame;
+    turn_.set_angle(frame.workspace_turn);
     const int object = scene_.object_index();
     if (object >= 0) {
         path_.push_back(servo::displayed_body(frame, static_cast<size_t>(object)).p);
@@ -79,8 +78,13 @@ void SceneWidget::set_hand(MouseHand* hand) {
 }
 
 void SceneWidget::set_camera(const std::string& name) {
-    camera_ = view::find_camera(cameras_, name);
+    set_camera(view::find_camera(cameras_, name));
+}
+
+void SceneWidget::set_camera(const view::Camera& camera) {
+    camera_ = camera;
     update();
+    Q_EMIT camera_moved();
 }
 
 void SceneWidget::reset_camera() {
@@ -101,6 +105,11 @@ void SceneWidget::set_help(const QString& text) {
 }
 
 void SceneWidget::place_labels() {
+    // read from a chair's distance, on a screen of any size
+    banner_->setStyleSheet(
+        QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
+                "font-size: %1px; border-radius: 8px;")
+            .arg(std::max(20, height() / 30)));
     banner_->setWordWrap(false);
     banner_->adjustSize();
     if (banner_->width() > width() - 40) {
@@ -132,7 +141,10 @@ void SceneWidget::paintGL() {
         overlays.contacts = layers_.contacts;
         overlays.grip_axis = layers_.grip_axis;
         if (layers_.path) overlays.path = path;
-        if (layers_.workspaces) overlays.workspaces = workspaces_;
+        std::vector<view::Workspace> workspaces;
+        for (const view::Workspace& workspace : workspaces_)
+            workspaces.push_back({turn_.turned(workspace.X_WD), workspace.size});
+        if (layers_.workspaces) overlays.workspaces = workspaces;
         const double scale = devicePixelRatioF();
         shown_ = view_->draw(frame_, camera_, static_cast<int>(width() * scale),
                              static_cast<int>(height() * scale), overlays);
@@ -158,20 +170,22 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const bool orbit = event->buttons().testFlag(Qt::RightButton) || (left && hand_ == nullptr);
     const bool pan = event->buttons().testFlag(Qt::MiddleButton) || (orbit && shift);
     if (pan) {
-        camera_ = view::panned(camera_, way.x() / height(), -way.y() / height());
+        set_camera(view::panned(camera_, way.x() / height(), -way.y() / height()));
     } else if (orbit) {
-        camera_ = view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y());
+        set_camera(view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y()));
     } else if (hand_ != nullptr) {
         setFocus();  // keys are the hand's where the pointer is
         if (left) {
             hand_->turn(way);
         } else {
-            hand_->move(way, camera_, height(), shift);
+            // the hand is where the devices are: the workspaces' turn is none of its business
+            view::Camera camera = camera_;
+            camera.position = turn_.unturned(camera.position);
+            camera.look_at = turn_.unturned(camera.look_at);
+            hand_->move(way, camera, height(), shift);
         }
         Q_EMIT hand_moved();
-        return;
     }
-    update();
 }
 
 void SceneWidget::wheelEvent(QWheelEvent* event) {
@@ -180,33 +194,32 @@ void SceneWidget::wheelEvent(QWheelEvent* event) {
         hand_->wheel(-notches);
         Q_EMIT hand_moved();
     } else {
-        camera_ = view::zoomed(camera_, std::pow(0.9, notches));
-        update();
+        set_camera(view::zoomed(camera_, std::pow(0.9, notches)));
     }
     event->accept();
 }
 
-bool SceneWidget::set_key(const QKeyEvent& event, bool down) {
-    if (hand_ == nullptr) return false;
+void SceneWidget::set_key(const QKeyEvent& event, bool down) {
+    if (hand_ == nullptr || event.isAutoRepeat()) return;
     MouseHand::Squeeze key = MouseHand::Squeeze::none;
     if (event.key() == Qt::Key_Space) key = MouseHand::Squeeze::close;
     if (event.key() == Qt::Key_V) key = MouseHand::Squeeze::open;
-    if (key == MouseHand::Squeeze::none) return false;
-    if (event.isAutoRepeat()) return true;
+    if (key == MouseHand::Squeeze::none) return;
     if (down) {
         keys_ = key;
     } else if (keys_ == key) {
         keys_ = MouseHand::Squeeze::none;
     }
-    return true;
 }
 
 void SceneWidget::keyPressEvent(QKeyEvent* event) {
-    if (!set_key(*event, true)) QOpenGLWidget::keyPressEvent(event);
+    set_key(*event, true);
+    QOpenGLWidget::keyPressEvent(event);  // a task may wait for it
 }
 
 void SceneWidget::keyReleaseEvent(QKeyEvent* event) {
-    if (!set_key(*event, false)) QOpenGLWidget::keyReleaseEvent(event);
+    set_key(*event, false);
+    QOpenGLWidget::keyReleaseEvent(event);
 }
 
 void SceneWidget::focusOutEvent(QFocusEvent* event) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "mouse_hand.h"
+#include "servo/workspace_turn.h"
 #include "view/scene_view.h"
 
 namespace dihaptic::gui {
@@ -18,9 +19,11 @@ class SceneWidget : public QOpenGLWidget {
     explicit SceneWidget(QWidget* parent = nullptr);
     ~SceneWidget() override;
 
-    /// What frames are of from now on, the first of them, and where the devices can go.
+    /// What frames are of from now on, the first of them, where the devices can go, and how all of
+    /// it turns.
     void set_scene(const scene::Scene& scene, const servo::Frame& frame,
-                   std::vector<view::Workspace> workspaces = {});
+                   std::vector<view::Workspace> workspaces = {},
+                   const servo::WorkspaceTurn& turn = {});
     /// The newest frame; drawn with the screen's next picture.
     void show_frame(const servo::Frame& frame);
     /// While it is set, the mouse moves this hand; null: the camera.
@@ -30,6 +33,8 @@ class SceneWidget : public QOpenGLWidget {
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }
     void set_camera(const std::string& name);
+    void set_camera(const view::Camera& camera);
+    const view::Camera& camera() const { return camera_; }
     void reset_camera();
     /// What is drawn besides the scene; `paths`: of the object, in the last seconds.
     struct Layers {
@@ -53,6 +58,7 @@ class SceneWidget : public QOpenGLWidget {
   Q_SIGNALS:
     /// The hand has a new goal.
     void hand_moved();
+    void camera_moved();
     /// OpenGL cannot draw: why, and what to do.
     void failed(const QString& why);
 
@@ -69,7 +75,7 @@ class SceneWidget : public QOpenGLWidget {
 
   private:
     void release();
-    bool set_key(const QKeyEvent& event, bool down);
+    void set_key(const QKeyEvent& event, bool down);
     void place_labels();
 
     scene::Scene scene_;
@@ -79,6 +85,7 @@ class SceneWidget : public QOpenGLWidget {
     view::Camera camera_;
     Layers layers_;
     std::vector<view::Workspace> workspaces_;
+    servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
     view::Shown shown_;
     MouseHand* hand_ = nullptr;

@@ -4,9 +4,14 @@
 #include <QFormLayout>
 #include <QRegularExpressionValidator>
 #include <QVBoxLayout>
-#include <cmath>
 
 namespace dihaptic::gui {
+
+void set_up_identifier(QLineEdit& field) {
+    field.setPlaceholderText("e.g. S07");
+    field.setValidator(
+        new QRegularExpressionValidator(QRegularExpression("[A-Za-z0-9_-]{0,40}"), &field));
+}
 
 SessionPanel::SessionPanel(QWidget* parent)
     : QWidget(parent),
@@ -17,19 +22,21 @@ SessionPanel::SessionPanel(QWidget* parent)
       open_(new QPushButton("&Open ...")),
       start_(new QPushButton("Start")),
       pause_(new QPushButton("Pause")),
+      skip_(new QPushButton("Skip")),
       stop_(new QPushButton("Stop")),
+      trial_(new QLabel),
       progress_(new QProgressBar) {
     file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     rig_->addItem("as the file says", QString());
     rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    participant_->setPlaceholderText("e.g. S07");
-    // part of a folder's name
-    participant_->setValidator(
-        new QRegularExpressionValidator(QRegularExpression("[A-Za-z0-9_-]{0,40}"), this));
+    set_up_identifier(*participant_);
     hand_->addItems({"the mouse", "the file's script"});
     pause_->setCheckable(true);
     start_->setToolTip("F5");
     pause_->setToolTip("F6: time stands still, and no force acts");
+    skip_->setToolTip("F8: this trial is over and counts as skipped; the next one begins");
+    trial_->setWordWrap(true);
+    trial_->hide();
     stop_->setToolTip("F7: ends the session in order. Escape switches force off at once.");
     progress_->setTextVisible(true);
 
@@ -42,20 +49,22 @@ SessionPanel::SessionPanel(QWidget* parent)
     form->addRow("S&ubject", participant_);
     form->addRow("&Hand moved by", hand_);
     auto* buttons = new QHBoxLayout;
-    for (QPushButton* button : {start_, pause_, stop_}) buttons->addWidget(button);
+    for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(form);
     layout->addLayout(buttons);
+    layout->addWidget(trial_);
     layout->addWidget(progress_);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 
     connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
     connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
     connect(pause_, &QPushButton::clicked, this, &SessionPanel::pause_requested);
+    connect(skip_, &QPushButton::clicked, this, &SessionPanel::skip_requested);
     connect(stop_, &QPushButton::clicked, this, &SessionPanel::stop_requested);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
-    set_state(State::nothing);
+    set_state(State::nothing, false);
 }
 
 void SessionPanel::set_file(const QString& file) {
@@ -70,13 +79,15 @@ void SessionPanel::set_rigs(const QStringList& files) {
     rig_->setCurrentIndex(std::max(0, rig_->findData(chosen)));
 }
 
-void SessionPanel::set_state(State state) {
+void SessionPanel::set_state(State state, bool trials) {
     const bool idle = state == State::nothing || state == State::ready;
     const bool running = state == State::running || state == State::paused;
     start_->setEnabled(state == State::ready);
     pause_->setEnabled(running);
     pause_->setChecked(state == State::paused);
     stop_->setEnabled(running);
+    skip_->setEnabled(state == State::running && trials);
+    skip_->setVisible(trials);
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
@@ -86,12 +97,15 @@ void SessionPanel::set_state(State state) {
     }
 }
 
-void SessionPanel::set_progress(double now, double end, const QString& phase) {
-    const bool endless = !std::isfinite(end);
+void SessionPanel::set_progress(double share, const QString& text) {
     progress_->setRange(0, 1000);
-    progress_->setValue(endless ? 0 : static_cast<int>(1000 * now / end));
-    progress_->setFormat(endless ? QString("%1 s").arg(now, 0, 'f', 1)
-                                 : QString("%1: %2 s left").arg(phase).arg(end - now, 0, 'f', 1));
+    progress_->setValue(static_cast<int>(1000 * share));
+    progress_->setFormat(text);
+}
+
+void SessionPanel::set_trial(const QString& text) {
+    trial_->setText(text);
+    trial_->setVisible(!text.isEmpty());
 }
 
 void SessionPanel::set_finishing(double share) {

@@ -11,6 +11,9 @@
 
 namespace dihaptic::gui {
 
+/// Lets a field take what may be part of a folder's name.
+void set_up_identifier(QLineEdit& field);
+
 class SessionPanel : public QWidget {
     Q_OBJECT
 
@@ -22,13 +25,16 @@ class SessionPanel : public QWidget {
     void set_file(const QString& file);
     /// Rig files to choose from; the first choice is what the file says.
     void set_rigs(const QStringList& files);
-    void set_state(State state);
-    /// `now`, `end` in session time [s]; an end that never comes is no number.
-    void set_progress(double now, double end, const QString& phase);
+    /// `trials`: what runs, or would, has some.
+    void set_state(State state, bool trials);
+    void set_progress(double share, const QString& text);
+    /// Which trial runs; empty: there are none.
+    void set_trial(const QString& text);
     void set_finishing(double share);
 
     QString rig() const { return rig_->currentData().toString(); }
     QString participant() const { return participant_->text().trimmed(); }
+    void set_participant(const QString& id) { participant_->setText(id); }
     bool by_mouse() const { return hand_->currentIndex() == 0; }
 
   Q_SIGNALS:
@@ -37,6 +43,7 @@ class SessionPanel : public QWidget {
     void choice_changed();
     void start_requested();
     void pause_requested(bool paused);
+    void skip_requested();
     void stop_requested();
 
   private:
@@ -47,7 +54,9 @@ class SessionPanel : public QWidget {
     QPushButton* open_;
     QPushButton* start_;
     QPushButton* pause_;
+    QPushButton* skip_;
     QPushButton* stop_;
+    QLabel* trial_;
     QProgressBar* progress_;
 };
 

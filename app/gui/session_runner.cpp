@@ -41,6 +41,7 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     session_ = std::make_unique<Session>();
     session_->plan = std::move(plan);
     options.live = &session_->live;
+    options.keys = &session_->key;
     options.clock = experiment::Clock::real;
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());

@@ -39,6 +39,15 @@ class SessionRunner : public QObject {
     void set_paused(bool paused) { session_->live.paused = paused; }
     bool paused() const { return session_->live.paused; }
     void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
+    void set_friction_scale(double scale) { session_->live.friction_scale.publish(scale); }
+    /// Angle that the workspaces turn to [rad].
+    void turn_workspaces(double angle) { session_->live.workspace.publish(angle); }
+    /// The trial that runs.
+    void skip() { session_->live.skip = true; }
+    /// Share of the trials that are over.
+    double done() const { return session_->live.done; }
+    /// For a task that waits for a key.
+    void press(char key) { session_->key = key; }
     void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
     /// In order; the hand may hold what it holds.
     void end() { session_->live.ended = true; }
@@ -55,6 +64,7 @@ class SessionRunner : public QObject {
         experiment::Plan plan;
         experiment::Live live;
         std::atomic<bool> stop{false};
+        std::atomic<char> key{0};
         std::atomic<bool> finishing{false};
     };
     SessionEnd run(Session& session, const experiment::RunOptions& options);

@@ -2,11 +2,18 @@
 
 #include <QCloseEvent>
 #include <QGuiApplication>
+#include <QKeyEvent>
 #include <QScreen>
 #include <QVBoxLayout>
 #include <QWindow>
 
 namespace dihaptic::gui {
+
+char task_key(const QKeyEvent& event) {
+    const QString text = event.text();
+    if (event.isAutoRepeat() || text.size() != 1 || text[0].unicode() > 127) return 0;
+    return text[0].isLetterOrNumber() ? text[0].toLatin1() : '\0';
+}
 
 SubjectWindow::SubjectWindow() : scene_(new SceneWidget) {
     setWindowTitle("Dihaptic: subject");
@@ -24,6 +31,10 @@ void SubjectWindow::show_beside(const QWidget& operator_window) {
     }
     resize(800, 600);
     show();
+}
+
+void SubjectWindow::keyPressEvent(QKeyEvent* event) {
+    if (const char key = task_key(*event); key != 0) Q_EMIT key_pressed(key);
 }
 
 void SubjectWindow::closeEvent(QCloseEvent* event) {

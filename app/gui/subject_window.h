@@ -5,6 +5,9 @@
 
 namespace dihaptic::gui {
 
+/// The letter or digit of a key event, for a task; 0: none.
+char task_key(const QKeyEvent& event);
+
 class SubjectWindow : public QWidget {
     Q_OBJECT
 
@@ -17,9 +20,12 @@ class SubjectWindow : public QWidget {
 
   Q_SIGNALS:
     void closed();
+    /// A letter or a digit.
+    void key_pressed(char key);
 
   protected:
     void closeEvent(QCloseEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
   private:
     SceneWidget* scene_;

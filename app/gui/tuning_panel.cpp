@@ -33,25 +33,30 @@ TuningPanel::TuningPanel(QWidget* parent)
       stiffness_(box(1, 20000, 100, 0, " N/m")),
       damping_(box(kUnset, 50, 0.1, 1, " N s/m")),
       smoothing_(box(0.01, 1, 0.05, 2, "")),
-      solver_(choice<dynamics::Solver>()) {
+      solver_(choice<dynamics::Solver>()),
+      friction_(box(0, 5, 0.1, 2, " x")) {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     proxy_->addItem("as the file says", QString());
     for (const char* name : enum_names(scene::ProxyKind{})) proxy_->addItem(name, QString(name));
-    proxy_->setToolTip("of the next session");
+    friction_->setToolTip("every coefficient of friction, times those of the scene");
     damping_->setSpecialValueText("k h / 2");
     smoothing_->setToolTip("share of the new force in the force sent: of the dual spring");
     auto* form = new QFormLayout(this);
-    form->addRow("Pro&xy", proxy_);
     form->addRow("&Coupling", coupling_);
     form->addRow("Stiff&ness", stiffness_);
     form->addRow("&Damping", damping_);
     form->addRow("S&moothing", smoothing_);
     form->addRow("Contact so&lver", solver_);
+    form->addRow("Frict&ion", friction_);
+    form->addRow("Pro&xy, from the next start", proxy_);
     connect(solver_, &QComboBox::activated, this,
             [this](int index) { Q_EMIT solver_chosen(static_cast<dynamics::Solver>(index)); });
     connect(coupling_, &QComboBox::activated, this, &TuningPanel::tune);
     for (QDoubleSpinBox* value : {stiffness_, damping_, smoothing_})
         connect(value, &QDoubleSpinBox::valueChanged, this, &TuningPanel::tune);
+    connect(friction_, &QDoubleSpinBox::valueChanged, this, [this](double scale) {
+        if (!setting_) Q_EMIT friction_scaled(scale);
+    });
     connect(proxy_, &QComboBox::activated, this, &TuningPanel::proxy_chosen);
 }
 
@@ -62,6 +67,7 @@ void TuningPanel::set_settings(const servo::Settings& settings) {
     stiffness_->setValue(tuning.stiffness);
     damping_->setValue(tuning.damping.value_or(kUnset));
     smoothing_->setValue(tuning.smoothing);
+    friction_->setValue(1);
     solver_->setCurrentIndex(static_cast<int>(settings.dynamics.solver));
     setting_ = false;
 }

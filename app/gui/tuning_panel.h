@@ -23,6 +23,7 @@ class TuningPanel : public QWidget {
 
   Q_SIGNALS:
     void solver_chosen(dihaptic::dynamics::Solver solver);
+    void friction_scaled(double scale);
     void tuned(const dihaptic::haptics::Tuning& tuning);
     void proxy_chosen();
 
@@ -35,6 +36,7 @@ class TuningPanel : public QWidget {
     QDoubleSpinBox* damping_;
     QDoubleSpinBox* smoothing_;
     QComboBox* solver_;
+    QDoubleSpinBox* friction_;
     bool setting_ = false;  // by the program, not by its user
 };
 

@@ -199,8 +199,21 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     impl_->wake(i, states_);
 }
 
+void World::set_friction_scale(double scale) noexcept {
+    impl_->friction_scale = scale;
+    for (const size_t i : impl_->can_move) impl_->wake(i, states_);
+}
+
+double World::friction_scale() const noexcept {
+    return impl_->friction_scale;
+}
+
 void World::set_velocity(BodyIndex body, const Vec3& v_WB) noexcept {
-    impl_->items[static_cast<size_t>(body.value)].body->setLinearVelocity(to_bullet(v_WB));
+    const Impl::Item& item = impl_->items[static_cast<size_t>(body.value)];
+    const Quat R_WB = from_bullet(item.body->getWorldTransform()).R * item.X_BM.R.conjugate();
+    const Vec3 arm_W = R_WB * item.X_BM.p;
+    const Vec3 w = from_bullet(item.body->getAngularVelocity());
+    item.body->setLinearVelocity(to_bullet(v_WB + w.cross(arm_W)));
 }
 
 double World::inertia(BodyIndex proxy) const {
@@ -215,6 +228,17 @@ void World::set_inertia(BodyIndex proxy, double inertia) noexcept {
 
 void World::set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept {
     impl_->items[static_cast<size_t>(proxy.value)].body->setAngularVelocity(to_bullet(w_WP));
+}
+
+void World::carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept {
+    const auto i = static_cast<size_t>(proxy.value);
+    btRigidBody& b = *impl_->items[i].body;
+    const BodyState& state = states_[i];
+    const Vec3 v_WP = state.v_WB;
+    b.setWorldTransform(to_bullet(Pose{R_WP, state.X_WB.p} * impl_->items[i].X_BM));
+    b.setAngularVelocity(to_bullet(w_WP));
+    set_velocity(proxy, v_WP);
+    impl_->read_state(i, states_[i]);
 }
 
 void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {

@@ -92,10 +92,17 @@ class World {
     void set_mass(BodyIndex body, double mass) noexcept;
     /// The properties of a body of the scene from the next step on; it wakes when they change.
     void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
+    /// Every coefficient of friction times a factor, from the next step on; all wake.
+    void set_friction_scale(double scale) noexcept;
+    double friction_scale() const noexcept;
+    /// Of B's origin.
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
     /// The same for a proxy that turns: inertia about P [kg*m^2], angular velocity [rad/s].
     void set_inertia(BodyIndex proxy, double inertia) noexcept;
     void set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept;
+    /// Turns a proxy that does not turn by itself: its orientation, and the angular velocity at
+    /// which it goes on, whatever it touches. P keeps its velocity.
+    void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
     /// Puts a body somewhere else, at rest.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].

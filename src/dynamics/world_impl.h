@@ -59,6 +59,7 @@ struct World::Impl {
     std::vector<btCollisionObject*> batch_bodies;
     std::vector<btPersistentManifold*> batch_contacts;
     std::vector<double> friction;  // by pair, row-major
+    double friction_scale = 1;
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
     std::unique_ptr<Groups> groups;
@@ -73,7 +74,7 @@ struct World::Impl {
              const btVector3& linear, const btVector3& angular, bool about_origin = false);
     double friction_of(size_t a, size_t b) const {
         return friction[a * items.size() + b] * items[a].properties.friction *
-               items[b].properties.friction;
+               items[b].properties.friction * friction_scale;
     }
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);

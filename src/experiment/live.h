@@ -33,10 +33,16 @@ struct Live {
     Latest<servo::Frame> frame;       ///< the newest; its `sequence` is -1 before the first
     std::atomic<bool> paused{false};  ///< as long as it is, time stands still and no force acts
     std::atomic<bool> ended{false};   ///< the session is to end, in order
+    std::atomic<bool> skip{false};    ///< the trial that runs is to end, in the next tick
+    std::atomic<double> done{0};      ///< share of the trials that are over
     Latest<std::optional<dynamics::Solver>> solver;  ///< from the next step on
     /// To be had soon: stiffness and damping go there in kEase, so that what is held stays held.
     Latest<std::optional<haptics::Tuning>> tuning;
     static constexpr double kEase = 0.2;  // [s]
+    /// Every coefficient of friction times so much; unset: as the session has them.
+    Latest<std::optional<double>> friction_scale;
+    /// Angle that the workspaces turn to, as servo::WorkspaceTurn has it [rad].
+    Latest<double> workspace;
 
     Live() {
         for (servo::Frame& value : frame.values()) value.sequence = -1;
@@ -47,6 +53,11 @@ struct Live {
     void show(const servo::Frame& now) noexcept;
     /// In the tick: what the coupling is to be in this one. `now`: in the last; `h`: a tick [s].
     std::optional<haptics::Tuning> tune(const haptics::Tuning& now, double h) noexcept;
+    /// In the tick: the rate at which the workspaces turn from now on [rad/s]. `h`: a tick [s].
+    double turn(const servo::Frame& last, double h) noexcept {
+        return servo::WorkspaceTurn::rate_toward(workspace.read(),
+                                                 last.workspace_turn + h * last.workspace_rate);
+    }
     /// The oldest sample that was not taken yet.
     std::optional<CurveSample> take_sample();
 

@@ -222,8 +222,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             record.continuous_torque = device.continuous_torque;
         info.devices.push_back(record);
     }
-    info.phases = phases_of(*plan.driver);
+    if (!plan.task) info.phases = phases_of(*plan.driver);
     if (plan.task) {
+        for (const std::string& phase : plan.task->phases()) info.phases.push_back({phase, 0, 0});
         for (const TaskPlan::Outcome& outcome : plan.task->outcomes)
             info.outcomes.push_back(outcome.name);
         info.messages = plan.task->messages;
@@ -278,6 +279,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
         commands.solver = live->solver.read();
         commands.tuning = live->tune(servo->settings().coupling.tuning(), plan.settings.tick());
+        commands.friction_scale = live->friction_scale.read();
+        if (task) {
+            if (live->skip.exchange(false, std::memory_order_relaxed)) task->skip();
+            live->done.store(task->share(), std::memory_order_relaxed);
+        }
+        commands.workspace_rate = live->turn(last, plan.settings.tick());
         commands.resume = std::exchange(resumed, false);
     };
     const auto stuck = [&](const servo::Timing::Stall& stall) {
@@ -320,8 +327,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.ticks = recorder.frames();
     result.dropped = recorder.dropped();
     // with a mouse there is no more to do than somebody wants to
-    result.interrupted = stop.load() || (ended() && plan.mouse == nullptr);
-    if (plan.mouse != nullptr && !info.phases.empty()) info.phases.back().end = result.simulated;
+    const bool unfinished = task ? task->share() < 1 : plan.mouse == nullptr;
+    result.interrupted = stop.load() || (ended() && unfinished);
+    if (plan.mouse != nullptr && !plan.task) info.phases.back().end = result.simulated;
     if (const haptics::Fault& fault = servo->fault()) {
         const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
         result.fault =

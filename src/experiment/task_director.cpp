@@ -42,6 +42,10 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         commands.stop = true;
         return;
     }
+    if (skip_.exchange(false, std::memory_order_relaxed)) {
+        finish(plan_.skipped, false, commands);
+        return;
+    }
     if (state_ < 0) {
         if (clear(last)) {
             for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
@@ -61,7 +65,7 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         if (way->state >= 0) {
             enter(way->state, now, commands);
         } else {
-            finish(*way, commands);
+            finish(way->outcome, way->exit.redo, commands);
             return;
         }
     }
@@ -172,14 +176,14 @@ bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
     return std::popcount(which) >= fingers;
 }
 
-void TaskDirector::finish(const TaskPlan::Way& way, servo::Commands& commands) noexcept {
+void TaskDirector::finish(int outcome, bool redo, servo::Commands& commands) noexcept {
     commands.trial = queue_.trial() + 1;
     commands.phase = state_ + 1;
     commands.task.attempt = queue_.attempt();
-    commands.task.outcome = way.outcome;
+    commands.task.outcome = outcome;
     commands.task.message = message_;
-    take_answer(way.outcome);
-    queue_.finish(way.exit.redo);
+    take_answer(outcome);
+    queue_.finish(redo);
     skip_done();
     state_ = -1;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);

@@ -21,6 +21,8 @@ class TaskDirector {
 
     /// A key of the operator's, from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    /// The trial ends in the next tick, as skipped, and is not done again; from any thread.
+    void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
     /// Share of the trials that are done, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
@@ -33,7 +35,7 @@ class TaskDirector {
     bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
     const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
                                  double now) noexcept;
-    void finish(const TaskPlan::Way& way, servo::Commands& commands) noexcept;
+    void finish(int outcome, bool redo, servo::Commands& commands) noexcept;
     void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
                servo::Commands& commands) const noexcept;
 
@@ -52,6 +54,7 @@ class TaskDirector {
     int message_ = -1;
     std::vector<double> since_;  // by way: when its condition began to hold; -1: it does not [s]
     std::atomic<char> key_{0};
+    std::atomic<bool> skip_{false};
     std::atomic<double> share_{0};
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr size_t kMostStates = 64;
 constexpr size_t kMostTrials = 100000;
 constexpr const char* kMoveAway = "Take the hands off the objects";
+constexpr const char* kSkipped = "skipped";
 
 /// Index of a text in a list, added when it is new; -1 for none.
 int listed(std::vector<std::string>& list, const std::string& text) {
@@ -48,6 +49,8 @@ class Planner {
         check_lists();
         plan_.move_away = listed(plan_.messages, kMoveAway);
         for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
+        plan_.skipped = static_cast<int>(plan_.outcomes.size());
+        plan_.outcomes.push_back({kSkipped, false});
         check_ways();
         make_cells();
         for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
@@ -191,6 +194,10 @@ class Planner {
     }
 
     int outcome(const Exit& exit) {
+        if (exit.outcome == kSkipped)
+            error(exit.place, "outcome",
+                  fmt::format("'{}' is what a trial is that the operator skipped", kSkipped),
+                  "Call it something else.");
         for (size_t i = 0; i < plan_.outcomes.size(); ++i) {
             if (plan_.outcomes[i].name != exit.outcome) continue;
             if (plan_.outcomes[i].redo != exit.redo) {

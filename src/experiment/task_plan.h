@@ -18,6 +18,7 @@ struct TaskPlan {
         bool redo;
     };
     std::vector<Outcome> outcomes;
+    int skipped = -1;  ///< the outcome of a trial that the operator skips
 
     struct Way {
         Exit exit;

@@ -33,13 +33,22 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
     return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
 }
 
+void Finger::set_friction_scale(double scale) noexcept {
+    if (auto* point = std::get_if<PointProxy>(&coupling_)) point->set_friction_scale(scale);
+}
+
 void Finger::place(World& world, const Handle& handle) noexcept {
     Pose X_WP = world.state(proxy_).X_WB;
     X_WP.p = handle.p_WH;
     if (turn_) X_WP.R = turn_->wanted(handle);
     world.set_pose(proxy_, X_WP);
+    R_TP_ = X_WP.R;
     if (auto* point = std::get_if<PointProxy>(&coupling_)) point->place(world, handle.p_WH);
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->place(world, handle.p_WH);
+}
+
+void Finger::carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept {
+    if (!turn_) world.carry(proxy_, R_WT * R_TP_, w_WT);
 }
 
 void Finger::begin_tick(const World& world, const Handle& handle, double step) noexcept {

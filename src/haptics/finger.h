@@ -33,8 +33,15 @@ class Finger {
     /// From the coming tick on. The kind is of bodies: a point has one of its own.
     void retune(const CouplingSettings& coupling) noexcept;
 
+    /// Of a point whose friction is apart from the world's.
+    void set_friction_scale(double scale) noexcept;
+
     /// Puts the proxy at the handle, before the first tick.
     void place(World& world, const Handle& handle) noexcept;
+
+    /// Turns a proxy that does not turn with its handle, from where it was placed, with the
+    /// workspaces: by R_WT, which goes on at w_WT [rad/s].
+    void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
     /// First in every tick; `step` is the world's [s].
     void begin_tick(const World& world, const Handle& handle, double step) noexcept;
@@ -61,6 +68,7 @@ class Finger {
     double mass_ = 0;       // of a body [kg]
     double max_force_ = 0;  // that the hand may feel of a body [N]
     std::optional<RotationalCoupling> turn_;
+    Quat R_TP_ = Quat::Identity();  // where it was placed
     ProxyTouch touch_;
     Vec3 torque_ = Vec3::Zero();
     double stored_ = 0;

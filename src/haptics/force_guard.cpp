@@ -20,19 +20,21 @@ ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limit
 Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP,
                          double stored, bool stepped, unsigned& flags) noexcept {
     const Wrench damper = energy_.watch(handle, X_WP, asked_W, stored, stepped, tick_, flags);
-    const Vec3 push_D = wall_.force(X_DW_ * handle.p_WH, X_DW_.R * handle.v_WH);
-    if (push_D != Vec3::Zero()) flags |= kPushedInward;
-    Wrench felt_W{asked_W.force + damper.force + X_WD_.R * push_D, Vec3::Zero()};
+    Wrench felt_W{asked_W.force + damper.force, Vec3::Zero()};
     if (torque_limiter_) felt_W.torque = asked_W.torque + damper.torque;
     return felt_W;
 }
 
-Wrench ForceGuard::limit(const Wrench& felt_W, bool allowed, double share,
-                         unsigned& flags) noexcept {
-    if (allowed && share < 1 && !felt_W.is_zero()) flags |= kSoftStarted;
-    Wrench limited{limiter_.limit(share * felt_W.force, tick_, flags), Vec3::Zero()};
-    if (torque_limiter_)
-        limited.torque = torque_limiter_->limit(share * felt_W.torque, tick_, flags);
+Vec3 ForceGuard::push(const Handle& handle, unsigned& flags) const noexcept {
+    const Vec3 push_D = wall_.force(X_DW_ * handle.p_WH, X_DW_.R * handle.v_WH);
+    if (push_D != Vec3::Zero()) flags |= kPushedInward;
+    return X_WD_.R * push_D;
+}
+
+Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept {
+    if (allowed && share < 1 && !felt.is_zero()) flags |= kSoftStarted;
+    Wrench limited{limiter_.limit(share * felt.force, tick_, flags), Vec3::Zero()};
+    if (torque_limiter_) limited.torque = torque_limiter_->limit(share * felt.torque, tick_, flags);
     if (allowed) return limited;
     flags |= kSwitchedOff;
     limiter_.drop();

@@ -1,6 +1,9 @@
 // Between what a finger's coupling wants and what its device is told, in every tick:
 //
 //     energy guard -> workspace wall -> share of soft start and dead-man switch -> Limiter
+//
+// The first acts in the world, the others in axes that stand still with the device: where the
+// workspace turns (servo/workspace_turn.h), those of the world without that turn.
 #pragma once
 
 #include <limits>
@@ -33,14 +36,16 @@ class ForceGuard {
     ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick,
                const Pose& X_WD);
 
-    /// What the handle is to feel, for what the coupling wants. `X_WP`: its proxy after the tick's
-    /// step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in this tick.
-    /// No torque where the device renders none.
+    /// What the handle is to feel of its coupling, for what that wants. `X_WP`: its proxy after the
+    /// tick's step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in
+    /// this tick. No torque where the device renders none.
     Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
                  bool stepped, unsigned& flags) noexcept;
-    /// The part of it that the device may be told. `allowed`: by the dead-man switch, without which
-    /// it is zero at once; `share`: of SoftStart.
-    Wrench limit(const Wrench& felt_W, bool allowed, double share, unsigned& flags) noexcept;
+    /// And of the wall [N].
+    Vec3 push(const Handle& handle, unsigned& flags) const noexcept;
+    /// The part of both that the device may be told. `allowed`: by the dead-man switch, without
+    /// which it is zero at once; `share`: of SoftStart.
+    Wrench limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept;
     /// Energy that the coupling generated, as EnergyGuard counts it [J].
     double generated() const { return energy_.generated(); }
 

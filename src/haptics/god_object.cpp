@@ -158,7 +158,7 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     double weight = 0;
     for (const PointContact& c : contacts()) {
         // without friction a body takes nothing along; what it pushes away comes next
-        const double w = friction_[c.body] * c.depth;
+        const double w = friction(c.body) * c.depth;
         sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
     }
@@ -253,7 +253,7 @@ Vec3 GodObject::way_to(const Vec3& p_WH) noexcept {
 
 double GodObject::friction_depth() const noexcept {
     double sum = 0;
-    for (const PointContact& c : contacts()) sum += friction_[c.body] * c.depth;
+    for (const PointContact& c : contacts()) sum += friction(c.body) * c.depth;
     return sum;
 }
 

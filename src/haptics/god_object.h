@@ -84,7 +84,8 @@ class GodObject {
     /// The same in the frame of a body, where it was in the last tick.
     Vec3 position_in(size_t body) const noexcept;
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
-    double friction(size_t body) const noexcept { return friction_[body]; }
+    double friction(size_t body) const noexcept { return friction_scale_ * friction_[body]; }
+    void set_friction_scale(double scale) noexcept { friction_scale_ = scale; }
     /// The way to the handle that is left along the surfaces: held by friction [m].
     const Vec3& held() const noexcept { return held_; }
     /// Whether it slid in the last tick; then friction is the dynamic one.
@@ -117,6 +118,7 @@ class GodObject {
     };
     std::vector<PartSurface> parts_;
     std::vector<double> friction_;  // by body
+    double friction_scale_ = 1;
     double sliding_ratio_;
     std::vector<Pose> X_WS_;                     // by surface
     std::vector<char> inside_;                   // by body

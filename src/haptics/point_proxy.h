@@ -34,6 +34,7 @@ class PointProxy {
 
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
+    void set_friction_scale(double scale) noexcept { point_.set_friction_scale(scale); }
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;

@@ -157,7 +157,10 @@ struct Frame {
     double stiffness = 0;   ///< k, the same
     double damping = 0;     ///< c, the same; NaN: k h / 2
     double smoothing = 0;   ///< alpha, the same
-    int32_t solver = 0;     ///< that was asked for: index into dynamics::Solver
+    double friction_scale = 1;  ///< in force, of every coefficient of friction
+    double workspace_turn = 0;  ///< angle of WorkspaceTurn in this tick [rad]
+    double workspace_rate = 0;  ///< at which it goes on to the next tick [rad/s]
+    int32_t solver = 0;         ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;         ///< 1: another solver than that answered
     double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|
@@ -186,6 +189,9 @@ struct Frame {
         v("stiffness", f.stiffness, "N/m");
         v("damping", f.damping, "N*s/m");
         v("smoothing", f.smoothing, "1");
+        v("friction_scale", f.friction_scale, "1");
+        v("workspace_turn", f.workspace_turn, "rad");
+        v("workspace_rate", f.workspace_rate, "rad/s");
         v("solver", f.solver, "1");
         v("solver_iterations", f.solver_iterations, "1");
         v("solver_fallback", f.solver_fallback, "1");

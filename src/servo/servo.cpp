@@ -53,7 +53,8 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
       devices_(std::move(devices)),
-      X_WD_(std::move(X_WD)),
+      X_0D_(std::move(X_WD)),
+      turn_(X_0D_),
       soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
         const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
@@ -61,7 +62,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             settings.safety,
             haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace,
                                   info.peak_torque, info.continuous_torque},
-            settings.tick(), X_WD_[i]);
+            settings.tick(), X_0D_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const bool is_point = settings.proxy.of(scene.fingers[i]) == haptics::ProxyKind::point;
@@ -90,12 +91,13 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             fingers_[i].turn_with_handle(haptics::RotationalCoupling(
                 settings.coupling, inertia, rotation_xyz(scene.fingers[i].rotation)));
         }
-        X_DW_.push_back(X_WD_[i].inverse());
+        X_D0_.push_back(X_0D_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed);
     }
     const size_t n = fingers_.size();
     readings_.resize(n);
     handles_.resize(n);
+    unturned_.resize(n);
     device_faults_.resize(n, 0);
     forces_.resize(n);
     sent_D_.resize(n);
@@ -156,11 +158,19 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.force_off = false;
     commands_.resume = false;
     commands_.tuning.reset();
+    commands_.friction_scale.reset();
+    commands_.workspace_rate = 0;
     if (director) director(frame_, handles_, commands_);
     if (commands_.tuning && *commands_.tuning != settings_.coupling.tuning()) {
         settings_.coupling.set(*commands_.tuning);
         for (haptics::Finger& finger : fingers_) finger.retune(settings_.coupling);
     }
+    if (commands_.friction_scale && *commands_.friction_scale != world_.friction_scale()) {
+        world_.set_friction_scale(*commands_.friction_scale);
+        for (haptics::Finger& finger : fingers_)
+            finger.set_friction_scale(*commands_.friction_scale);
+    }
+    turn_workspaces(commands_.workspace_rate);
     if (commands_.resume) soft_start_.restart();
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
 
@@ -195,23 +205,38 @@ void Servo::measure(Time now) noexcept {
     if (elapsed > settings_.safety.max_pause) {
         faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
     }
+    if (faults_.tripped()) turn_.stop();
+    turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        haptics::Handle read{X_WD_[i] * readings_[i].p_DH, X_WD_[i].R * readings_[i].v_DH};
-        if (devices_->info(static_cast<int>(i)).measures_orientation) {
+        haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
+        const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
+        if (orientation) {
             // the same turn, about the world's axes
-            const Quat& R_WD = X_WD_[i].R;
-            read.R_WH = R_WD * readings_[i].R_DH * R_WD.conjugate();
-            read.w_WH = R_WD * readings_[i].w_DH;
+            const Quat& R_0D = X_0D_[i].R;
+            read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
+            read.w_WH = R_0D * readings_[i].w_DH;
         }
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
         const bool answers = (readings_[i].status & devices::kNotAnswering) == 0;
-        handles_[i] = guards_[i].accept(read, answers, elapsed, fault);
+        unturned_[i] = guards_[i].accept(read, answers, elapsed, fault);
         device_faults_[i] = fault_status(fault.kind);
         faults_.trip(fault);
+        handles_[i] = turn_.turned(unturned_[i], orientation);
         if (frame_.sequence < 0) fingers_[i].place(world_, handles_[i]);
     }
+}
+
+void Servo::turn_workspaces(double rate) noexcept {
+    if (faults_.tripped()) {
+        turn_.stop();
+    } else {
+        turn_.order(rate, settings_.tick());
+    }
+    if (turn_.rate() == 0 && frame_.workspace_rate == 0) return;
+    for (const haptics::Finger& finger : fingers_)
+        finger.carry(world_, turn_.R(), turn_.angular_velocity());
 }
 
 void Servo::make_forces(Time now) noexcept {
@@ -226,21 +251,24 @@ void Servo::make_forces(Time now) noexcept {
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.flags);
         force.felt_W.force += field_on(i);
-        asked = asked || !force.felt_W.is_zero();
+        force.felt_0 = turn_.unturned(force.felt_W);
+        force.felt_0.force += force_guards_[i].push(unturned_[i], force.flags);
+        asked = asked || !force.felt_0.is_zero();
     }
     const bool allowed = switch_held();
     const double share = soft_start_.share(allowed, asked, settings_.tick());
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
-        force.sent_W = force_guards_[i].limit(force.felt_W, allowed, share, force.flags);
+        force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.flags);
         if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
     // one finger's fault is every finger's: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        if (faults_.tripped()) forces_[i].sent_W = {};
-        const Wrench& sent_W = forces_[i].sent_W;
-        sent_D_[i] = {X_DW_[i].R * sent_W.force, X_DW_[i].R * sent_W.torque};
+        if (faults_.tripped()) forces_[i].sent_0 = {};
+        const Wrench& sent_0 = forces_[i].sent_0;
+        sent_D_[i] = {X_D0_[i].R * sent_0.force, X_D0_[i].R * sent_0.torque};
+        forces_[i].sent_W = turn_.turned(sent_0);
     }
 }
 
@@ -295,6 +323,9 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.stiffness = tuning.stiffness;
     frame_.damping = tuning.damping.value_or(kUnmeasured);
     frame_.smoothing = tuning.smoothing;
+    frame_.friction_scale = world_.friction_scale();
+    frame_.workspace_turn = turn_.angle();
+    frame_.workspace_rate = turn_.rate();
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
     frame_.solver_iterations = world_.solve_stats().iterations;

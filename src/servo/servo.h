@@ -19,6 +19,7 @@
 #include "rig/rig.h"
 #include "servo/frame.h"
 #include "servo/settings.h"
+#include "servo/workspace_turn.h"
 
 namespace dihaptic::servo {
 
@@ -31,6 +32,8 @@ struct Commands {
     bool resume = false;                     ///< the first tick after rest()
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
+    std::optional<double> friction_scale;    ///< of every coefficient, from this tick on
+    double workspace_rate = 0;               ///< of the workspaces' turn, from this tick on [rad/s]
 
     TaskFrame task;  ///< of this tick alone: it is empty before the director is asked
 };
@@ -84,6 +87,7 @@ class Servo {
 
   private:
     void measure(Time now) noexcept;
+    void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
     /// Puts bodies where they are ordered to be, and gives them their properties.
     void order_bodies() noexcept;
@@ -105,8 +109,10 @@ class Servo {
     std::vector<haptics::Finger> fingers_;
     std::vector<size_t> turning_;  // fingers whose devices measure orientation
     std::unique_ptr<devices::DeviceGroup> devices_;
-    std::vector<Pose> X_WD_;
-    std::vector<Pose> X_DW_;
+    std::vector<Pose> X_0D_;  // in the world without a turn, as all that is judged there
+    std::vector<Pose> X_D0_;
+    WorkspaceTurn turn_;
+    std::vector<haptics::Handle> unturned_;
     std::vector<devices::Reading> readings_;
     std::vector<haptics::Handle> handles_;
     std::vector<haptics::HandleGuard> guards_;
@@ -118,6 +124,8 @@ class Servo {
     struct Force {
         Wrench asked_W;  // by the coupling
         Wrench felt_W;   // with what the guard adds
+        Wrench felt_0;   // the same without the workspaces' turn, with the wall
+        Wrench sent_0;
         Wrench sent_W;
         unsigned flags = 0;  // haptics::LimitFlags, EnergyFlags and GuardFlags
     };

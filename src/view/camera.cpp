@@ -115,6 +115,10 @@ Camera zoomed(const Camera& camera, double factor) {
     return with(camera, o);
 }
 
+double azimuth(const Camera& camera) {
+    return orbit_of(camera).azimuth;
+}
+
 Pose view_pose(const Camera& camera) {
     const Orbit o = orbit_of(camera);
     Mat3 R_WV;

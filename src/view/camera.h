@@ -33,6 +33,8 @@ Camera panned(const Camera& camera, double right, double up);
 /// The distance multiplied by a factor, but neither below a centimetre nor above 100 m.
 Camera zoomed(const Camera& camera, double factor);
 
+/// Of a camera, as above, from -pi to pi [rad].
+double azimuth(const Camera& camera);
 /// X_WV: V has x right, y up, and z toward the eye, as OpenGL has it.
 Pose view_pose(const Camera& camera);
 /// Clip coordinates from W, with OpenGL's depth from -1 to 1.

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <thread>
 
 #include "experiment/replay.h"
-#include "experiment/session_run.h"
+#include "experiment/test/reaches.h"
 #include "recording/raw_log.h"
-#include "testing/files.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -127,6 +127,51 @@ TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
     EXPECT_FALSE(desk.result.interrupted);
     EXPECT_EQ(desk.result.info.state, recording::SessionState::complete);
     EXPECT_EQ(desk.result.info.phases.back().end, desk.result.simulated);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, WorkspacesTurnAndFrictionChangesWhileABlockIsHeldAndTheReplayIsExact) {
+    Desk desk(block(true));
+    desk.at(0.2);
+    hand::Posture goal = desk.plan.mouse->goal();
+    goal.aperture = 0.034;
+    desk.plan.mouse->follow(goal, desk.now());
+    desk.at(0.8);
+    goal.centre.z() += 0.05;
+    desk.plan.mouse->follow(goal, desk.now());
+    const double before = desk.at(desk.now() + 0.5).bodies[1].X_WB.p.z();
+    ASSERT_GT(before, 0.06);
+    desk.live.friction_scale.publish(1.5);
+    desk.live.workspace.publish(std::numbers::pi / 2);
+    const servo::Frame& frame = desk.at(desk.now() + 3);
+    EXPECT_NEAR(frame.workspace_turn, std::numbers::pi / 2, 0.02);
+    EXPECT_EQ(frame.friction_scale, 1.5);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), before, 0.003);
+    EXPECT_NEAR(angle_between(frame.bodies[1].X_WB.R, Quat::Identity()), std::numbers::pi / 2,
+                0.05);
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
+    Files files;
+    Desk desk(files.request());
+    desk.at(0.1);
+    desk.live.skip = true;
+    desk.join();
+    EXPECT_EQ(desk.live.done, 1);
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    std::vector<std::string> outcomes;
+    for (const servo::Frame& frame : frames) {
+        if (frame.task.outcome < 0) continue;
+        EXPECT_EQ(frame.task.attempt, 1);
+        outcomes.push_back(desk.result.info.outcomes[static_cast<size_t>(frame.task.outcome)]);
+    }
+    ASSERT_EQ(outcomes.size(), desk.plan.task->trials.size());
+    EXPECT_EQ(outcomes.front(), "skipped");
+    EXPECT_EQ(std::count(outcomes.begin(), outcomes.end(), "reached"),
+              static_cast<int>(outcomes.size()) - 1);
     EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
 }
 

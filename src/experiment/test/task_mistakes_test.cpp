@@ -94,6 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kExit, "{ when: outside, region: shell, finger: thumb, outcome: reached }",
                 "none of the scene's fingers"},
         Mistake{kExit, "{ when: outside, region: shell, outcome: lost }", "'lost' is done again"},
+        Mistake{kExit, "{ when: outside, region: shell, outcome: skipped }",
+                "that the operator skipped"},
         Mistake{kExit, "{ when: lifted, body: table, outcome: reached }", "'table' cannot move"},
         Mistake{kExit, "{ when: gripped, body: block, outcome: reached }", "a grip takes two"},
         Mistake{kExit, "{ when: key, key: enter, outcome: reached }", "is no key"},

@@ -140,7 +140,7 @@ task:
     }
     EXPECT_GT(farthest, 0.03);
     EXPECT_EQ(placed, 3);  // before each trial
-    EXPECT_LT(force, 8);  // nothing is pushed out of anything
+    EXPECT_LT(force, 8);   // nothing is pushed out of anything
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 

@@ -130,8 +130,7 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
     unsigned flags = 0;
     // 2 mm beyond D's x, which is the world's y
     const Vec3 p_WH(1, 0.102, 0);
-    const Wrench push = guard.shape({}, {p_WH, Vec3::Zero()}, {{}, p_WH}, 0, true, flags);
-    EXPECT_LT((push.force - Vec3(0, -1, 0)).norm(), 1e-12);
+    EXPECT_LT((guard.push({p_WH, Vec3::Zero()}, flags) - Vec3(0, -1, 0)).norm(), 1e-12);
     EXPECT_EQ(flags, unsigned{kPushedInward});
 }
 

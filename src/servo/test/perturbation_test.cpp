@@ -275,6 +275,49 @@ TEST(Perturbation, MovesTheObjectAndItsSizeWhenItNamesThem) {
     EXPECT_EQ(displayed_proxy(frame, 0).p, frame.fingers[0].p_WP);
 }
 
+TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
+    Desk desk(true, 0.5, Vec3::Zero(), settings());
+    for (int i = 0; i < 700; ++i) desk.tick();
+    ASSERT_EQ(desk.tick().bodies[1].awake, 0u);
+    // 0.7 of its friction holds 0.6 N, and 0.2 of it does not
+    const auto pulled = [&](double scale) {
+        return desk.tick([&](const Frame&, Commands& c) {
+            c.friction_scale = scale;
+            add(c.task.loads, {1, {0.6, 0, 0}, Vec3::Zero()});
+        });
+    };
+    for (int i = 0; i < 100; ++i) ASSERT_NEAR(pulled(0.7).bodies[1].v_WB.x(), 0, 1e-5);
+    double v = 0;
+    for (int i = 0; i < 100; ++i) v = pulled(0.2).bodies[1].v_WB.x();
+    EXPECT_NEAR(v, 0.1 * (0.6 - 0.1 * kMass * 9.81) / kMass, 2e-3);
+    EXPECT_EQ(pulled(0.2).friction_scale, 0.2);
+}
+
+TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
+    for (const bool point : {false, true}) {
+        for (const auto friction :
+             {haptics::PointFriction::together, haptics::PointFriction::apart}) {
+            Settings settings;
+            if (point) settings.proxy.kind = haptics::ProxyKind::point;
+            settings.proxy.friction = friction;
+            // down into the plane, and along it
+            Desk desk(true, 0.5, {0.2, 0, -0.115}, settings);
+            const double mu = scene::pair_friction(desk.scene, "plane", 0.5, "index",
+                                                   desk.scene.fingers[0].friction);
+            int slid = 0;
+            for (int i = 0; i < 380; ++i) {
+                const Frame& frame =
+                    desk.tick([&](const Frame&, Commands& c) { c.friction_scale = 0.3; });
+                const FingerFrame& finger = frame.fingers[0];
+                if (finger.normal_force < 0.3 || finger.v_WH.x() < 0.1) continue;
+                ++slid;
+                ASSERT_NEAR(-finger.f_contact_W.x() / finger.normal_force, 0.3 * mu, 2e-3) << i;
+            }
+            EXPECT_GT(slid, 20);
+        }
+    }
+}
+
 TEST(Perturbation, AllocatesNothing) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Desk desk(true);

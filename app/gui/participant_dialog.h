@@ -1,0 +1,33 @@
+// Asks who does a session with trials, before it starts.
+#pragma once
+
+#include <QComboBox>
+#include <QDialog>
+#include <QLineEdit>
+#include <QPushButton>
+
+#include "recording/session.h"
+
+namespace dihaptic::gui {
+
+class ParticipantDialog : public QDialog {
+    Q_OBJECT
+
+  public:
+    /// `known`: what it starts with; `needs_number`: the order of the trials depends on the number
+    /// that the identifier ends in.
+    ParticipantDialog(const recording::Participant& known, bool needs_number, QWidget* parent);
+    recording::Participant participant() const;
+
+  private:
+    void check();
+
+    bool needs_number_;
+    QLineEdit* id_;
+    QLineEdit* age_;
+    QComboBox* sex_;
+    QComboBox* handedness_;
+    QPushButton* start_ = nullptr;
+};
+
+}  // namespace dihaptic::gui

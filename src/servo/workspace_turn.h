@@ -1,0 +1,96 @@
+// Turns the workspaces of all devices together, so that a hand's right stays right in a picture
+// whose camera goes around the scene. By the angle a about the vertical z through C,
+//
+//     p_WH = c + T (p_0H - c)               T: rotation by a about z
+//     v_WH = T v_0H + a' z x (p_WH - c)     and so for orientation and angular velocity
+//     f_0H = T^-1 f_WH
+//
+// 0 being the world as it would be without a turn: what stands still with the devices, and what is
+// judged there (speeds, walls, limits) knows nothing of it. The power f_WH . (v_WH - a' z x (p_WH -
+// c)) is f_0H . v_0H; the rest of f_WH . v_WH is the work of whatever turns.
+//
+// C is the mean of the devices' origins: their reach stays where it is, nothing in it moves faster
+// than need be, and no camera counts, which a replay has none of. The angle goes on at a rate a'
+// that changes by no more than kMostAcceleration, so that neither force nor velocity steps.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "haptics/coupling.h"
+
+namespace dihaptic::servo {
+
+class WorkspaceTurn {
+  public:
+    /// 0.2 m off the axis a handle at rest goes 0.2 m/s: a calm hand's speed, 2 % of what switches
+    /// force off; and 8.5 N change by 8.5 N/s in the device's axes, 0.3 % of what is allowed.
+    static constexpr double kMostRate = 1;          // [rad/s]
+    static constexpr double kMostAcceleration = 4;  // [rad/s^2]
+
+    WorkspaceTurn() = default;
+    /// `X_WD` by device, without a turn.
+    explicit WorkspaceTurn(const std::vector<Pose>& X_WD) {
+        for (const Pose& pose : X_WD) p_WC_ += pose.p / static_cast<double>(X_WD.size());
+    }
+
+    double angle() const noexcept { return angle_; }  ///< a [rad]
+    double rate() const noexcept { return rate_; }    ///< a', from this tick to the next [rad/s]
+    void set_angle(double angle) noexcept {
+        angle_ = angle;
+        R_ = Quat(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
+    }
+    /// The next tick, `elapsed` [s] after the last one.
+    void advance(double elapsed) noexcept {
+        if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
+    }
+    /// From this tick of h [s] on, within the bounds.
+    void order(double rate, double h) noexcept {
+        const double change = kMostAcceleration * h;
+        rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);
+    }
+    void stop() noexcept { rate_ = 0; }
+    /// What to order at `angle` on the shortest way to `goal` [rad]: at kMostRate, and as the way
+    /// ends in proportion to it, which slows down by no more than kMostAcceleration.
+    static double rate_toward(double goal, double angle) noexcept {
+        constexpr double kThere = 1e-6;  // [rad]
+        const double way = std::remainder(goal - angle, 2 * std::numbers::pi);
+        if (std::abs(way) < kThere) return 0;
+        return std::clamp(kMostAcceleration / kMostRate * way, -kMostRate, kMostRate);
+    }
+
+    const Quat& R() const noexcept { return R_; }                     ///< T
+    Vec3 angular_velocity() const noexcept { return {0, 0, rate_}; }  ///< [rad/s]
+    Vec3 turned(const Vec3& p) const noexcept { return angle_ == 0 ? p : p_WC_ + R_ * (p - p_WC_); }
+    Vec3 unturned(const Vec3& p) const noexcept {
+        return angle_ == 0 ? p : p_WC_ + R_.conjugate() * (p - p_WC_);
+    }
+    Pose turned(const Pose& X) const noexcept { return {R_ * X.R, turned(X.p)}; }
+    /// `orientation`: the handle has one, and an angular velocity.
+    haptics::Handle turned(const haptics::Handle& handle, bool orientation) const noexcept {
+        if (angle_ == 0 && rate_ == 0) return handle;
+        haptics::Handle out;
+        out.p_WH = turned(handle.p_WH);
+        out.v_WH = R_ * handle.v_WH + angular_velocity().cross(out.p_WH - p_WC_);
+        if (!orientation) return out;
+        out.R_WH = R_ * handle.R_WH;
+        out.w_WH = R_ * handle.w_WH + angular_velocity();
+        return out;
+    }
+    Wrench turned(const Wrench& w) const noexcept {
+        return angle_ == 0 ? w : Wrench{R_ * w.force, R_ * w.torque};
+    }
+    Wrench unturned(const Wrench& w) const noexcept {
+        return angle_ == 0 ? w : Wrench{R_.conjugate() * w.force, R_.conjugate() * w.torque};
+    }
+
+  private:
+    Vec3 p_WC_ = Vec3::Zero();
+    double angle_ = 0;
+    double rate_ = 0;
+    Quat R_ = Quat::Identity();
+};
+
+}  // namespace dihaptic::servo
