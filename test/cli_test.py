@@ -136,7 +136,7 @@ class Commands(unittest.TestCase):
             self.assertIn(folder.rstrip("/"), result.stdout)
             self.assertIn("S07", folder)
             for name in ["session.yaml", "scene.yaml", "rig.yaml", "settings.yaml", "settings.csv", "raw.log", "session.nwb",
-                         "trials.csv", "phases.csv", "episodes.csv", "events.csv"]:
+                         "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", "events.csv"]:
                 self.assertTrue(os.path.exists(folder + name), name)
             self.assertIn("S07", pathlib.Path(folder + "trials.csv").read_text())
             self.assertFalse(glob.glob(folder + "*.part"))
@@ -373,7 +373,7 @@ hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.1}, {name: re
 """
 BLOCK = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 TICKS = 201
-MADE = ["session.nwb", "trials.csv", "phases.csv", "episodes.csv", "events.csv"]
+MADE = ["session.nwb", "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", "events.csv"]
 
 
 class Damage(unittest.TestCase):
@@ -445,7 +445,7 @@ class Damage(unittest.TestCase):
     def test_only_the_log_is_needed_and_nothing_that_is_cut_crashes(self):
         random.seed(2)
         names = [name for name in os.listdir(self.folder)]
-        self.assertEqual(len(names), 12, names)
+        self.assertEqual(len(names), 13, names)
         whole = {name: pathlib.Path(self.folder + name).read_bytes() for name in names}
         inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
         for name in names:
