@@ -87,6 +87,19 @@ class Reports(unittest.TestCase):
         self.assertEqual({r["people"] for r in rows}, {"2"})
         self.assertEqual(len({r["round"] for r in rows}), 4)
 
+    def test_a_rehearsal_is_reported_without_its_recordings(self):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        people = parent.name + "/people"
+        dihaptic("rehearse", "experiments/rotation-reversal.yaml", "--people", "2", "--jobs", "2", "--out", people)
+        self.assertIn("of 2 sessions", dihaptic("report", people))
+        self.drawn(people + "/report.html", 1)
+        self.assertIn("of 1 session", dihaptic("report", people + "/P001"))
+        self.drawn(people + "/P001/report.html", 1)
+        with open(people + "/population-adaptation.csv") as file:
+            late = [float(r["mean_deg"]) for r in csv.DictReader(file)][200:220]
+        self.assertGreater(sum(late) / len(late), 15)
+
     def test_it_reads_on_paper(self):
         session = next(s for s in self.sessions if "lift-block" in s)
         dihaptic("report", session)

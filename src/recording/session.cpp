@@ -47,17 +47,25 @@ std::string start_by_name(const std::string& path) {
 
 }  // namespace
 
-SessionFolder SessionFolder::open(const std::string& path) {
-    std::error_code unreadable;  // then there is no raw.log either
+SessionFolder SessionFolder::open_with(const std::string& path, const char* file) {
+    std::error_code unreadable;  // then there is no such file either
     std::string folder =
         fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
     while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
     SessionFolder session(folder.empty() ? "." : folder);
-    if (!fs::exists(session.raw_log(), unreadable)) {
-        throw Error({path, 0}, "", "is not a session: there is no raw.log",
+    if (!fs::exists(session.file(file), unreadable)) {
+        throw Error({path, 0}, "", fmt::format("is not a session: there is no {}", file),
                     "Give the folder that 'dihaptic run' printed at its end.");
     }
     return session;
+}
+
+SessionFolder SessionFolder::open(const std::string& path) {
+    return open_with(path, "raw.log");
+}
+
+SessionFolder SessionFolder::open_tables(const std::string& path) {
+    return open_with(path, "session.yaml");
 }
 
 SessionFolder SessionFolder::create(const std::string& parent, const std::string& name) {

@@ -71,6 +71,8 @@ class SessionFolder {
   public:
     /// An existing folder (or a file in it). Throws Error when it is no session.
     static SessionFolder open(const std::string& path);
+    /// The same of one that may have no log any more, only what was made of it: a rehearsal's.
+    static SessionFolder open_tables(const std::string& path);
     /// Makes a new folder in `parent`, named for the time and what is given. Throws Error when it
     /// cannot.
     static SessionFolder create(const std::string& parent, const std::string& name);
@@ -92,6 +94,7 @@ class SessionFolder {
     std::vector<Problem> changed(const std::vector<InputFile>& inputs, Severity severity) const;
 
   private:
+    static SessionFolder open_with(const std::string& path, const char* file);
     explicit SessionFolder(std::string path) : path_(std::move(path)) {}
     std::string path_;
 };

@@ -128,7 +128,7 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
                                   range(all.quartiles)});
         }
     }
-    out.page.table(table, "Over people; people.csv has each of them. " + origin);
+    out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
 }
 
 void add_adaptation(PopulationPage& out, const std::string& title, const Sessions& sessions,

@@ -72,7 +72,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
     const PopulationPage made = population_page(sessions, folder, command);
     const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
     result.sessions = static_cast<int>(sessions.size());
-    write(result, made.people, file("people.csv"));
+    write(result, made.people, file("population-people.csv"));
     write(result, made.adaptation, file("population-adaptation.csv"));
     write(result, made.lifts, file("population-lifts.csv"));
     write(result, made.thresholds, file("population-thresholds.csv"));

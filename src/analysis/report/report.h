@@ -15,9 +15,10 @@ struct ReportResult {
 };
 
 /// Of one session: report.html in its folder, with adaptation.csv and fits.csv where it has
-/// reaches. Of a folder with sessions in it, at any depth: report.html there, with people.csv,
-/// population-adaptation.csv and population-lifts.csv. `command`: how the report was asked for,
-/// which it tells. Throws Error when there is no session.
+/// reaches. Of a folder with sessions in it, at any depth: report.html there, with
+/// population-people.csv, population-adaptation.csv, population-thresholds.csv and
+/// population-lifts.csv. `command`: how the report was asked for, which it tells. Throws Error when
+/// there is no session.
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress);
 

@@ -11,7 +11,7 @@ namespace dihaptic::analysis {
 namespace fs = std::filesystem;
 
 SessionData SessionData::read(const std::string& path) {
-    recording::SessionFolder folder = recording::SessionFolder::open(path);
+    recording::SessionFolder folder = recording::SessionFolder::open_tables(path);
     recording::SessionInfo info = folder.read_info();
     if (info.state == recording::SessionState::running) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "analysis/report/statistics.h"
@@ -430,7 +431,8 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (!session.curves.empty()) add_adaptation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
-    add_course(out, session, progress);
+    // a rehearsal keeps no log
+    if (std::filesystem::exists(session.folder.raw_log())) add_course(out, session, progress);
     out.page.heading("Settings");
     out.page.folded_table("All settings, with where each came from", read_settings(session.folder));
     return out;
