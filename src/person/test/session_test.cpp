@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/field_reader.h"
 #include "experiment/replay.h"
 #include "person/test/sitting.h"
@@ -125,6 +127,33 @@ TEST(Session, AnswersByThePsychometricFunction) {
         const double p = traits.answers().probability(level);
         EXPECT_NEAR(share, p, 3 * std::sqrt(p * (1 - p) / kTrials) + 0.01) << level;
     }
+}
+
+TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
+    Sitting sitting("visual-scaling");
+    sitting.end_with("  redo:",
+                     "  blocks:\n    - { name: thresholds, kind: perturbed, procedures: "
+                     "[more along x, less along x] }\n");
+    experiment::Plan plan = sitting.plan(3);
+    sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
+    std::vector<double> shares;
+    int right = 0;
+    double share = 0;
+    run_trials(plan, [&](const servo::Frame& frame) {
+        if (frame.task.share != 0) share = frame.task.share;
+        if (frame.task.outcome < 0) return;
+        const auto& trial = plan.task->trials[static_cast<size_t>(frame.trial) - 1];
+        const std::string& said = plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name;
+        if (said != "more" && said != "less") return;
+        shares.push_back(share);
+        right += said == plan.task->task.procedures[static_cast<size_t>(trial.procedure)].yes;
+    });
+    ASSERT_EQ(shares.size(), 50u);
+    // they begin where it is plain to see, and settle where it is not: 80 % of answers are right
+    EXPECT_EQ(shares.front(), 0.8);
+    EXPECT_LT(*std::min_element(shares.begin(), shares.end()), 0.5);
+    EXPECT_GT(right, 32);
+    EXPECT_LT(right, 48);
 }
 
 }  // namespace
