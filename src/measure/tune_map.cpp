@@ -5,33 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/markup.h"
 #include "measure/tune.h"
 
 namespace dihaptic::measure {
 namespace {
 
 constexpr double kCell = 44, kLeft = 96, kTop = 84;  // [px]
-
-/// What may be in a picture's text.
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 class Picture {
   public:
@@ -46,7 +26,7 @@ class Picture {
         out_ += fmt::format(
             "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" "
             "stroke=\"#ffffff\"><title>{}</title></rect>\n",
-            x - kCell / 2, y - kCell / 2, kCell, kCell, colour, escaped(tip));
+            x - kCell / 2, y - kCell / 2, kCell, kCell, colour, escaped_markup(tip));
     }
     /// An SVG path; `fill` may be "none".
     void path(const std::string& d, const char* stroke, double width, const char* fill = "none") {
@@ -59,7 +39,7 @@ class Picture {
     void text(double x, double y, const std::string& words, const char* anchor = "start",
               const char* more = "") {
         out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x,
-                            y, anchor, more, escaped(words));
+                            y, anchor, more, escaped_markup(words));
     }
     std::string take() { return out_ + "</svg>\n"; }
 

@@ -7,34 +7,12 @@
 
 #include "analysis/report/assets.h"
 #include "base/field.h"
+#include "base/markup.h"
 
 namespace dihaptic::analysis {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 /// Numbers that are none become null.
 Json numbers(const std::vector<double>& values) {
@@ -52,14 +30,14 @@ std::string in_short(double value) {
 std::string to_html(const Table& table) {
     std::string out = "<div class=\"wide\"><table>\n<tr>";
     for (const Table::Column& column : table.columns)
-        out += fmt::format("<th title=\"{}\">{}</th>", escaped(column.description),
-                           escaped(column.name));
+        out += fmt::format("<th title=\"{}\">{}</th>", escaped_markup(column.description),
+                           escaped_markup(column.name));
     out += "</tr>\n";
     for (const auto& row : table.rows) {
         out += "<tr>";
         for (const Table::Cell& cell : row) {
             if (const auto* text = std::get_if<std::string>(&cell)) {
-                out += fmt::format("<td>{}</td>", escaped(*text));
+                out += fmt::format("<td>{}</td>", escaped_markup(*text));
                 continue;
             }
             const double value = std::get<double>(cell);
@@ -76,19 +54,19 @@ Page::Page(std::string title, std::string origin)
     : title_(std::move(title)), origin_(std::move(origin)) {}
 
 void Page::heading(const std::string& text) {
-    body_ += fmt::format("<h2>{}</h2>\n", escaped(text));
+    body_ += fmt::format("<h2>{}</h2>\n", escaped_markup(text));
 }
 
 void Page::text(const std::string& text) {
-    body_ += fmt::format("<p>{}</p>\n", escaped(text));
+    body_ += fmt::format("<p>{}</p>\n", escaped_markup(text));
 }
 
 void Page::table(const Table& table, const std::string& caption) {
-    body_ += to_html(table) + fmt::format("<p class=\"caption\">{}</p>\n", escaped(caption));
+    body_ += to_html(table) + fmt::format("<p class=\"caption\">{}</p>\n", escaped_markup(caption));
 }
 
 void Page::folded_table(const std::string& title, const Table& table) {
-    body_ += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title),
+    body_ += fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped_markup(title),
                          to_html(table));
 }
 
@@ -111,7 +89,7 @@ void Page::chart(const Chart& chart) {
     body_ += fmt::format(
         "<figure><div class=\"chart\" data-chart=\"{}\"></div><div class=\"legend\"></div>"
         "<figcaption class=\"caption\">{}</figcaption></figure>\n",
-        escaped(data), escaped(chart.caption));
+        escaped_markup(data), escaped_markup(chart.caption));
     ++charts_;
 }
 
@@ -126,8 +104,8 @@ std::string Page::html() const {
         "<style>\n{1}\n{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"origin\">{3}</p>\n"
         "{4}{5}<p class=\"origin\">{3}</p>\n<script>\n{6}\n</script>\n<script>\n{7}</script>\n"
         "</body>\n</html>\n",
-        escaped(title_), kDygraphStyle, kPageStyle, escaped(origin_), hint, body_, kDygraphScript,
-        kPageScript);
+        escaped_markup(title_), kDygraphStyle, kPageStyle, escaped_markup(origin_), hint, body_,
+        kDygraphScript, kPageScript);
 }
 
 }  // namespace dihaptic::analysis
