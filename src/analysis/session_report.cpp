@@ -269,14 +269,10 @@ Table event_table(const std::vector<Event>& events) {
 /// The latest time that a table of a session tells of [s].
 double last_time(const std::string& file, const std::string& column) {
     if (!fs::exists(file)) return 0;
-    const auto rows = read_csv(file);
-    if (rows.empty()) return 0;
-    const auto at = std::find(rows[0].begin(), rows[0].end(), column);
-    const auto i = static_cast<size_t>(at - rows[0].begin());
+    const CsvFile table(file);
     double last = 0;
-    for (const auto& row : rows) {
-        if (i < row.size()) last = std::max(last, std::strtod(row[i].c_str(), nullptr));
-    }
+    // a cell without a number is no time
+    for (size_t i = 0; i < table.rows(); ++i) last = std::max(last, table.number(i, column));
     return last;
 }
 

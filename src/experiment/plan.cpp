@@ -184,11 +184,10 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
     plan.task = made;
 
     // trials.csv has a row for each attempt, in the order in which they were made
-    const auto rows = read_csv(folder.file("trials.csv"));
-    const auto column = std::find(rows.front().begin(), rows.front().end(), "outcome");
-    const auto at = static_cast<size_t>(column - rows.front().begin());
-    for (size_t i = 1; i < rows.size(); ++i) {
-        const auto same = [&](const TaskPlan::Outcome& o) { return o.name == rows[i].at(at); };
+    const CsvFile trials(folder.file("trials.csv"));
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const std::string outcome = trials.text(i, "outcome");
+        const auto same = [&](const TaskPlan::Outcome& o) { return o.name == outcome; };
         const auto found = std::find_if(made->outcomes.begin(), made->outcomes.end(), same);
         if (found != made->outcomes.end())
             plan.done.push_back(static_cast<int>(found - made->outcomes.begin()));
