@@ -7,7 +7,6 @@
 #include <map>
 
 #include "base/random.h"
-#include "experiment/check.h"
 #include "experiment/task_director.h"
 #include "experiment/test/reaches.h"
 #include "testing/allocation_guard.h"
@@ -171,55 +170,38 @@ TEST(ProceduresInTasks, TakeUpAnswersWithoutAllocating) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
-struct WrongProcedure {
-    const char* what;
-    const char* by;
-    const char* said;
-};
-class BrokenProcedure : public ::testing::TestWithParam<WrongProcedure> {};
+class BrokenProcedure : public ::testing::TestWithParam<Mistake> {};
 
-TEST_P(BrokenProcedure, IsRefused) {
+TEST_P(BrokenProcedure, IsRefusedWithFileLineAndRemedy) {
     Thresholds files;
-    files.replace(GetParam().what, GetParam().by);
-    Diagnostics diagnostics;
-    check_file(files.request().file, diagnostics);
-    std::string all;
-    bool found = false;
-    for (const Problem& p : diagnostics.problems()) {
-        all += p.text() + "\n";
-        found = found || (p.severity == Severity::error && p.place.line > 0 &&
-                          p.text().find(GetParam().said) != std::string::npos);
-    }
-    EXPECT_TRUE(found) << all;
+    expect_refused(files, GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, BrokenProcedure,
     ::testing::Values(
-        WrongProcedure{"procedures: [left, right]", "procedures: [left, rihgt]",
-                       "Did you mean right?"},
-        WrongProcedure{"yes: turned\n      no: straight\n      guess: 0\n      trials: 60",
-                       "yes: turnd\n      no: straight\n      guess: 0\n      trials: 60",
-                       "Did you mean turned?"},
-        WrongProcedure{"no: straight", "no: turned", "same outcome as yes"},
-        WrongProcedure{"no: straight", "no: late", "is done again"},
-        WrongProcedure{"perturb: right", "perturb: wrong", "no perturbation"},
-        WrongProcedure{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: []", "list of numbers"},
-        WrongProcedure{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: [0.2, -0.1]", "positive"},
-        WrongProcedure{"start: 0.8", "start: 1.8", "levels of a share end at 1"},
-        WrongProcedure{"levels: { from: 0, to: 1,", "levels: { from: 0, to: 2,",
-                       "levels of a share end at 1"},
-        WrongProcedure{"shapes: { from: 0.05,", "shapes: { from: -1,", "quest_plus.shapes"},
-        WrongProcedure{"levels: { from: 0, to: 1, count: 41 }",
-                       "levels: { from: 0, to: 1, count: 900 }\n        lapse: 3", "lapse"},
-        WrongProcedure{"      staircase: { start: 0.8, steps_up: [0.2, 0.1, 0.05, 0.02], "
-                       "reversals: 40, skipped_reversals: 8 }\n",
-                       "", "no way to choose levels"},
-        WrongProcedure{"      staircase:",
-                       "      quest: { prior_mean: -0.5, prior_sd: 0.5 }\n      staircase:",
-                       "more than one way"},
-        WrongProcedure{"kind: perturbed, procedures: [left, right]",
-                       "kind: perturbed, procedures: [left, right], perturb: left",
-                       "by themselves"}));
+        Mistake{"procedures: [left, right]", "procedures: [left, rihgt]", "Did you mean right?"},
+        Mistake{"yes: turned\n      no: straight\n      guess: 0\n      trials: 60",
+                "yes: turnd\n      no: straight\n      guess: 0\n      trials: 60",
+                "Did you mean turned?"},
+        Mistake{"no: straight", "no: turned", "same outcome as yes"},
+        Mistake{"no: straight", "no: late", "is done again"},
+        Mistake{"perturb: right", "perturb: wrong", "no perturbation"},
+        Mistake{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: []", "list of numbers"},
+        Mistake{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: [0.2, -0.1]", "positive"},
+        Mistake{"start: 0.8", "start: 1.8", "levels of a share end at 1"},
+        Mistake{"levels: { from: 0, to: 1,", "levels: { from: 0, to: 2,",
+                "levels of a share end at 1"},
+        Mistake{"shapes: { from: 0.05,", "shapes: { from: -1,", "quest_plus.shapes"},
+        Mistake{"levels: { from: 0, to: 1, count: 41 }",
+                "levels: { from: 0, to: 1, count: 900 }\n        lapse: 3", "lapse"},
+        Mistake{"      staircase: { start: 0.8, steps_up: [0.2, 0.1, 0.05, 0.02], "
+                "reversals: 40, skipped_reversals: 8 }\n",
+                "", "no way to choose levels"},
+        Mistake{"      staircase:",
+                "      quest: { prior_mean: -0.5, prior_sd: 0.5 }\n      staircase:",
+                "more than one way"},
+        Mistake{"kind: perturbed, procedures: [left, right]",
+                "kind: perturbed, procedures: [left, right], perturb: left", "by themselves"}));
 
 }  // namespace
 }  // namespace dihaptic::experiment

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <string>
 
+#include "experiment/check.h"
 #include "experiment/session_run.h"
 #include "testing/files.h"
 
@@ -89,5 +90,31 @@ struct Files {
         return run_session(plan, options, stop, {});
     }
 };
+
+/// A mistake: what is written in place of what, and what must be said of it.
+struct Mistake {
+    const char* what;
+    const char* by;
+    const char* said;
+};
+
+/// check refuses the file with the mistake, and says file, line and remedy.
+inline void expect_refused(Files& files, const Mistake& mistake) {
+    files.replace(mistake.what, mistake.by);
+    Diagnostics diagnostics;
+    check_file(files.request().file, diagnostics);
+    bool found = false;
+    std::string all;
+    for (const Problem& p : diagnostics.problems()) {
+        all += p.text() + "\n";
+        if (p.severity != Severity::error || p.text().find(mistake.said) == std::string::npos)
+            continue;
+        found = true;
+        EXPECT_GT(p.place.line, 0) << p.text();
+        EXPECT_NE(p.place.file.find("experiment.yaml"), std::string::npos) << p.text();
+        EXPECT_FALSE(p.remedy.empty()) << p.text();
+    }
+    EXPECT_TRUE(found) << "not said: " << mistake.said << "\nbut:\n" << all;
+}
 
 }  // namespace dihaptic::experiment

@@ -1,40 +1,16 @@
 // Every mistake that a task's file can have, and what is said of it.
 #include <gtest/gtest.h>
 
-#include "experiment/check.h"
 #include "experiment/test/reaches.h"
 
 namespace dihaptic::experiment {
 namespace {
 
-/// A mistake: what is written in place of what, and what must be said of it, with the line.
-struct Mistake {
-    const char* what;
-    const char* by;
-    const char* said;
-};
-
 class BrokenFile : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BrokenFile, IsRefusedWithFileLineAndRemedy) {
     Files files;
-    const size_t at = files.experiment.find(GetParam().what);
-    ASSERT_NE(at, std::string::npos);
-    files.experiment.replace(at, std::string(GetParam().what).size(), GetParam().by);
-    Diagnostics diagnostics;
-    check_file(files.request().file, diagnostics);
-    bool found = false;
-    std::string all;
-    for (const Problem& p : diagnostics.problems()) {
-        all += p.text() + "\n";
-        if (p.severity != Severity::error || p.text().find(GetParam().said) == std::string::npos)
-            continue;
-        found = true;
-        EXPECT_GT(p.place.line, 0) << p.text();
-        EXPECT_NE(p.place.file.find("experiment.yaml"), std::string::npos) << p.text();
-        EXPECT_FALSE(p.remedy.empty()) << p.text();
-    }
-    EXPECT_TRUE(found) << "not said: " << GetParam().said << "\nbut:\n" << all;
+    expect_refused(files, GetParam());
 }
 
 const char* const kExit = "{ when: outside, region: shell, outcome: reached, feedback: Good }";

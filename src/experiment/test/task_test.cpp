@@ -21,15 +21,27 @@ namespace fs = std::filesystem;
 
 /// A column of a session's trials.csv.
 std::vector<std::string> column(const std::string& session, const std::string& name) {
-    const auto rows = read_csv(session + "/trials.csv");
-    const auto at = std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+    const CsvFile trials(session + "/trials.csv");
     std::vector<std::string> out;
-    for (size_t i = 1; i < rows.size(); ++i) out.push_back(rows[i].at(static_cast<size_t>(at)));
+    for (size_t i = 0; i < trials.rows(); ++i) out.push_back(trials.text(i, name));
     return out;
 }
 
 analysis::SessionFigures finish(const RunResult& result) {
     return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+}
+
+/// The plan with some of its trials only, as a session in `out`.
+RunResult run_some(Plan& plan, const std::shared_ptr<const TaskPlan>& some,
+                   const std::string& out) {
+    plan.task = some;
+    plan.seeing = std::make_shared<TaskHand>(some, plan.hand, scene::finger_names(plan.scene));
+    plan.driver = plan.seeing;
+    RunOptions options;
+    options.out = out;
+    RunResult result = run_session(plan, options, kGoOn, {});
+    finish(result);
+    return result;
 }
 
 TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
@@ -277,13 +289,7 @@ TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
     std::erase_if(some->trials, [](const Trial& trial) {
         return trial.number > 8 || trial.in_block > (trial.block == 1 ? 8 : 2);
     });
-    plan.task = some;
-    plan.seeing = std::make_shared<TaskHand>(some, plan.hand, scene::finger_names(plan.scene));
-    plan.driver = plan.seeing;
-    RunOptions options;
-    options.out = folder.path();
-    const RunResult result = run_session(plan, options, kGoOn, {});
-    finish(result);
+    const RunResult result = run_some(plan, some, folder.path());
     const auto outcome = column(result.folder, "outcome");
     const auto kind = column(result.folder, "kind");
     const auto hand = column(result.folder, "hand_angle_deg");
@@ -312,13 +318,7 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
                trial.kind == TrialKind::washout;
     });
     ASSERT_EQ(some->trials.size(), 2u);
-    plan.task = some;
-    plan.seeing = std::make_shared<TaskHand>(some, plan.hand, scene::finger_names(plan.scene));
-    plan.driver = plan.seeing;
-    RunOptions options;
-    options.out = folder.path();
-    const RunResult result = run_session(plan, options, kGoOn, {});
-    finish(result);
+    const RunResult result = run_some(plan, some, folder.path());
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(2, "carried"));
     recording::RawLogReader log(result.folder + "/raw.log");
     Vec3 v = Vec3::Zero();
