@@ -132,9 +132,9 @@ class Exporter {
         tick_ = log.head().tick;
         while (fs::exists(file(fingers_.front(), "motion.tsv"))) ++run_;
         write_motion(log, progress);
-        for (const std::string& finger : fingers_) {
-            write_channels(finger);
-            write_description(finger);
+        for (size_t f = 0; f < fingers_.size(); ++f) {
+            write_channels(fingers_[f], channels_[f]);
+            write_description(fingers_[f], channels_[f]);
         }
         write_events();
         write_data_set();
@@ -178,11 +178,11 @@ class Exporter {
         }
     }
 
-    void write_channels(const std::string& finger) {
+    void write_channels(const std::string& finger, const std::vector<Channel>& channels) {
         std::vector<std::vector<std::string>> rows{{"name", "component", "type", "tracked_point",
                                                     "units", "sampling_frequency",
                                                     "reference_frame"}};
-        for (const Channel& c : channels_of(finger))
+        for (const Channel& c : channels)
             rows.push_back({c.name, c.component, c.type, c.point, c.unit,
                             fmt::format("{:g}", 1 / tick_), "global"});
         write_file(lines(rows), file(finger, "channels.tsv"));
@@ -197,9 +197,9 @@ class Exporter {
         write_file(levels.dump(2) + "\n", file(finger, "channels.json"));
     }
 
-    void write_description(const std::string& finger) {
+    void write_description(const std::string& finger, const std::vector<Channel>& channels) {
         std::map<std::string, int> counts;
-        for (const Channel& c : channels_of(finger)) ++counts[c.type];
+        for (const Channel& c : channels) ++counts[c.type];
         std::string model = "unknown";
         for (const recording::DeviceRecord& device : info_.devices) {
             if (device.finger == finger) model = device.model;
@@ -210,7 +210,7 @@ class Exporter {
                   {"TrackingSystemName", label(finger)},
                   {"ManufacturersModelName", model},
                   {"SoftwareVersions", info_.program},
-                  {"MotionChannelCount", channels_of(finger).size()},
+                  {"MotionChannelCount", channels.size()},
                   {"TrackedPointsCount", 2},
                   {"RecordingType", "continuous"},
                   {"RecordingDuration", static_cast<double>(ticks_) * tick_}};

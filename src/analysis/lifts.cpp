@@ -102,10 +102,9 @@ double threshold(const Signals& signals, const Signal& rate) {
 }
 
 /// When a digit touches, and when it lets go after `replaced`; none: it does not.
-std::optional<size_t> touch(const Signals& signals, const Signal& force) {
+std::optional<size_t> touch(const Signals& signals, const Signal& force, const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
     if (*largest <= 0) return std::nullopt;
-    const Signal rate = savitzky_golay(force, signals.tick, kWindow, 1);
     const double limit = threshold(signals, rate);
     auto i = static_cast<size_t>(
         std::find_if(force.begin(), force.end(), [&](double f) { return f >= *largest / 4; }) -
@@ -114,8 +113,8 @@ std::optional<size_t> touch(const Signals& signals, const Signal& force) {
     return i;
 }
 
-std::optional<size_t> release(const Signals& signals, const Signal& force, size_t replaced) {
-    const Signal rate = savitzky_golay(force, signals.tick, kWindow, 1);
+std::optional<size_t> release(const Signals& signals, const Signal& force, const Signal& rate,
+                              size_t replaced) {
     const double limit = threshold(signals, rate);
     size_t i = replaced;
     while (i < force.size() && force[i] > force[replaced] / 4) ++i;
@@ -206,10 +205,13 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     const Signals signals(trace, gravity);
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
 
+    std::vector<Signal> digit_rates;
+    for (const Signal& force : signals.digit_grip)
+        digit_rates.push_back(savitzky_golay(force, signals.tick, kWindow, 1));
     std::optional<size_t> touched;
     std::vector<size_t> onsets;
     for (size_t f = 0; f < trace.fingers(); ++f) {
-        const auto at = touch(signals, signals.digit_grip[f]);
+        const auto at = touch(signals, signals.digit_grip[f], digit_rates[f]);
         if (!at) continue;
         touched = std::min(touched.value_or(*at), *at);
         if (const auto onset = load_onset(signals, signals.digit_load[f], *at))
@@ -294,8 +296,8 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     }
     lift.mark = "not released";
     size_t released = replaced;
-    for (const Signal& force : signals.digit_grip) {
-        const auto at = release(signals, force, replaced);
+    for (size_t f = 0; f < trace.fingers(); ++f) {
+        const auto at = release(signals, signals.digit_grip[f], digit_rates[f], replaced);
         if (!at) return lift;
         released = std::max(released, *at);
     }
