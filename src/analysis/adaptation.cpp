@@ -74,6 +74,23 @@ AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
             mean_of_first(of_kind("washout"), 1)};
 }
 
+std::vector<Table::Cell> AdaptationCurve::landmark_cells() const {
+    const Landmarks at = landmarks();
+    return {perturbation(),  at.baseline,    at.early,      at.late,
+            at.catch_trials, at.clamp_first, at.clamp_last, at.washout_first};
+}
+
+std::vector<Table::Column> landmark_columns() {
+    return {{"perturbation_deg", ""},
+            {"baseline_deg", "mean"},
+            {"early_deg", "first eight perturbed trials"},
+            {"late_deg", "last eight"},
+            {"catch_deg", "mean of the catch trials"},
+            {"clamp_first_deg", "first eight in the clamp"},
+            {"clamp_last_deg", "last eight"},
+            {"washout_first_deg", "first trial"}};
+}
+
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
     std::vector<AdaptationCurve> curves;
     bool any = false;

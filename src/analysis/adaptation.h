@@ -42,7 +42,11 @@ struct AdaptationCurve {
         double baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first;
     };
     Landmarks landmarks() const;
+    /// The perturbation and the landmarks, for a table with landmark_columns().
+    std::vector<Table::Cell> landmark_cells() const;
 };
+
+std::vector<Table::Column> landmark_columns();
 
 /// By round, in the order in which they were done. Empty where no reaches were measured.
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials);

@@ -50,13 +50,15 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
     return out;
 }
 
-std::optional<ThresholdFit> fit_threshold(const ThresholdTrack& track, uint64_t seed) {
+std::optional<PsychometricFit> fit_threshold(const ThresholdTrack& track) {
     const std::vector<LevelCount> counts = count(track.answers);
     if (track.answers.size() < kLeast || counts.size() < 2) return std::nullopt;
-    ThresholdFit out;
-    out.fit = fit_psychometric(counts, track.model);
-    out.intervals = bootstrap(counts, out.fit, track.model, kResamples, seed);
-    return out;
+    return fit_psychometric(counts, track.model);
+}
+
+PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
+                                          uint64_t seed) {
+    return bootstrap(count(track.answers), fit, track.model, kResamples, seed);
 }
 
 }  // namespace dihaptic::analysis

@@ -26,12 +26,10 @@ struct ThresholdTrack {
 /// By procedure. Answers that are neither yes nor no, and trials of none, are left out.
 std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures);
 
-struct ThresholdFit {
-    PsychometricFit fit;
-    PsychometricIntervals intervals;
-};
-
-/// None of less than ten answers, or of one level. `seed`: of the bootstrap.
-std::optional<ThresholdFit> fit_threshold(const ThresholdTrack& track, uint64_t seed);
+/// None of less than ten answers, or of one level.
+std::optional<PsychometricFit> fit_threshold(const ThresholdTrack& track);
+/// Of its fit, from 500 bootstrap samples.
+PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
+                                          uint64_t seed);
 
 }  // namespace dihaptic::analysis

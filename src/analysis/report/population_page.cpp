@@ -30,19 +30,10 @@ struct PersonCurve {
 void add_people(PopulationPage& out, const std::string& title,
                 const std::vector<PersonCurve>& people) {
     for (const PersonCurve& person : people) {
-        const auto at = person.curve->landmarks();
         std::vector<Table::Cell>& row = out.people.rows.emplace_back();
-        row = {title,
-               person.session->participant(),
-               person.curve->round,
-               person.curve->perturbation(),
-               at.baseline,
-               at.early,
-               at.late,
-               at.catch_trials,
-               at.clamp_first,
-               at.clamp_last,
-               at.washout_first};
+        const std::vector<Table::Cell> landmarks = person.curve->landmark_cells();
+        row = {title, person.session->participant(), person.curve->round};
+        row.insert(row.end(), landmarks.begin(), landmarks.end());
         if (!person.fits) {
             row.resize(out.people.columns.size() - 1, AdaptationCurve::kNone);
         } else {
@@ -120,12 +111,9 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
             }
             const Sample all = sample(values);
             if (all.count == 0) continue;
-            const auto range = [](const Interval& interval) {
-                return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
-            };
             table.rows.push_back({round, out.people.columns[c].name, static_cast<double>(all.count),
-                                  all.mean, range(all.mean_interval), all.sd, all.median,
-                                  range(all.quartiles)});
+                                  all.mean, in_words(all.mean_interval), all.sd, all.median,
+                                  in_words(all.quartiles)});
         }
     }
     out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
@@ -159,10 +147,10 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
     std::map<std::string, std::vector<double>> shares;
     for (const SessionData* session : sessions) {
         for (const ThresholdTrack& track : session->tracks) {
-            const auto fitted = fit_threshold(track, std::stoull(session->info.seed));
+            const auto fitted = fit_threshold(track);
             if (!fitted) continue;
             if (!shares.contains(track.procedure)) procedures.push_back(track.procedure);
-            const model::Psychometric& f = fitted->fit.function;
+            const model::Psychometric& f = fitted->function;
             shares[track.procedure].push_back(track.share(f.threshold));
             out.thresholds.rows.push_back(
                 {title, session->participant(), track.procedure, track.perturbation,
@@ -176,10 +164,8 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
         {"procedure", ""}, {"people", ""}, {"mean", ""}, {"mean 95 %", ""}, {"SD", ""}};
     for (const std::string& procedure : procedures) {
         const Sample all = sample(shares[procedure]);
-        table.rows.push_back(
-            {procedure, static_cast<double>(all.count), all.mean,
-             fmt::format("{:.3g} to {:.3g}", all.mean_interval.low, all.mean_interval.high),
-             all.sd});
+        table.rows.push_back({procedure, static_cast<double>(all.count), all.mean,
+                              in_words(all.mean_interval), all.sd});
     }
     out.page.table(table, "Thresholds over people, as shares of the perturbation. " + origin);
 }
@@ -219,10 +205,8 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
         for (const char* figure : kFigures) {
             const Sample all = sample(medians[group][figure]);
             if (all.count == 0) continue;
-            table.rows.push_back(
-                {group, std::string(figure), static_cast<double>(all.count), all.mean,
-                 fmt::format("{:.3g} to {:.3g}", all.mean_interval.low, all.mean_interval.high),
-                 all.sd});
+            table.rows.push_back({group, std::string(figure), static_cast<double>(all.count),
+                                  all.mean, in_words(all.mean_interval), all.sd});
             out.lifts.rows.push_back({title, group, std::string(figure),
                                       static_cast<double>(all.count), all.mean, all.sd,
                                       all.mean_interval.low, all.mean_interval.high});
@@ -250,25 +234,17 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
         Page(titles.size() == 1 ? titles.front() : fmt::format("{} experiments", titles.size()),
              fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
                          recording::program_version(), command))};
-    out.people.columns = {{"experiment", "title"},
-                          {"ppid", "participant"},
-                          {"round", ""},
-                          {"perturbation_deg", ""},
-                          {"baseline_deg", "mean"},
-                          {"early_deg", "first eight perturbed trials"},
-                          {"late_deg", "last eight"},
-                          {"catch_deg", "mean of the catch trials"},
-                          {"clamp_first_deg", "first eight in the clamp"},
-                          {"clamp_last_deg", "last eight"},
-                          {"washout_first_deg", "first trial"},
-                          {"A_fast", "two-rate model, fitted"},
-                          {"B_fast", ""},
-                          {"A_slow", ""},
-                          {"B_slow", ""},
-                          {"two_rate_sd_deg", "of the residuals"},
-                          {"A", "single-rate model, fitted"},
-                          {"B", ""},
-                          {"session", "folder"}};
+    out.people.columns = {{"experiment", "title"}, {"ppid", "participant"}, {"round", ""}};
+    const std::vector<Table::Column> landmarks = landmark_columns();
+    out.people.columns.insert(out.people.columns.end(), landmarks.begin(), landmarks.end());
+    out.people.columns.insert(out.people.columns.end(), {{"A_fast", "two-rate model, fitted"},
+                                                         {"B_fast", ""},
+                                                         {"A_slow", ""},
+                                                         {"B_slow", ""},
+                                                         {"two_rate_sd_deg", "of the residuals"},
+                                                         {"A", "single-rate model, fitted"},
+                                                         {"B", ""},
+                                                         {"session", "folder"}});
     out.adaptation.columns = {
         {"experiment", ""},   {"round", ""},    {"trial", ""},  {"block", ""},
         {"people", ""},       {"mean_deg", ""}, {"sd_deg", ""}, {"mean_low_deg", "95 %"},

@@ -17,10 +17,6 @@ namespace {
 constexpr double kLongest = 60;       // of a session that is drawn as a whole [s]
 constexpr size_t kMostPoints = 1500;  // of a curve over time
 
-std::string interval_text(const Interval& interval) {
-    return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
-}
-
 /// What the session was, for its head.
 Table facts(const SessionData& session) {
     const recording::SessionInfo& info = session.info;
@@ -93,27 +89,20 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
                               {"compensation_deg", "of the hand"},
                               {"two_rate_deg", "fitted"},
                               {"single_rate_deg", "fitted"}};
-    out.fits.columns = {{"round", ""},
-                        {"perturbation_deg", ""},
-                        {"baseline_deg", "mean"},
-                        {"early_deg", "first eight perturbed trials"},
-                        {"late_deg", "last eight"},
-                        {"catch_deg", "mean of the catch trials"},
-                        {"clamp_first_deg", "first eight in the clamp"},
-                        {"clamp_last_deg", "last eight"},
-                        {"washout_first_deg", "first trial"},
-                        {"A_fast", "retention a trial"},
-                        {"A_fast_95", "profile interval"},
-                        {"B_fast", "learning"},
-                        {"B_fast_95", ""},
-                        {"A_slow", ""},
-                        {"A_slow_95", ""},
-                        {"B_slow", ""},
-                        {"B_slow_95", ""},
-                        {"two_rate_sd_deg", "of the residuals"},
-                        {"A", "single rate"},
-                        {"B", ""},
-                        {"single_rate_sd_deg", "of the residuals"}};
+    out.fits.columns = landmark_columns();
+    out.fits.columns.insert(out.fits.columns.begin(), {"round", ""});
+    out.fits.columns.insert(out.fits.columns.end(), {{"A_fast", "retention a trial"},
+                                                     {"A_fast_95", "profile interval"},
+                                                     {"B_fast", "learning"},
+                                                     {"B_fast_95", ""},
+                                                     {"A_slow", ""},
+                                                     {"A_slow_95", ""},
+                                                     {"B_slow", ""},
+                                                     {"B_slow_95", ""},
+                                                     {"two_rate_sd_deg", "of the residuals"},
+                                                     {"A", "single rate"},
+                                                     {"B", ""},
+                                                     {"single_rate_sd_deg", "of the residuals"}});
     for (const AdaptationCurve& curve : session.curves) {
         const auto fits = fit_adaptation(curve);
         Series measured{"compensation", Drawn::points, {}, {}, {}, {}};
@@ -150,21 +139,21 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         if (fits) chart.series.push_back(two_rate);
         out.page.chart(chart);
 
-        const auto at = curve.landmarks();
         std::vector<Table::Cell>& row = out.fits.rows.emplace_back();
-        row = {curve.round,     curve.perturbation(), at.baseline,   at.early,        at.late,
-               at.catch_trials, at.clamp_first,       at.clamp_last, at.washout_first};
+        const std::vector<Table::Cell> landmarks = curve.landmark_cells();
+        row = {curve.round};
+        row.insert(row.end(), landmarks.begin(), landmarks.end());
         if (!fits) {
             row.resize(out.fits.columns.size(), AdaptationCurve::kNone);
             continue;
         }
         const TwoRateFit& two = fits->two_rate;
-        row.insert(row.end(), {two.rates.fast.retention, interval_text(two.retention_fast),
-                               two.rates.fast.learning, interval_text(two.learning_fast),
-                               two.rates.slow.retention, interval_text(two.retention_slow),
-                               two.rates.slow.learning, interval_text(two.learning_slow),
-                               two.residual_sd, fits->single_rate.rate.retention,
-                               fits->single_rate.rate.learning, fits->single_rate.residual_sd});
+        row.insert(row.end(),
+                   {two.rates.fast.retention, in_words(two.retention_fast), two.rates.fast.learning,
+                    in_words(two.learning_fast), two.rates.slow.retention,
+                    in_words(two.retention_slow), two.rates.slow.learning,
+                    in_words(two.learning_slow), two.residual_sd, fits->single_rate.rate.retention,
+                    fits->single_rate.rate.learning, fits->single_rate.residual_sd});
     }
     out.page.table(transposed(out.fits),
                    "Means of compensation: over the baseline, the first and the last eight "
@@ -174,7 +163,7 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
 }
 
 /// Where the function has its share of yes, level by level, and the answers.
-Chart psychometric_chart(const ThresholdTrack& track, const std::optional<ThresholdFit>& fitted,
+Chart psychometric_chart(const ThresholdTrack& track, const std::optional<PsychometricFit>& fitted,
                          const std::string& origin) {
     Chart chart;
     chart.title = "Answers of " + track.procedure;
@@ -196,10 +185,10 @@ Chart psychometric_chart(const ThresholdTrack& track, const std::optional<Thresh
         const double x =
             counts.front().level + (counts.back().level - counts.front().level) * i / kSteps;
         curve.x.push_back(x);
-        curve.y.push_back(fitted->fit.function.probability(x));
+        curve.y.push_back(fitted->function.probability(x));
     }
     chart.series.push_back(curve);
-    chart.marks.push_back({fitted->fit.function.threshold, "threshold"});
+    chart.marks.push_back({fitted->function.threshold, "threshold"});
     return chart;
 }
 
@@ -221,7 +210,7 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
                               {"lapse", ""},
                               {"deviance_share", "below 0.05: the function does not fit"}};
     for (const ThresholdTrack& track : session.tracks) {
-        const auto fitted = fit_threshold(track, std::stoull(session.info.seed));
+        const auto fitted = fit_threshold(track);
         Series yes{"yes", Drawn::points, {}, {}, {}, {}};
         Series no{"no", Drawn::points, {}, {}, {}, {}};
         for (size_t i = 0; i < track.answers.size(); ++i) {
@@ -239,11 +228,12 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
             row.resize(out.thresholds.columns.size(), AdaptationCurve::kNone);
             continue;
         }
-        const model::Psychometric& f = fitted->fit.function;
+        const model::Psychometric& f = fitted->function;
+        const PsychometricIntervals intervals =
+            threshold_intervals(track, *fitted, std::stoull(session.info.seed));
         row.insert(row.end(),
-                   {f.threshold, interval_text(fitted->intervals.threshold),
-                    track.share(f.threshold), f.shape, interval_text(fitted->intervals.shape),
-                    f.lapse, fitted->intervals.deviance_share});
+                   {f.threshold, in_words(intervals.threshold), track.share(f.threshold), f.shape,
+                    in_words(intervals.shape), f.lapse, intervals.deviance_share});
     }
     out.page.table(transposed(out.thresholds), origin_of(session));
 }

@@ -1,5 +1,7 @@
 #include "analysis/report/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
@@ -46,6 +48,10 @@ Sample sample(std::span<const double> values) {
     out.median = quantile(x, 0.5);
     out.quartiles = {quantile(x, 0.25), quantile(x, 0.75)};
     return out;
+}
+
+std::string in_words(const Interval& interval) {
+    return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
 }
 
 }  // namespace dihaptic::analysis

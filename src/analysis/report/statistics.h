@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "analysis/fits/minimise.h"
 
@@ -17,5 +18,8 @@ struct Sample {
 };
 
 Sample sample(std::span<const double> values);
+
+/// "0.12 to 0.34"
+std::string in_words(const Interval& interval);
 
 }  // namespace dihaptic::analysis

@@ -136,12 +136,13 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     ASSERT_EQ(tracks.size(), 2u);
     EXPECT_GT(tracks[0].answers.size(), 300u);
     EXPECT_EQ(tracks[1].answers.size(), 0u);
-    EXPECT_FALSE(fit_threshold(tracks[1], 1));
-    const auto fitted = fit_threshold(tracks[0], 1);
+    EXPECT_FALSE(fit_threshold(tracks[1]));
+    const auto fitted = fit_threshold(tracks[0]);
     ASSERT_TRUE(fitted);
-    EXPECT_NEAR(fitted->fit.function.threshold, -0.5, 0.05);
-    EXPECT_LT(fitted->intervals.threshold.low, -0.5);
-    EXPECT_GT(fitted->intervals.threshold.high, -0.5);
+    const auto intervals = threshold_intervals(tracks[0], *fitted, 1);
+    EXPECT_NEAR(fitted->function.threshold, -0.5, 0.05);
+    EXPECT_LT(intervals.threshold.low, -0.5);
+    EXPECT_GT(intervals.threshold.high, -0.5);
     EXPECT_NEAR(tracks[0].share(-0.5), 0.3162, 1e-4);
 }
 
