@@ -113,6 +113,14 @@ class DeviceGroup {
         assert(active_ && wrenches_D.size() == infos_.size());
         do_write(wrenches_D);
     }
+    /// Whether the devices say when a tick is due; on the real clock pace() is called then.
+    virtual bool paces() const { return false; }
+    /// Calls `tick`, which does one read() and one write(), whenever the devices are ready for one,
+    /// until it returns false; from this thread or one of the vendor's, but never two at a time.
+    void pace(const std::function<bool()>& tick) {
+        assert(active_ && paces());
+        do_pace(tick);
+    }
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
     /// Force off at once on all devices, whatever is written, until they are activated again.
@@ -129,10 +137,22 @@ class DeviceGroup {
     virtual void do_deactivate() = 0;
     virtual void do_read(Time now, std::span<Reading> readings) noexcept = 0;
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
+    virtual void do_pace(const std::function<bool()>&) {}
     virtual void do_stop() noexcept {}
 
     std::vector<DeviceInfo> infos_;
     bool active_ = false;
+};
+
+/// What a backend finds on this machine, for `dihaptic devices`.
+struct Survey {
+    struct Device {
+        std::string serial;
+        std::string model;
+        std::string state;  ///< in words, with a remedy when it cannot be used as it is
+    };
+    std::vector<Device> devices;
+    std::string missing;  ///< what keeps the backend from working, and what mends it; "" if nothing
 };
 
 /// An entry of the device table, one for each subfolder of this room.
@@ -142,6 +162,10 @@ struct Backend {
     void (*check)(const DeviceConfig& config, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
                                          const Context& context);
+    /// Whether its devices are real: they move a person's hand, in real time alone.
+    bool real = false;
+    /// Looks for devices without moving them; null for a backend that is always there.
+    Survey (*survey)() = nullptr;
 };
 
 /// All backends.

@@ -67,15 +67,74 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
     return now;
 }
 
+namespace {
+
+/// A run on the real clock, in the thread that calls the ticks.
+struct RealLoop {
+    Servo& servo;
+    const Director& director;
+    const FrameSink& sink;
+    const std::atomic<bool>& stop;
+    Timing& timing;
+    Watchdog& watchdog;
+    Steady::time_point start;  ///< when time was, or would be, zero
+    double last_tick = kUnmeasured;
+    bool overrun = false;
+
+    /// The tick of time `now`, which was due at `due`. Returns whether there is to be another.
+    bool tick(Time due, Time now, Steady::time_point begin) noexcept {
+        const double lateness = seconds(begin - (start + due));
+        servo.note_timing(lateness, last_tick, overrun);
+        const Frame& frame = servo.tick(now, director);
+        if (sink) sink(frame);
+        const auto end = Steady::now();
+        watchdog.end_tick(end);
+        last_tick = seconds(end - begin);
+        timing.ticks.add(last_tick);
+        timing.lateness.add(lateness);
+        timing.reached = now;
+        return !servo.stopped();
+    }
+
+    void run_by_deadlines(Time first, Time last) {
+        Pace pace{servo.period(), first};
+        while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
+            sleep_until(start + pace.due);
+            if (!tick(pace.due, pace.due, Steady::now())) break;
+            pace.end_tick(Steady::now() - start);
+            overrun = pace.late;
+        }
+        timing.overruns += pace.overruns;
+    }
+
+    /// Time is measured here: the devices' period is near the servo's, but their own.
+    void run_by_devices(Time first, Time last) {
+        Time due = first;
+        bool begun = false;
+        servo.pace([&] {
+            const auto begin = Steady::now();
+            if (!begun) start = begin - first;
+            begun = true;
+            const Time now = begin - start;
+            if (now > last || stop.load(std::memory_order_relaxed)) return false;
+            const bool on = tick(due, now, begin);
+            overrun = last_tick > seconds(servo.period());
+            if (overrun) ++timing.overruns;
+            due = now + servo.period();
+            return on;
+        });
+    }
+};
+
+}  // namespace
+
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
               const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck) {
     std::thread thread([&] {
         const RealTime real_time(servo.settings().real_time_priority);
         timing.refusals = real_time.refusals();
-        Pace pace{servo.period(), first};
-        double last_tick = kUnmeasured;
-        auto start = Steady::now();  // when time was, or would be, zero
+        auto start = Steady::now();
         // a tick more than the servo allows itself: whenever this stops the devices, a tick after
         // it is late by the servo's own clock, which is recorded
         const Time limit = from_seconds(servo.settings().safety.max_pause) + servo.period();
@@ -90,27 +149,16 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
                 if (stuck) stuck(*stall);
             });
         // only now: to start a thread may take longer than a tick
-        start = Steady::now() + pace.period - first;
+        start = Steady::now() + servo.period() - first;
         watchdog->end_tick(Steady::now());
-        while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
-            sleep_until(start + pace.due);
-            const auto begin = Steady::now();
-            const double lateness = seconds(begin - (start + pace.due));
-            servo.note_timing(lateness, last_tick, pace.late);
-            const Frame& frame = servo.tick(pace.due, director);
-            if (sink) sink(frame);
-            const auto end = Steady::now();
-            watchdog->end_tick(end);
-            last_tick = seconds(end - begin);
-            timing.ticks.add(last_tick);
-            timing.lateness.add(lateness);
-            timing.reached = pace.due;
-            if (servo.stopped()) break;
-            pace.end_tick(end - start);
+        RealLoop loop{servo, director, sink, stop, timing, *watchdog, start};
+        if (servo.devices().paces()) {
+            loop.run_by_devices(first, last);
+        } else {
+            loop.run_by_deadlines(first, last);
         }
         watchdog.reset();
         if (stall) timing.stall = stall;
-        timing.overruns += pace.overruns;
     });
     thread.join();
 }

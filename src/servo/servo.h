@@ -70,6 +70,8 @@ class Servo {
     bool stopped() const { return stopped_; }
     /// Why force is off, if it is.
     const haptics::Fault& fault() const { return faults_.fault(); }
+    /// Has the devices call `tick` as devices::DeviceGroup::pace() says.
+    void pace(const std::function<bool()>& tick) { devices_->pace(tick); }
     /// Force off on all devices at once, from any thread; false when they cannot.
     bool stop_devices() noexcept;
     /// Energy that a finger's coupling generated, as haptics::EnergyGuard counts it [J].

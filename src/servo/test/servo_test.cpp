@@ -19,7 +19,11 @@ struct Grasp {
     std::unique_ptr<hand::ScriptDriver> driver;
     std::unique_ptr<Servo> servo;
 
-    explicit Grasp(const Settings& settings = {}, const std::string& options = "") {
+    using Wrap =
+        std::function<std::unique_ptr<devices::DeviceGroup>(std::unique_ptr<devices::DeviceGroup>)>;
+
+    explicit Grasp(const Settings& settings = {}, const std::string& options = "",
+                   const Wrap& wrap = {}) {
         hand.script.push_back({"hold", 0.3, {}, Vec3::Zero(), false});
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
@@ -34,7 +38,9 @@ struct Grasp {
         context.driver = driver.get();
         context.impedance = hand.impedance;
         context.tick = settings.tick();
-        servo = std::make_unique<Servo>(scene, settings, rig::make_devices(rig, fingers, context),
+        auto devices = rig::make_devices(rig, fingers, context);
+        servo = std::make_unique<Servo>(scene, settings,
+                                        wrap ? wrap(std::move(devices)) : std::move(devices),
                                         rig::poses(rig, fingers));
         servo->activate();
     }
@@ -358,6 +364,52 @@ TEST(Run, RealTimeAllocatesNothing) {
         Time(0), std::chrono::milliseconds(300), stop, timing);
     EXPECT_EQ(count, 0u);
     EXPECT_GE(timing.overruns, 1);
+}
+
+/// Simulated devices that call the tick themselves, every 2 ms, from a thread of their own.
+class PacingGroup final : public devices::DeviceGroup {
+  public:
+    explicit PacingGroup(std::unique_ptr<devices::DeviceGroup> inner)
+        : DeviceGroup({inner->info(0), inner->info(1)}), inner_(std::move(inner)) {}
+    bool paces() const override { return true; }
+
+  private:
+    void do_activate() override { inner_->activate(); }
+    void do_deactivate() override { inner_->deactivate(); }
+    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
+        inner_->read(now, readings);
+    }
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        inner_->write(wrenches_D);
+    }
+    void do_pace(const std::function<bool()>& tick) override {
+        std::thread([&] {
+            while (tick()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }).join();
+    }
+    std::unique_ptr<devices::DeviceGroup> inner_;
+};
+
+TEST(Run, IsPacedByDevicesThatDoAndTimeIsThatOfTheirTicks) {
+    Grasp grasp({}, "", [](std::unique_ptr<devices::DeviceGroup> inner) {
+        return std::make_unique<PacingGroup>(std::move(inner));
+    });
+    const std::atomic<bool> stop{false};
+    Timing timing;
+    timing.reserve(1000);
+    std::vector<Time> times;
+    times.reserve(1000);
+    const Time first = std::chrono::milliseconds(7);
+    run_real(
+        *grasp.servo, {}, [&](const Frame& frame) { times.push_back(frame.time); }, first,
+        first + std::chrono::milliseconds(100), stop, timing);
+    ASSERT_GT(times.size(), 2u);
+    EXPECT_EQ(times.front(), first);
+    EXPECT_EQ(timing.reached, times.back());
+    EXPECT_LE(times.back(), first + std::chrono::milliseconds(100));
+    EXPECT_EQ(timing.ticks.count(), times.size());
+    for (size_t i = 1; i < times.size(); ++i)
+        EXPECT_GE(times[i] - times[i - 1], std::chrono::milliseconds(2));
 }
 
 }  // namespace
