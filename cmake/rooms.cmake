@@ -48,3 +48,21 @@ function(dihaptic_room name)
             PROPERTIES LABELS soak TIMEOUT 7200)
     endif()
 endfunction()
+
+# The table of a seam's implementations: each subfolder with a header KIND.h has a namespace of the
+# folder's name, in NAMESPACE, with a function KIND(). FILE is made from FILE.in, which has @includes@
+# and @entries@. Adding one touches one folder.
+#
+#   dihaptic_table(device_table.cpp backend dihaptic::devices)
+function(dihaptic_table file kind namespace)
+    get_filename_component(room ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    file(GLOB headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS */${kind}.h)
+    set(includes "")
+    set(entries "")
+    foreach(header ${headers})
+        get_filename_component(folder ${header} DIRECTORY)
+        string(APPEND includes "#include \"${room}/${header}\"\n")
+        string(APPEND entries "    ${namespace}::${folder}::${kind}(),\n")
+    endforeach()
+    configure_file(${file}.in ${file} @ONLY)
+endfunction()

@@ -42,6 +42,7 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     }
     if (rig.devices.empty())
         diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
+    outlets::check(rig.outlets, diagnostics);
 }
 
 }  // namespace

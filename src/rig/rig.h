@@ -2,6 +2,7 @@
 #pragma once
 
 #include "devices/device_group.h"
+#include "outlets/outlet.h"
 
 namespace dihaptic::rig {
 
@@ -29,6 +30,7 @@ struct Device {
 struct Rig {
     std::string title;
     std::vector<Device> devices;
+    std::vector<outlets::OutletConfig> outlets;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
 
@@ -36,6 +38,7 @@ struct Rig {
     void visit(Visitor& v) {
         v("title", title);
         v("devices", devices, Field::text().required());
+        v("outlets", outlets);
         v("settings", settings);
         if constexpr (requires { v.place(); }) place = v.place();
     }

@@ -1,0 +1,139 @@
+#include "outlets/lsl/kind.h"
+
+#include <fmt/format.h>
+
+#include "base/shared_library.h"
+
+namespace dihaptic::outlets::lsl {
+namespace {
+
+struct Options {
+    std::string name = "Dihaptic";  ///< that the streams' names begin with
+    std::string library;            ///< a file; empty: where the system finds liblsl
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name);
+        v("library", library);
+    }
+};
+
+Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
+    Options options;
+    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    return options;
+}
+
+/// The part of liblsl's C interface that is needed; pointers are opaque there too.
+struct Library {
+    SharedLibrary file;
+    void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
+                               int format, const char* source) = nullptr;
+    void (*destroy_streaminfo)(void* info) = nullptr;
+    void* (*get_desc)(void* info) = nullptr;
+    void* (*append_child)(void* element, const char* name) = nullptr;
+    void* (*append_child_value)(void* element, const char* name, const char* value) = nullptr;
+    void* (*create_outlet)(void* info, int32_t chunk, int32_t seconds) = nullptr;
+    void (*destroy_outlet)(void* outlet) = nullptr;
+    int32_t (*push_sample_ft)(void* outlet, const float* values, double time) = nullptr;
+    int32_t (*push_sample_strt)(void* outlet, const char** values, double time) = nullptr;
+    double (*local_clock)() = nullptr;
+
+    explicit Library(const std::vector<std::string>& names)
+        : file(names,
+               "Install liblsl, from github.com/sccn/liblsl/releases, or name its file: options: "
+               "{ library: /usr/lib/liblsl.so }.") {
+        file.find(create_streaminfo, "lsl_create_streaminfo");
+        file.find(destroy_streaminfo, "lsl_destroy_streaminfo");
+        file.find(get_desc, "lsl_get_desc");
+        file.find(append_child, "lsl_append_child");
+        file.find(append_child_value, "lsl_append_child_value");
+        file.find(create_outlet, "lsl_create_outlet");
+        file.find(destroy_outlet, "lsl_destroy_outlet");
+        file.find(push_sample_ft, "lsl_push_sample_ft");
+        file.find(push_sample_strt, "lsl_push_sample_strt");
+        file.find(local_clock, "lsl_local_clock");
+    }
+};
+
+constexpr int kFloat = 1;   // cft_float32
+constexpr int kString = 3;  // cft_string
+constexpr int32_t kBuffer = 360;  // [s] that a reader may be away, liblsl's default
+
+class Lsl final : public Outlet {
+  public:
+    Lsl(const Options& options, const About& about)
+        : library_(options.library.empty()
+                       ? std::vector<std::string>{"liblsl.so.2", "liblsl.so"}
+                       : std::vector<std::string>{options.library}) {
+        // Both clocks are monotonic, and may have another zero.
+        const auto now = Clock::now().time_since_epoch();
+        offset_ = library_.local_clock() - std::chrono::duration<double>(now).count();
+        markers_ = open(options.name + " markers", "Markers", {{"code", ""}}, 0, kString,
+                        about.session + "/markers");
+        handles_ = open(options.name + " handles", "Haptics", about.channels, about.rate, kFloat,
+                        about.session + "/handles");
+    }
+    ~Lsl() override {
+        library_.destroy_outlet(markers_);
+        library_.destroy_outlet(handles_);
+    }
+    Lsl(const Lsl&) = delete;
+    Lsl& operator=(const Lsl&) = delete;
+
+    void mark(int code, Clock::time_point at) override {
+        const std::string text = std::to_string(code);
+        const char* value = text.c_str();
+        library_.push_sample_strt(markers_, &value, time(at));
+    }
+    void sample(std::span<const float> values, Clock::time_point at) override {
+        library_.push_sample_ft(handles_, values.data(), time(at));
+    }
+
+  private:
+    double time(Clock::time_point at) const {
+        return offset_ + std::chrono::duration<double>(at.time_since_epoch()).count();
+    }
+    void* open(const std::string& name, const char* type, const std::vector<Channel>& channels,
+               double rate, int format, const std::string& source) const {
+        void* info = library_.create_streaminfo(name.c_str(), type,
+                                                static_cast<int32_t>(channels.size()), rate,
+                                                format, source.c_str());
+        void* list = library_.append_child(library_.get_desc(info), "channels");
+        for (const Channel& channel : channels) {
+            void* one = library_.append_child(list, "channel");
+            library_.append_child_value(one, "label", channel.label.c_str());
+            library_.append_child_value(one, "unit", channel.unit.c_str());
+        }
+        void* outlet = library_.create_outlet(info, 0, kBuffer);
+        library_.destroy_streaminfo(info);
+        if (outlet == nullptr)
+            throw Error(fmt::format("liblsl cannot open the stream '{}'", name),
+                        "Allow multicast on this machine's network, or remove the outlet.");
+        return outlet;
+    }
+
+    Library library_;
+    double offset_ = 0;
+    void* markers_ = nullptr;
+    void* handles_ = nullptr;
+};
+
+void check(const OutletConfig& config, Diagnostics& diagnostics) {
+    read_options(config, diagnostics);
+}
+
+std::unique_ptr<Outlet> make(const OutletConfig& config, const About& about) {
+    Diagnostics diagnostics;
+    const Options options = read_options(config, diagnostics);
+    diagnostics.throw_if_errors();
+    return std::make_unique<Lsl>(options, about);
+}
+
+}  // namespace
+
+Kind kind() {
+    return {"lsl", check, make, true, false};
+}
+
+}  // namespace dihaptic::outlets::lsl

@@ -1,0 +1,76 @@
+// The seam to what else a lab records with: where event codes go, and where triggers come from.
+//
+// An outlet is made before a session begins, which may allocate and throw an Error that names the
+// remedy. Then it is called from the Station's thread alone, never from the servo's.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "base/node.h"
+
+namespace dihaptic::outlets {
+
+using Clock = std::chrono::steady_clock;
+
+/// An outlet, as the rig file has it.
+struct OutletConfig {
+    std::string kind;
+    Node options;  ///< the kind's own
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind, Field::text().required());
+        v("options", options);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A value that is sampled in each tick.
+struct Channel {
+    std::string label;
+    std::string unit;
+};
+
+/// What outlets know of the session.
+struct About {
+    std::string session;  ///< its folder's name
+    double rate = 0;      ///< of samples [Hz]
+    std::vector<Channel> channels;
+};
+
+class Outlet {
+  public:
+    virtual ~Outlet() = default;
+
+    /// An event code, 1 to 255, of the tick at `at`. Throws Error when it cannot be sent.
+    virtual void mark(int code, Clock::time_point at) = 0;
+    /// A value for each of About::channels.
+    virtual void sample(std::span<const float>, Clock::time_point) {}
+    /// Called about every millisecond. Returns the trigger that came in since, 1 to 255; 0: none.
+    virtual int tend(Clock::time_point) { return 0; }
+};
+
+/// An entry of the table of kinds, one for each subfolder of this room.
+struct Kind {
+    const char* name;
+    /// Checks the options, without opening anything.
+    void (*check)(const OutletConfig& config, Diagnostics& diagnostics);
+    std::unique_ptr<Outlet> (*make)(const OutletConfig& config, const About& about);
+    bool samples;   ///< whether it wants them
+    bool triggers;  ///< whether they can come from it
+};
+
+std::span<const Kind> kinds();
+/// The one of that name, or null.
+const Kind* find_kind(const std::string& name);
+
+/// Everything that is wrong with a rig's outlets goes to `diagnostics`.
+void check(const std::vector<OutletConfig>& outlets, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::outlets

@@ -1,0 +1,221 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "base/temporary_folder.h"
+#include "outlets/station.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::outlets {
+namespace {
+
+OutletConfig config(const std::string& kind, const std::string& options) {
+    return {kind, parse_yaml(options, "rig.yaml"), {"rig.yaml", 7}};
+}
+
+/// The far end of a serial line.
+struct FarEnd {
+    int file = -1;
+    std::string port;
+
+    FarEnd() {
+        int near = -1;
+        std::array<char, 256> name{};
+        EXPECT_EQ(openpty(&file, &near, name.data(), nullptr, nullptr), 0);
+        port = name.data();
+        close(near);
+        fcntl(file, F_SETFL, O_NONBLOCK);
+    }
+    ~FarEnd() { close(file); }
+    /// What came, once there are `count` bytes; what there is after two seconds.
+    std::vector<int> receive(size_t count) const {
+        std::vector<int> out;
+        for (int i = 0; i < 2000 && out.size() < count; ++i) {
+            unsigned char byte = 0;
+            while (read(file, &byte, 1) == 1) out.push_back(byte);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return out;
+    }
+};
+
+TEST(Serial, SendsEachCodeAndThenZeroWhereAPulseIsAskedFor) {
+    const FarEnd far;
+    Station station({config("serial", "{ port: " + far.port + ", hold_ms: 3 }")}, {});
+    EXPECT_FALSE(station.wants_samples());
+    station.send(17, {});
+    EXPECT_EQ(far.receive(2), (std::vector<int>{17, 0}));
+    station.send(255, {});
+    station.send(0, {});  // a tick without a code
+    EXPECT_EQ(far.receive(2), (std::vector<int>{255, 0}));
+    EXPECT_TRUE(station.finish().empty());
+}
+
+TEST(Serial, CodesThatAreLeftAreSentAtTheEnd) {
+    const FarEnd far;
+    Station station({config("serial", "{ port: " + far.port + " }")}, {});
+    for (int code = 1; code <= 200; ++code) station.send(code, {});
+    EXPECT_TRUE(station.finish().empty());
+    const std::vector<int> received = far.receive(200);
+    ASSERT_EQ(received.size(), 200u);
+    for (int i = 0; i < 200; ++i) EXPECT_EQ(received[static_cast<size_t>(i)], i + 1);
+}
+
+TEST(Serial, WhatComesInIsATrigger) {
+    const FarEnd far;
+    Station station({config("serial", "{ port: " + far.port + " }")}, {});
+    EXPECT_EQ(station.take_trigger(), 0);
+    const unsigned char byte = 5;
+    ASSERT_EQ(write(far.file, &byte, 1), 1);
+    int code = 0;
+    for (int i = 0; i < 2000 && code == 0; ++i) {
+        code = station.take_trigger();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(code, 5);
+    EXPECT_EQ(station.take_trigger(), 0);  // once
+}
+
+TEST(Serial, ALineThatBreaksIsToldAndHoldsNothingUp) {
+    auto far = std::make_unique<FarEnd>();
+    Station station({config("serial", "{ port: " + far->port + " }")}, {});
+    station.send(1, {});
+    EXPECT_EQ(far->receive(1), (std::vector<int>{1}));
+    far.reset();
+    for (int i = 0; i < 10; ++i) station.send(2, {});
+    const std::vector<std::string> failures = station.finish();
+    ASSERT_EQ(failures.size(), 1u);
+    EXPECT_NE(failures[0].find("serial: "), std::string::npos);
+    EXPECT_NE(failures[0].find("events.csv"), std::string::npos);
+}
+
+TEST(Serial, APortThatIsNotThereIsRefusedWithARemedy) {
+    try {
+        Station station({config("serial", "{ port: /dev/no-such-line }")}, {});
+        FAIL();
+    } catch (const Error& e) {
+        const std::string text = e.what();
+        EXPECT_NE(text.find("rig.yaml:7"), std::string::npos) << text;
+        EXPECT_NE(text.find("No such file"), std::string::npos) << text;
+        EXPECT_NE(text.find("ls /dev/tty"), std::string::npos) << text;
+    }
+}
+
+TEST(Serial, AFileIsNoLine) {
+    const TemporaryFolder folder;
+    const std::string file = folder.path() + "/file";
+    std::ofstream(file) << "x";
+    EXPECT_THROW(Station({config("serial", "{ port: " + file + " }")}, {}), Error);
+}
+
+struct Records {
+    TemporaryFolder folder;
+    std::string file = folder.path() + "/lsl.txt";
+    Records() { setenv("DIHAPTIC_FAKE_LSL", file.c_str(), 1); }
+    std::vector<std::vector<std::string>> read(const std::string& kind) const {
+        std::vector<std::vector<std::string>> out;
+        std::ifstream in(file);
+        for (std::string line; std::getline(in, line);) {
+            std::vector<std::string> cells;
+            std::istringstream text(line);
+            for (std::string cell; std::getline(text, cell, '|');) cells.push_back(cell);
+            if (cells[0] == kind) out.push_back(cells);
+        }
+        return out;
+    }
+};
+
+TEST(Lsl, StreamsCodesAndValuesWithTheTimesOfTheirTicks) {
+    const Records records;
+    const About about{"2026-01-01_lift", 1000, {{"thumb_x", "m"}, {"thumb_force_x", "N"}}};
+    Station station({config("lsl", std::string("{ name: Lab, library: ") + DIHAPTIC_FAKE_LSL + " }")},
+                    about);
+    EXPECT_TRUE(station.wants_samples());
+    const auto clock = [] {
+        return 1000 + std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    };
+    const double before = clock();
+    station.send(0, std::array{0.25f, 1.5f});
+    station.send(42, std::array{0.5f, -2.0f});
+    const double after = clock();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they are sent later than that
+    EXPECT_TRUE(station.finish().empty());
+
+    const auto infos = records.read("info");
+    ASSERT_EQ(infos.size(), 2u);
+    EXPECT_EQ(infos[0], (std::vector<std::string>{"info", "Lab markers", "Markers", "1", "0", "3",
+                                                  "2026-01-01_lift/markers"}));
+    EXPECT_EQ(infos[1], (std::vector<std::string>{"info", "Lab handles", "Haptics", "2", "1000",
+                                                  "1", "2026-01-01_lift/handles"}));
+    const auto values = records.read("value");
+    ASSERT_EQ(values.size(), 6u);
+    EXPECT_EQ(values[4][2], "thumb_force_x");
+    EXPECT_EQ(values[5][2], "N");
+    const auto samples = records.read("sample");
+    ASSERT_EQ(samples.size(), 2u);
+    EXPECT_EQ(samples[0][3], "0.25");
+    EXPECT_EQ(samples[1][4], "-2");
+    const auto marks = records.read("mark");
+    ASSERT_EQ(marks.size(), 1u);
+    EXPECT_EQ(marks[0][3], "42");
+    EXPECT_GE(std::stod(marks[0][2]), before - 1e-3);
+    EXPECT_LE(std::stod(marks[0][2]), after + 1e-3);
+}
+
+TEST(Lsl, WithoutTheLibraryItSaysWhatWasSoughtAndWhereToGetIt) {
+    try {
+        Station station({config("lsl", "{ library: /no/such/liblsl.so }")}, {});
+        FAIL();
+    } catch (const Error& e) {
+        const std::string text = e.what();
+        EXPECT_NE(text.find("/no/such/liblsl.so"), std::string::npos) << text;
+        EXPECT_NE(text.find("github.com/sccn/liblsl"), std::string::npos) << text;
+    }
+}
+
+TEST(Lsl, ALibraryThatIsAnotherOneIsRefused) {
+    try {
+        Station station({config("lsl", "{ library: libm.so.6 }")}, {});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("libm.so.6 has no 'lsl_create_streaminfo'"),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(Station, SendsWithoutAllocating) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    const FarEnd far;
+    Station station({config("serial", "{ port: " + far.port + " }")}, {"s", 1000, {{"x", "m"}}});
+    const testing::AllocationGuard guard;
+    for (int i = 0; i < 100; ++i) {
+        station.send(i % 2, std::array{1.0f});
+        (void)station.take_trigger();
+    }
+    EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(Kinds, RefuseWhatTheyDoNotKnow) {
+    const auto problems = [](const OutletConfig& outlet) {
+        Diagnostics diagnostics;
+        check({outlet}, diagnostics);
+        return diagnostics.problems();
+    };
+    EXPECT_TRUE(problems(config("serial", "{ port: /dev/ttyUSB0 }")).empty());
+    EXPECT_TRUE(problems({"lsl", {}, {}}).empty());
+    EXPECT_EQ(problems(config("parallel", "{ port: 1 }")).size(), 1u);
+    EXPECT_EQ(problems({"serial", {}, {}}).size(), 1u);
+    EXPECT_EQ(problems(config("serial", "{ port: /dev/ttyUSB0, baud: 12 }")).size(), 1u);
+    EXPECT_EQ(problems(config("serial", "{ port: /dev/ttyUSB0, hold_ms: 5000 }")).size(), 1u);
+    EXPECT_EQ(problems(config("lsl", "{ nmae: Lab }")).size(), 1u);
+}
+
+}  // namespace
+}  // namespace dihaptic::outlets
