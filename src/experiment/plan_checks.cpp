@@ -222,6 +222,26 @@ void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnosti
         "Make it lighter: it cannot be felt as it is.");
 }
 
+/// A trial that waits for what cannot come.
+void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    for (const outlets::OutletConfig& outlet : plan.rig.outlets) {
+        const outlets::Kind* kind = outlets::find_kind(outlet.kind);
+        if (kind != nullptr && kind->triggers) return;
+    }
+    for (const State& state : plan.task->task.states) {
+        for (const Exit& exit : state.exits) {
+            if (exit.when != When::trigger) continue;
+            diagnostics.warning(exit.place, "when",
+                                "the rig has no line that a trigger could come in on: on the real "
+                                "clock this waits for ever",
+                                "Add to the rig e.g. outlets: [{ kind: serial, options: { port: "
+                                "/dev/ttyUSB0 } }].");
+            return;
+        }
+    }
+}
+
 /// A field on a handle that the loop cannot hold calmly: as a coupling's stiffness and damping.
 void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     if (!plan.task) return;
@@ -281,6 +301,7 @@ void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
     check_torsion(plan, diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
     check_fields(plan, devices->devices(), diagnostics);
+    check_triggers(plan, diagnostics);
     diagnostics.throw_if_errors();
     plan.warnings = diagnostics.problems();
 }

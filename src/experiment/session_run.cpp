@@ -13,6 +13,7 @@
 #include "base/text_file.h"
 #include "experiment/phase_director.h"
 #include "experiment/task_director.h"
+#include "outlets/station.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -120,6 +121,49 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
     head.fingers = scene::finger_names(scene);
     for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
     return head;
+}
+
+/// To what else the lab records with: event codes, handle positions and forces.
+class Outward {
+  public:
+    Outward(const Plan& plan, const std::string& session)
+        : station_(plan.rig.outlets, about(plan, session)) {
+        if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
+    }
+    void send(const servo::Frame& frame) noexcept {
+        for (size_t i = 0; i < values_.size() / 6; ++i) {
+            const servo::FingerFrame& finger = frame.fingers[i];
+            for (int k = 0; k < 3; ++k) {
+                values_[6 * i + static_cast<size_t>(k)] = static_cast<float>(finger.p_WH[k]);
+                values_[6 * i + 3 + static_cast<size_t>(k)] =
+                    static_cast<float>(finger.f_sent_W[k]);
+            }
+        }
+        station_.send(frame.task.marker, values_);
+    }
+    int take_trigger() noexcept { return station_.take_trigger(); }
+    std::vector<std::string> finish() { return station_.finish(); }
+
+  private:
+    static outlets::About about(const Plan& plan, const std::string& session) {
+        outlets::About out{session, 1 / plan.settings.tick(), {}};
+        for (const scene::Finger& finger : plan.scene.fingers) {
+            for (const auto& [what, unit] : {std::pair("position", "m"), std::pair("force", "N")}) {
+                for (const char* axis : {"x", "y", "z"})
+                    out.channels.push_back({fmt::format("{}_{}_{}", finger.name, what, axis), unit});
+            }
+        }
+        return out;
+    }
+
+    outlets::Station station_;
+    std::vector<float> values_;
+};
+
+/// Whether a trigger comes to a simulated session in this tick: what is waited for comes once a
+/// second.
+bool simulated_trigger(const servo::Frame& last, Time period) noexcept {
+    return (last.time + period) % std::chrono::seconds(1) < period;
 }
 
 /// A simulated hand that never does what a trial waits for would fill the disk.
@@ -242,6 +286,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         folder.raw_log(), log_head(plan.scene, plan.settings, info),
         real ? recording::Writing::in_thread : recording::Writing::in_place);
     result.lock.emplace(folder);
+    std::optional<Outward> outward;  // others must not take a rehearsal for a session
+    if (real && !plan.rig.outlets.empty())
+        outward.emplace(plan, fs::path(folder.path()).filename().string());
     if (plan.seeing) plan.seeing->restart();
     servo->activate();
     const Time whole = plan.task ? kLongest : from_seconds(plan.driver->duration());
@@ -253,6 +300,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     bool resumed = false;
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
+        if (outward) outward->send(frame);
         if (plan.seeing) plan.seeing->see(frame);
         if (live != nullptr) live->show(frame);
         reached.store(frame.time.count(), std::memory_order_relaxed);
@@ -268,6 +316,11 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             if (options.keys != nullptr) task->press(options.keys->exchange(0));
             if (const char key = plan.seeing ? plan.seeing->take_key() : '\0'; key != 0)
                 task->press(key);
+            if (outward) {
+                if (const int code = outward->take_trigger(); code != 0) task->trigger(code);
+            } else if (!real && simulated_trigger(last, servo->period())) {
+                task->trigger(TaskDirector::kAnyTrigger);
+            }
             (*task)(last, handles, commands);
         } else {
             phases(last, handles, commands);
@@ -323,6 +376,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.elapsed = since(begin);
     servo->deactivate();
     recorder.finish();
+    if (outward) {
+        for (const std::string& failure : outward->finish()) info.notes.push_back(failure);
+    }
     result.simulated = seconds(Time(reached.load()));
     result.ticks = recorder.frames();
     result.dropped = recorder.dropped();

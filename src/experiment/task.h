@@ -19,11 +19,12 @@ enum class When {
     still,     ///< the finger, or all, are slower than a speed
     key,       ///< the operator pressed a key
     button,    ///< a button of a finger's device is held
+    trigger,   ///< a code came in from outside, on one of the rig's outlets
     time,      ///< of the state is over
 };
 constexpr auto enum_names(When) {
     return std::array{"inside", "outside", "touched", "released", "gripped",
-                      "lifted", "still",   "key",     "button",   "time"};
+                      "lifted", "still",   "key",     "button",   "trigger", "time"};
 }
 
 /// One way out of a state: to another, or out of the trial with an outcome.
@@ -38,6 +39,7 @@ struct Exit {
     double hold = 0;       ///< so long without a break; with time: after so long [s]
     std::string key;       ///< one letter or digit
     int button = 0;        ///< counted from 0
+    int code = 0;          ///< trigger; 0: any
     std::string to;        ///< state
     std::string outcome;   ///< of the trial, which ends
     bool redo = false;     ///< the trial is to be done again
@@ -56,6 +58,7 @@ struct Exit {
         v("hold", hold, Field::of(Quantity::time).within(0, 3600));
         v("key", key);
         v("button", button, Field::number().within(0, 31));
+        v("code", code, Field::number().within(0, 255));
         v("to", to);
         v("outcome", outcome);
         v("redo", redo);

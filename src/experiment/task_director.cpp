@@ -100,7 +100,8 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
 const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
                                            std::span<const haptics::Handle> handles,
                                            double now) noexcept {
-    const char key = key_.exchange(0, std::memory_order_relaxed);
+    const Input input{key_.exchange(0, std::memory_order_relaxed),
+                      trigger_.exchange(0, std::memory_order_relaxed)};
     const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
     for (size_t i = 0; i < ways.size(); ++i) {
         const TaskPlan::Way& way = ways[i];
@@ -109,7 +110,7 @@ const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
             if (now - entered_ >= way.exit.hold - tick_ / 2) return &way;
             continue;
         }
-        if (!holds(way, last, handles, key)) {
+        if (!holds(way, last, handles, input)) {
             since_[i] = kNever;
             continue;
         }
@@ -120,7 +121,8 @@ const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
 }
 
 bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
-                         std::span<const haptics::Handle> handles, char key) const noexcept {
+                         std::span<const haptics::Handle> handles,
+                         const Input& input) const noexcept {
     const auto finger = static_cast<size_t>(std::max(0, way.finger));
     switch (way.exit.when) {
         case When::inside:
@@ -154,9 +156,12 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
             }
             return true;
         case When::key:
-            return key == way.exit.key.front();
+            return input.key == way.exit.key.front();
         case When::button:
             return (last.fingers[finger].buttons >> way.exit.button & 1u) != 0;
+        case When::trigger:
+            return input.trigger == kAnyTrigger ||
+                   (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
         case When::time:
             break;
     }
@@ -178,7 +183,8 @@ bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
 
 void TaskDirector::finish(int outcome, bool redo, servo::Commands& commands) noexcept {
     commands.trial = queue_.trial() + 1;
-    commands.phase = state_ + 1;
+    // one that is skipped before it began has its only frame in its first state
+    commands.phase = std::max(state_, 0) + 1;
     commands.task.attempt = queue_.attempt();
     commands.task.outcome = outcome;
     commands.task.message = message_;

@@ -21,6 +21,9 @@ class TaskDirector {
 
     /// A key of the operator's, from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    /// A trigger from outside, from any thread. `code`: 1 to 255, or kAnyTrigger.
+    void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
+    static constexpr int kAnyTrigger = -1;  ///< whatever is waited for
     /// The trial ends in the next tick, as skipped, and is not done again; from any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
     /// Share of the trials that are done, from any thread.
@@ -30,8 +33,13 @@ class TaskDirector {
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const servo::Frame& last) const noexcept;
     void enter(int state, double now, servo::Commands& commands) noexcept;
+    /// What came in from outside since the last tick.
+    struct Input {
+        char key;     // 0: none
+        int trigger;  // 0: none
+    };
     bool holds(const TaskPlan::Way& way, const servo::Frame& last,
-               std::span<const haptics::Handle> handles, char key) const noexcept;
+               std::span<const haptics::Handle> handles, const Input& input) const noexcept;
     bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
     const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
                                  double now) noexcept;
@@ -54,6 +62,7 @@ class TaskDirector {
     int message_ = -1;
     std::vector<double> since_;  // by way: when its condition began to hold; -1: it does not [s]
     std::atomic<char> key_{0};
+    std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};
     std::atomic<double> share_{0};
 };

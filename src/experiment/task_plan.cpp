@@ -165,6 +165,10 @@ class Planner {
                 if (exit.hold <= 0)
                     error(exit.place, "hold", "how long is missing", "Add e.g. hold_s: 2.");
                 break;
+            case When::trigger:
+                if (exit.hold > 0)
+                    error(exit.place, "hold", "a trigger is over at once", "Leave it out.");
+                break;
             case When::still:
             case When::button:
                 break;

@@ -9,6 +9,7 @@
 #include "experiment/replay.h"
 #include "experiment/test/reaches.h"
 #include "recording/raw_log.h"
+#include "testing/far_end.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -172,6 +173,28 @@ TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
     EXPECT_EQ(outcomes.front(), "skipped");
     EXPECT_EQ(std::count(outcomes.begin(), outcomes.end(), "reached"),
               static_cast<int>(outcomes.size()) - 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, TriggersComeInAndEventCodesGoOutOnTheRigsSerialLine) {
+    const testing::FarEnd far;
+    Files files;
+    files.experiment = "rig: rig.yaml\n" + files.experiment;
+    files.replace("{ when: inside, region: start, hold_s: 0.2, to: reach }",
+                  "{ when: trigger, to: reach }");
+    files.folder.write("rig.yaml",
+                       "devices: [{ finger: index, backend: simulated }]\n"
+                       "outlets: [{ kind: serial, options: { port: " +
+                           far.port + " } }]\n");
+    Desk desk(files.request());
+    EXPECT_TRUE(desk.plan.warnings.empty());
+    desk.at(0.3);
+    EXPECT_EQ(desk.live.frame.read().phase, 1);  // it waits
+    far.send(200);
+    EXPECT_EQ(far.receive(1), (std::vector<int>{7}));
+    desk.end();
+    for (const std::string& note : desk.result.info.notes)
+        EXPECT_EQ(note.find("serial"), std::string::npos) << note;
     EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
 }
 

@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kExit, "{ when: gripped, body: block, outcome: reached }", "a grip takes two"},
         Mistake{kExit, "{ when: key, key: enter, outcome: reached }", "is no key"},
         Mistake{kExit, "{ when: time, outcome: reached }", "how long is missing"},
+        Mistake{kExit, "{ when: trigger, code: 256, outcome: reached }", "code"},
+        Mistake{kExit, "{ when: trigger, hold_s: 1, outcome: reached }", "is over at once"},
         Mistake{kExit, "{ when: button, button: 40, outcome: reached }", "button"},
         Mistake{"duration_s: 0.2, reach: target", "duration_s: 0, reach: target", "duration_s"},
         Mistake{"duration_s: 0.2, reach: target", "reach: target", "duration"},

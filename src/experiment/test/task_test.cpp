@@ -278,6 +278,58 @@ TEST(Task, AKeyEndsAState) {
     EXPECT_EQ(plan.task->outcomes.at(static_cast<size_t>(std::max(0, outcome))).name, "reached");
 }
 
+TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
+    Files files;
+    files.replace("{ when: inside, region: start, hold_s: 0.2, to: reach }",
+                  "{ when: trigger, code: 9, to: reach }");
+    Plan plan = make_plan(files.request());
+    ASSERT_FALSE(plan.warnings.empty());
+    EXPECT_NE(plan.warnings.back().text().find("no line that a trigger"), std::string::npos);
+    const RunResult result = files.run(plan);
+    finish(result);
+    EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
+    for (const auto& row : read_csv(result.folder + "/events.csv")) {
+        if (row[2] != "phase" || row[3] != "reach") continue;
+        const double time = std::stod(row[0]);
+        EXPECT_NEAR(time, std::round(time), 1.5e-3);
+    }
+
+    TaskDirector director(*plan.task, 1, 1e-3);
+    servo::Frame last;  // none yet: nothing is in the way
+    last.sequence = -1;
+    last.fingers.resize(1);
+    last.bodies.resize(2);
+    const std::vector<haptics::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
+    const auto phase_after = [&](int code) {
+        director.trigger(code);
+        servo::Commands commands;
+        director(last, handles, commands);
+        return commands.phase;
+    };
+    EXPECT_EQ(phase_after(0), 1);
+    EXPECT_EQ(phase_after(8), 1);  // another code
+    EXPECT_EQ(phase_after(9), 2);
+}
+
+TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
+    Files files;
+    const Plan plan = make_plan(files.request());
+    TaskDirector director(*plan.task, 1, 1e-3);
+    servo::Frame last;
+    last.fingers.resize(1);
+    last.bodies.resize(2);
+    const std::vector<haptics::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
+    servo::Commands commands;
+    director.skip();
+    director(last, handles, commands);
+    EXPECT_EQ(commands.trial, 1);
+    EXPECT_EQ(commands.task.outcome, plan.task->skipped);
+    EXPECT_NE(commands.phase, kBetween);  // whose frames are no trial's
+    commands = {};
+    director(last, handles, commands);
+    EXPECT_EQ(commands.trial, 2);
+}
+
 TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
     const testing::TemporaryFolder folder;
     Request request;

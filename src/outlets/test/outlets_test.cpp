@@ -1,7 +1,4 @@
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <pty.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdlib>
@@ -11,39 +8,16 @@
 #include "base/temporary_folder.h"
 #include "outlets/station.h"
 #include "testing/allocation_guard.h"
+#include "testing/far_end.h"
 
 namespace dihaptic::outlets {
 namespace {
 
+using testing::FarEnd;
+
 OutletConfig config(const std::string& kind, const std::string& options) {
     return {kind, parse_yaml(options, "rig.yaml"), {"rig.yaml", 7}};
 }
-
-/// The far end of a serial line.
-struct FarEnd {
-    int file = -1;
-    std::string port;
-
-    FarEnd() {
-        int near = -1;
-        std::array<char, 256> name{};
-        EXPECT_EQ(openpty(&file, &near, name.data(), nullptr, nullptr), 0);
-        port = name.data();
-        close(near);
-        fcntl(file, F_SETFL, O_NONBLOCK);
-    }
-    ~FarEnd() { close(file); }
-    /// What came, once there are `count` bytes; what there is after two seconds.
-    std::vector<int> receive(size_t count) const {
-        std::vector<int> out;
-        for (int i = 0; i < 2000 && out.size() < count; ++i) {
-            unsigned char byte = 0;
-            while (read(file, &byte, 1) == 1) out.push_back(byte);
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return out;
-    }
-};
 
 TEST(Serial, SendsEachCodeAndThenZeroWhereAPulseIsAskedFor) {
     const FarEnd far;
@@ -71,8 +45,7 @@ TEST(Serial, WhatComesInIsATrigger) {
     const FarEnd far;
     Station station({config("serial", "{ port: " + far.port + " }")}, {});
     EXPECT_EQ(station.take_trigger(), 0);
-    const unsigned char byte = 5;
-    ASSERT_EQ(write(far.file, &byte, 1), 1);
+    far.send(5);
     int code = 0;
     for (int i = 0; i < 2000 && code == 0; ++i) {
         code = station.take_trigger();
