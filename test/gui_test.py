@@ -311,6 +311,16 @@ class Trials(Window):
         with open(self.recording() + "trials.csv") as file:
             return [row["outcome"] for row in csv.DictReader(file)]
 
+    def assert_changes_were_seen(self):
+        """Of what came on and stayed, events.csv says when it came to the subject's screen."""
+        with open(self.recording() + "events.csv") as file:
+            events = [row for row in csv.DictReader(file) if row["event"] in ("message", "perturbation")]
+        self.assertGreater(len(events), 10)
+        seen = [float(row["shown_s"]) - float(row["time_s"]) for row in events if row["shown_s"]]
+        self.assertGreater(len(seen), 0.8 * len(events))
+        self.assertGreater(min(seen), 0)
+        self.assertLess(sorted(seen)[len(seen) // 2], 0.5)  # this machine draws slowly
+
     def test_run_from_start_to_end_by_the_simulated_hand(self):
         def short(text):
             return text[:text.index("  redo: end_of_block")] + """  redo: never
@@ -341,6 +351,7 @@ class Trials(Window):
         info = pathlib.Path(self.recording() + "session.yaml").read_text()
         for line in ("id: S07", "age: 31", "sex: F", "handedness: right"):
             self.assertRegex(info, line.replace(": ", ": \"?"))
+        self.assert_changes_were_seen()
         self.replay()
         self.quit()
 

@@ -97,7 +97,7 @@ class Nwb(unittest.TestCase):
         self.assertTrue(np.allclose(orientation[:, 0], 1, atol=1e-3))  # w first
 
     def test_tables(self):
-        for name, columns in {"trials": ["start_time", "stop_time", "outcome"], "phases": ["start_time", "stop_time", "phase", "mean_grip_N"]}.items():
+        for name, columns in {"trials": ["start_time", "stop_time", "outcome"], "phases": ["start_time", "stop_time", "phase", "mean_grip_N"], "events": ["start_time", "stop_time", "event", "detail", "shown_s"]}.items():
             table = self.file["intervals/" + name]
             self.assertEqual(table.attrs["neurodata_type"], "TimeIntervals")
             self.assertEqual(table["id"].attrs["neurodata_type"], "ElementIdentifiers")
@@ -106,9 +106,12 @@ class Nwb(unittest.TestCase):
             for column in table.attrs["colnames"]:
                 self.assertEqual(len(table[column]), len(table["id"]))
                 self.assertTrue(table[column].attrs["description"])
-            self.assertTrue(np.all(table["stop_time"][:] > table["start_time"][:]))
+            moments = name == "events"
+            self.assertTrue(np.all((table["stop_time"][:] - table["start_time"][:] > 0) != moments))
         self.assertEqual(self.file["intervals/trials/outcome"].asstr()[0], "done")
         self.assertEqual(self.file["intervals/phases/phase"].asstr()[3], "hold")
+        self.assertIn("lift-off", list(self.file["intervals/events/event"].asstr()))
+        self.assertTrue(np.all(np.isnan(self.file["intervals/events/shown_s"][:])))  # there was no screen
 
     def test_settings_with_their_origins_are_inside(self):
         table = self.file["scratch/settings"]

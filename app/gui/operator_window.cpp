@@ -80,6 +80,9 @@ OperatorWindow::OperatorWindow(QString out)
                 .arg(tuning.damping ? QString("%1 N s/m").arg(*tuning.damping) : QString("k h / 2"))
                 .arg(tuning.smoothing));
     });
+    connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
+        if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
+    });
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
     connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
@@ -439,6 +442,8 @@ void OperatorWindow::show_subject_window(bool shown) {
         subject_->scene().set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
     }
     connect(subject_.get(), &SubjectWindow::key_pressed, this, &OperatorWindow::press);
+    connect(&subject_->scene(), &SceneWidget::presented, this,
+            [this](qint64 tick) { runner_.note_shown(tick); });
     connect(
         subject_.get(), &SubjectWindow::closed, this,
         [this] { subject_action_->setChecked(false); }, Qt::QueuedConnection);

@@ -20,6 +20,11 @@ SceneWidget::SceneWidget(QWidget* parent)
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(320, 240);
+    connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+        if (shown_.sequence == presented_) return;
+        presented_ = shown_.sequence;
+        Q_EMIT presented(presented_);
+    });
     for (QLabel* label : {banner_, help_}) {
         label->setAttribute(Qt::WA_TransparentForMouseEvents);
         label->hide();

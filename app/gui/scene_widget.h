@@ -56,6 +56,8 @@ class SceneWidget : public QOpenGLWidget {
     QSize sizeHint() const override { return {900, 640}; }
 
   Q_SIGNALS:
+    /// The picture of a tick that was not shown before was handed to the screen.
+    void presented(qint64 tick);
     /// The hand has a new goal.
     void hand_moved();
     void camera_moved();
@@ -88,6 +90,7 @@ class SceneWidget : public QOpenGLWidget {
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
     view::Shown shown_;
+    int64_t presented_ = -1;  // tick
     MouseHand* hand_ = nullptr;
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;

@@ -46,6 +46,10 @@ class SessionRunner : public QObject {
     void skip() { session_->live.skip = true; }
     /// Share of the trials that are over.
     double done() const { return session_->live.done; }
+    /// The picture of a tick was handed just now to the screen that the subject looks at.
+    void note_shown(int64_t tick) {
+        if (running()) session_->live.note_shown(tick, experiment::Live::Clock::now());
+    }
     /// For a task that waits for a key.
     void press(char key) { session_->key = key; }
     void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }

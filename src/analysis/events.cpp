@@ -27,7 +27,7 @@ std::string EventFinder::name(int body) const {
 void EventFinder::add(const servo::Frame& frame) {
     const double now = seconds(frame.time);
     const auto say = [&](const char* what, std::string detail) {
-        events_.push_back({now, frame.trial, what, std::move(detail)});
+        events_.push_back({frame.sequence, now, frame.trial, what, std::move(detail)});
     };
 
     if (frame.trial != trial_ || frame.task.attempt != attempt_) {

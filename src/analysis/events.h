@@ -10,6 +10,7 @@
 namespace dihaptic::analysis {
 
 struct Event {
+    int64_t tick = 0;
     double time = 0;  ///< [s]
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit"; of a task

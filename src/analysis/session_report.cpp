@@ -19,6 +19,7 @@
 #include "base/plural.h"
 #include "recording/nwb.h"
 #include "recording/raw_log.h"
+#include "recording/showings.h"
 #include "scene/scene.h"
 
 namespace dihaptic::analysis {
@@ -256,12 +257,29 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
     return table;
 }
 
-Table event_table(const std::vector<Event>& events) {
+Table event_table(const std::vector<Event>& events, const recording::Showings& showings) {
     Table table;
-    table.columns = {{"time_s", ""}, {"trial", ""}, {"event", ""}, {"detail", ""}};
+    table.columns = {{"time_s", "of its tick"},
+                     {"trial", "number, from 1"},
+                     {"event", "what happened"},
+                     {"detail", "to whom, or what"},
+                     {"shown_s", "when the first picture of it came to the screen; empty: none"}};
     for (const Event& event : events) {
-        table.rows.push_back(
-            {event.time, static_cast<double>(event.trial), event.name, event.detail});
+        table.rows.push_back({event.time, static_cast<double>(event.trial), event.name,
+                              event.detail, showings.onset(event.tick, event.time)});
+    }
+    return table;
+}
+
+/// The same as NWB has tables: of intervals, which begin and end.
+Table as_intervals(const Table& events) {
+    Table table;
+    table.columns = {{"start_time", "s"}, {"stop_time", "s"}};
+    table.columns.insert(table.columns.end(), events.columns.begin() + 1, events.columns.end());
+    for (const std::vector<Table::Cell>& event : events.rows) {
+        std::vector<Table::Cell> row{event[0]};
+        row.insert(row.end(), event.begin(), event.end());
+        table.rows.push_back(row);
     }
     return table;
 }
@@ -367,6 +385,8 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     content.info = info;
     content.trials = reading.trials ? reading.trials->table(info) : trial_table(figures, info);
     content.phases = phase_table(figures);
+    const Table events = event_table(reading.events, recording::Showings(folder));
+    content.events = as_intervals(events);
     content.settings = read_settings(folder);
     recording::write_nwb(folder, content, part(0.4, 1));
     SessionFigures out = figures;
@@ -375,7 +395,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     write_csv(content.phases, folder.file("phases.csv"));
     write_csv(episode_table(figures), folder.file("episodes.csv"));
     if (!reading.lifts.empty()) write_csv(lift_table(reading.lifts), folder.file("lifts.csv"));
-    write_csv(event_table(reading.events), folder.file("events.csv"));
+    write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.write_info(info);
     return out;

@@ -9,7 +9,31 @@ void Live::prepare(const servo::Servo& servo, int object) {
     object_ = object;
 }
 
+/// A tick is late more or less: the earliest zero is the truest. A pause, in which session time
+/// stands still, moves it.
+void Live::note_zero(Time now) noexcept {
+    constexpr Clock::rep kPause = std::chrono::nanoseconds(std::chrono::milliseconds(50)).count();
+    const Clock::rep zero = (Clock::now().time_since_epoch() - now).count();
+    const Clock::rep before = zero_.load(std::memory_order_relaxed);
+    if (zero < before || zero - before > kPause) zero_.store(zero, std::memory_order_relaxed);
+}
+
+void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
+    const Clock::rep zero = zero_.load(std::memory_order_relaxed);
+    const Time since = at.time_since_epoch() - Clock::duration(zero);
+    const recording::Showing showing{tick, seconds(since)};
+    showings_.push(std::as_bytes(std::span(&showing, 1)));
+}
+
+std::optional<recording::Showing> Live::take_showing() {
+    if (!showings_.pop(showing_)) return std::nullopt;
+    recording::Showing showing;
+    std::memcpy(&showing, showing_.data(), sizeof showing);
+    return showing;
+}
+
 void Live::show(const servo::Frame& now) noexcept {
+    note_zero(now.time);
     if (now.sequence == 0 || now.time - shown_ >= kInterval) {
         shown_ = now.time;
         frame.publish(now);

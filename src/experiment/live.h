@@ -8,6 +8,7 @@
 
 #include "base/latest.h"
 #include "base/ring.h"
+#include "recording/showings.h"
 #include "servo/servo.h"
 
 namespace dihaptic::experiment {
@@ -61,7 +62,18 @@ struct Live {
     /// The oldest sample that was not taken yet.
     std::optional<CurveSample> take_sample();
 
+    using Clock = std::chrono::steady_clock;
+    /// From the window's thread: the picture of a tick was handed to the screen at `at`.
+    void note_shown(int64_t tick, Clock::time_point at) noexcept;
+    /// From one other thread: the oldest showing that was not taken yet.
+    std::optional<recording::Showing> take_showing();
+
   private:
+    void note_zero(Time now) noexcept;
+
+    std::atomic<Clock::rep> zero_{std::numeric_limits<Clock::rep>::max()};  // of session time
+    Ring showings_{65536};                                                  // a minute
+    std::vector<std::byte> showing_;
     Ring samples_{65536};  // several seconds: a window that hangs longer has a gap in its curves
     std::vector<std::byte> taken_;
     int object_ = -1;

@@ -150,7 +150,8 @@ class Outward {
         for (const scene::Finger& finger : plan.scene.fingers) {
             for (const auto& [what, unit] : {std::pair("position", "m"), std::pair("force", "N")}) {
                 for (const char* axis : {"x", "y", "z"})
-                    out.channels.push_back({fmt::format("{}_{}_{}", finger.name, what, axis), unit});
+                    out.channels.push_back(
+                        {fmt::format("{}_{}_{}", finger.name, what, axis), unit});
             }
         }
         return out;
@@ -197,16 +198,16 @@ struct Wait {
     bool over = false;
 };
 
-/// Calls `progress` about ten times a second from a thread of its own while something runs.
+/// Calls `look` about ten times a second from a thread of its own while something runs, and once
+/// after.
 class Watcher {
   public:
-    Watcher(const std::function<double()>& share, const Progress& progress) {
-        if (!progress) return;
-        thread_ = std::thread([this, share, progress] {
+    explicit Watcher(const std::function<void()>& look) {
+        thread_ = std::thread([this, look] {
             std::unique_lock lock(mutex_);
             while (!done_) {
                 condition_.wait_for(lock, std::chrono::milliseconds(100));
-                progress(std::min(1.0, share()));
+                look();
             }
         });
     }
@@ -347,16 +348,21 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                         "devices off and on; dihaptic recover {} makes the session's files.",
                         servo::describe(stall), folder.path()));
     };
+    const auto share = [&] {
+        return task ? task->share()
+                    : static_cast<double>(reached.load(std::memory_order_relaxed)) /
+                          static_cast<double>(std::max<int64_t>(1, whole.count()));
+    };
+    recording::ShowingsWriter showings(folder);
     const auto ended = [&] { return live != nullptr && live->ended; };
     const auto begin = Wall::now();
     {
-        const Watcher watcher(
-            [&] {
-                return task ? task->share()
-                            : static_cast<double>(reached.load(std::memory_order_relaxed)) /
-                                  static_cast<double>(std::max<int64_t>(1, whole.count()));
-            },
-            progress);
+        const Watcher watcher([&] {
+            if (progress) progress(std::min(1.0, share()));
+            if (live == nullptr) return;
+            while (const auto showing = live->take_showing()) showings.add(*showing);
+            showings.flush();
+        });
         if (real) {
             const std::atomic<bool> never{false};  // the director stops it, by a fault
             const std::atomic<bool>& paused = live != nullptr ? live->paused : never;

@@ -52,9 +52,10 @@ void Station::call(Line& line, const Call& call) {
     try {
         call(*line.outlet);
     } catch (const Error& e) {
-        failures_.push_back(fmt::format("{}: {} From here on it got no event codes; they are all "
-                                        "in events.csv.",
-                                        line.kind, e.what()));
+        failures_.push_back(
+            fmt::format("{}: {} From here on it got no event codes; they are all "
+                        "in events.csv.",
+                        line.kind, e.what()));
         line.outlet.reset();
     }
 }
@@ -94,9 +95,10 @@ std::vector<std::string> Station::finish() {
     if (thread_.joinable()) thread_.join();
     lines_.clear();
     if (const int64_t lost = lost_.exchange(0); lost > 0)
-        failures_.push_back(fmt::format("{} ticks did not reach the outlets, which were too slow "
-                                        "for them: their event codes are in events.csv.",
-                                        lost));
+        failures_.push_back(
+            fmt::format("{} ticks did not reach the outlets, which were too slow "
+                        "for them: their event codes are in events.csv.",
+                        lost));
     return failures_;
 }
 

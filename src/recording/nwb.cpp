@@ -342,6 +342,9 @@ void write_file(const std::string& name, RawLogReader& log, const NwbContent& co
                             "The trials, in order.");
         write_dynamic_table(intervals, "phases", content.phases, "TimeIntervals", "core",
                             "What each trial is made of.");
+        write_dynamic_table(intervals, "events", content.events, "TimeIntervals", "core",
+                            "What happened, and when it was seen: moments, which stop when they "
+                            "start.");
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
                             "Every setting of the session, and where it came from.");

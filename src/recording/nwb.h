@@ -1,13 +1,14 @@
 // session.nwb: the session as an NWB 2 file (Neurodata Without Borders, HDF5), which h5py, MATLAB's
 // h5read and NWB tools open without this program. Made from raw.log, which stays as it is.
 //
-//   acquisition/<finger>_handle_position, _proxy_position            SpatialSeries [time, 3],
-//   meters acquisition/<finger>_force_sent, _force_asked, _contact_force    TimeSeries [time, 3],
-//   newtons acquisition/<body>_position, <body>_orientation, ...             TimeSeries
-//   acquisition/grip_force, load_force, status, phase, solver_...    TimeSeries [time]
-//   acquisition/contacts                                             TimeSeries [contact, 14], a
-//   row a contact intervals/trials, intervals/phases                               TimeIntervals
-//   general/subject, general/devices; scratch/settings               settings with their origins
+//   acquisition/<finger>_handle_position, _proxy_position   SpatialSeries [time, 3], meters
+//   acquisition/<finger>_force_sent, _force_asked, ...      TimeSeries [time, 3], newtons
+//   acquisition/<body>_position, <body>_orientation, ...    TimeSeries
+//   acquisition/grip_force, load_force, status, phase, ...  TimeSeries [time]
+//   acquisition/contacts                                    TimeSeries [contact, 14], a row a
+//   contact intervals/trials, phases, events                        TimeIntervals general/subject,
+//   general/devices scratch/settings                                        settings with their
+//   origins
 #pragma once
 
 #include <functional>
@@ -22,6 +23,7 @@ struct NwbContent {
     SessionInfo info;
     Table trials;    ///< columns start_time and stop_time first
     Table phases;    ///< columns start_time and stop_time first
+    Table events;    ///< columns start_time and stop_time first
     Table settings;  ///< name, value, origin
 };
 

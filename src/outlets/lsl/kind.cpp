@@ -56,16 +56,15 @@ struct Library {
     }
 };
 
-constexpr int kFloat = 1;   // cft_float32
-constexpr int kString = 3;  // cft_string
+constexpr int kFloat = 1;         // cft_float32
+constexpr int kString = 3;        // cft_string
 constexpr int32_t kBuffer = 360;  // [s] that a reader may be away, liblsl's default
 
 class Lsl final : public Outlet {
   public:
     Lsl(const Options& options, const About& about)
-        : library_(options.library.empty()
-                       ? std::vector<std::string>{"liblsl.so.2", "liblsl.so"}
-                       : std::vector<std::string>{options.library}) {
+        : library_(options.library.empty() ? std::vector<std::string>{"liblsl.so.2", "liblsl.so"}
+                                           : std::vector<std::string>{options.library}) {
         // Both clocks are monotonic, and may have another zero.
         const auto now = Clock::now().time_since_epoch();
         offset_ = library_.local_clock() - std::chrono::duration<double>(now).count();
@@ -96,9 +95,9 @@ class Lsl final : public Outlet {
     }
     void* open(const std::string& name, const char* type, const std::vector<Channel>& channels,
                double rate, int format, const std::string& source) const {
-        void* info = library_.create_streaminfo(name.c_str(), type,
-                                                static_cast<int32_t>(channels.size()), rate,
-                                                format, source.c_str());
+        void* info =
+            library_.create_streaminfo(name.c_str(), type, static_cast<int32_t>(channels.size()),
+                                       rate, format, source.c_str());
         void* list = library_.append_child(library_.get_desc(info), "channels");
         for (const Channel& channel : channels) {
             void* one = library_.append_child(list, "channel");

@@ -107,8 +107,8 @@ struct Records {
 TEST(Lsl, StreamsCodesAndValuesWithTheTimesOfTheirTicks) {
     const Records records;
     const About about{"2026-01-01_lift", 1000, {{"thumb_x", "m"}, {"thumb_force_x", "N"}}};
-    Station station({config("lsl", std::string("{ name: Lab, library: ") + DIHAPTIC_FAKE_LSL + " }")},
-                    about);
+    Station station(
+        {config("lsl", std::string("{ name: Lab, library: ") + DIHAPTIC_FAKE_LSL + " }")}, about);
     EXPECT_TRUE(station.wants_samples());
     const auto clock = [] {
         return 1000 + std::chrono::duration<double>(Clock::now().time_since_epoch()).count();

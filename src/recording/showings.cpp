@@ -1,0 +1,44 @@
+#include "recording/showings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "base/table.h"
+
+namespace dihaptic::recording {
+
+void ShowingsWriter::add(const Showing& showing) {
+    if (!out_.is_open()) {
+        out_.open(file_);
+        out_ << "tick,shown_s\n";
+    }
+    out_ << fmt::format("{},{:.6f}\n", showing.tick, showing.time);
+}
+
+Showings::Showings(const SessionFolder& folder) {
+    const std::string file = folder.file("shown.csv");
+    if (!std::filesystem::exists(file)) return;
+    const CsvFile table(file);
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const double tick = table.number(i, "tick");
+        const double time = table.number(i, "shown_s");
+        // a kill may have cut the last line
+        if (std::isfinite(tick) && std::isfinite(time))
+            showings_.push_back({static_cast<int64_t>(tick), time});
+    }
+}
+
+double Showings::onset(int64_t tick, double time) const {
+    const auto first =
+        std::lower_bound(showings_.begin(), showings_.end(), tick,
+                         [](const Showing& showing, int64_t t) { return showing.tick < t; });
+    if (first == showings_.end() || first->time - time > kSeen)
+        return std::numeric_limits<double>::quiet_NaN();
+    return first->time;
+}
+
+}  // namespace dihaptic::recording
