@@ -148,6 +148,8 @@ class Perturbation {
         double stiffness;  ///< [N/m]
     };
     std::optional<OnHandle> on_handle() const;
+    /// What it makes of a body, in full; unset: it changes none.
+    const std::optional<servo::PropertiesFrame>& properties() const { return properties_; }
 
   private:
     struct Map {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "model/grasp.h"
 
@@ -222,6 +223,89 @@ void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnosti
         "Make it lighter: it cannot be felt as it is.");
 }
 
+/// Objects that the task's trials want lifted, and how heavy and slippery they are there.
+struct Lifting {
+    std::string what;  // in words
+    double weight;     // [N]
+    double friction;   // with the most slippery finger
+};
+
+std::vector<Lifting> liftings(const Plan& plan) {
+    std::set<std::string> lifted;
+    for (const State& state : plan.task->task.states) {
+        for (const Exit& exit : state.exits) {
+            if (exit.when == When::gripped || exit.when == When::lifted) lifted.insert(exit.body);
+        }
+    }
+    std::vector<Lifting> out;
+    std::set<std::string> known;
+    for (const Trial& trial : plan.task->trials) {
+        const TaskPlan::Cell& cell = plan.task->cell(trial);
+        for (const std::string& name : lifted) {
+            const int index = plan.scene.find(name);
+            const scene::Body& body = plan.scene.bodies[static_cast<size_t>(index)];
+            double weight = scene::mass(body) * plan.scene.gravity.norm();
+            double friction = std::numeric_limits<double>::infinity();
+            for (const scene::Finger& finger : plan.scene.fingers) {
+                friction =
+                    std::min(friction, scene::pair_friction(plan.scene, body.name, body.friction,
+                                                            finger.name, finger.friction));
+            }
+            if (trial.perturb >= 0) {
+                const auto& changed =
+                    cell.perturbations[static_cast<size_t>(trial.perturb)].properties();
+                if (changed && changed->body == index) {
+                    weight *= changed->weight_scale;
+                    friction *= changed->friction_scale;
+                }
+            }
+            const std::string what =
+                fmt::format("{} of {:.0f} g with friction {:.2g}", name,
+                            weight / plan.scene.gravity.norm() * 1e3, friction);
+            if (known.insert(what).second) out.push_back({what, weight, friction});
+        }
+    }
+    return out;
+}
+
+/// What two fingers cannot hold by these devices, however they pinch.
+void check_liftings(const Plan& plan, const devices::DeviceGroup& devices,
+                    Diagnostics& diagnostics) {
+    if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
+    double peak = std::numeric_limits<double>::infinity();
+    double continuous = peak;
+    for (int i = 0; i < devices.size(); ++i) {
+        peak = std::min(peak, devices.info(i).peak_force);
+        continuous = std::min(continuous, devices.info(i).continuous_force);
+    }
+    if (plan.settings.safety.max_force) peak = std::min(peak, *plan.settings.safety.max_force);
+    std::string beyond;
+    std::string for_long;
+    for (const Lifting& lifting : liftings(plan)) {
+        const double force = model::smallest_hold(lifting.weight, lifting.friction);
+        std::string& list = force > peak ? beyond : for_long;
+        if (force <= std::min(peak, continuous)) continue;
+        list += fmt::format("{}{} ({:.1f} N)", list.empty() ? "" : ", ", lifting.what, force);
+    }
+    const char* remedy = "Make it lighter or less slippery, or use a rig with stronger devices.";
+    if (!beyond.empty()) {
+        diagnostics.warning(
+            plan.task->task.place, "task",
+            fmt::format("takes more of each finger than the {:.1f} N that {} gives at most, so "
+                        "that it slips however hard it is pinched: {}",
+                        peak, devices.info(0).model, beyond),
+            remedy);
+    }
+    if (!for_long.empty()) {
+        diagnostics.warning(
+            plan.task->task.place, "task",
+            fmt::format("takes more of each finger than the {:.1f} N that {} can hold for long, so "
+                        "that it slips after some seconds: {}",
+                        continuous, devices.info(0).model, for_long),
+            remedy);
+    }
+}
+
 /// A trial that waits for what cannot come.
 void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
@@ -300,6 +384,7 @@ void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
     check_proxy(plan, diagnostics);
     check_torsion(plan, diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
+    check_liftings(plan, devices->devices(), diagnostics);
     check_fields(plan, devices->devices(), diagnostics);
     check_triggers(plan, diagnostics);
     diagnostics.throw_if_errors();

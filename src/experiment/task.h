@@ -23,8 +23,8 @@ enum class When {
     time,      ///< of the state is over
 };
 constexpr auto enum_names(When) {
-    return std::array{"inside", "outside", "touched", "released", "gripped",
-                      "lifted", "still",   "key",     "button",   "trigger", "time"};
+    return std::array{"inside", "outside", "touched", "released", "gripped", "lifted",
+                      "still",  "key",     "button",  "trigger",  "time"};
 }
 
 /// One way out of a state: to another, or out of the trial with an outcome.

@@ -1,6 +1,7 @@
 // Closed forms of a two-finger grasp and of pressing a surface, for checks and predictions.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "base/geometry.h"
@@ -29,6 +30,12 @@ inline Vec3 grasp_axis(std::span<const Vec3> p_WP) {
 /// Smallest grip force that holds a load with two digits: load / (2 mu) [N].
 constexpr double minimum_grip(double load, double friction) {
     return load / (2 * friction);
+}
+
+/// Force on each of two digits that hold a load with the smallest grip that does: its normal part
+/// and its share of the load together [N].
+inline double smallest_hold(double load, double friction) {
+    return std::hypot(minimum_grip(load, friction), load / 2);
 }
 
 /// Grip over load below which two digits slip: 1 / (2 mu).

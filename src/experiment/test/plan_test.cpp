@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
+#include <regex>
 #include <sstream>
 
 #include "experiment/check.h"
@@ -234,6 +236,28 @@ TEST(Plan, WarnsOfAnObjectTooHeavyForTheDevices) {
     EXPECT_NE(files.messages().find("weighs 29.4 N, more than the devices' 17.0 N together"),
               std::string::npos)
         << files.messages();
+}
+
+TEST(Plan, SaysWhichWeightsAndSurfacesADeviceCannotRender) {
+    std::string text = testing::read_file("experiments/grip-and-lift.yaml");
+    const std::string here = std::filesystem::current_path().string();
+    text = std::regex_replace(text, std::regex("rigs/strong-pair"), "rigs/premium-pair");
+    text = std::regex_replace(text, std::regex("\\.\\./"), here + "/");
+    const testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    check_file(folder.write("experiment.yaml", text), diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors());
+    std::string said;
+    for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
+    const size_t for_long = said.find("can hold for long");
+    const size_t at_most = said.find("8.5 N that simulated premium_1_0 gives at most");
+    ASSERT_NE(for_long, std::string::npos) << said;
+    ASSERT_NE(at_most, std::string::npos) << said;
+    // W / (2 mu) and W / 2 together, by hand
+    EXPECT_GT(said.find("block of 800 g with friction 0.35 (11.9 N)"), at_most) << said;
+    EXPECT_LT(said.find("block of 800 g with friction 0.35 (11.9 N)"), for_long) << said;
+    EXPECT_NE(said.find("block of 400 g with friction 0.7 (3.4 N)", for_long), std::string::npos);
+    EXPECT_EQ(said.find("block of 200 g with friction 1.2"), std::string::npos) << said;  // 1.28 N
 }
 
 TEST(Plan, WarnsOfSoftFingersThatTheSolverTakesForHard) {
