@@ -12,14 +12,17 @@ void add_check(CLI::App& app) {
         "check", "Check scene, rig, experiment and movement files before anyone sits down");
     auto files = std::make_shared<std::vector<std::string>>();
     command->add_option("FILE", *files, "files to check")->required();
+    auto rig = std::make_shared<std::string>();
+    command->add_option("--rig", *rig, "rig file, in place of the experiments'");
     command->footer(
-        "\nExample:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
-        "movements/*.csv");
-    command->callback([files] {
+        "\nExamples:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
+        "movements/*.csv\n  dihaptic check experiments/grip-and-lift.yaml --rig "
+        "rigs/premium-pair.yaml    what this rig cannot render");
+    command->callback([files, rig] {
         size_t bad = 0;
         for (const std::string& file : *files) {
             Diagnostics diagnostics;
-            const std::string what = experiment::check_file(file, diagnostics);
+            const std::string what = experiment::check_file(file, diagnostics, *rig);
             print(diagnostics.problems(), stdout);
             const auto warnings =
                 std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),

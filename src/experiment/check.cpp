@@ -43,7 +43,7 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::string check_file(const std::string& file, Diagnostics& diagnostics) {
+std::string check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
     try {
         switch (kind_of(file)) {
             case FileKind::rig:
@@ -53,6 +53,7 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics) {
             case FileKind::experiment: {
                 Request request;
                 request.file = file;
+                request.rig = rig;
                 request.participant = "1";
                 const Plan plan = make_plan(request);
                 diagnostics.add(plan.warnings);

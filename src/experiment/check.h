@@ -8,7 +8,8 @@
 namespace dihaptic::experiment {
 
 /// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
-/// Returns what the file is, in words.
-std::string check_file(const std::string& file, Diagnostics& diagnostics);
+/// `rig`: a rig file, in place of an experiment's; or empty. Returns what the file is, in words.
+std::string check_file(const std::string& file, Diagnostics& diagnostics,
+                       const std::string& rig = "");
 
 }  // namespace dihaptic::experiment

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include "model/grasp.h"
 
@@ -265,6 +266,9 @@ std::vector<Lifting> liftings(const Plan& plan) {
             if (known.insert(what).second) out.push_back({what, weight, friction});
         }
     }
+    std::sort(out.begin(), out.end(), [](const Lifting& a, const Lifting& b) {
+        return std::tie(a.weight, a.friction) < std::tie(b.weight, b.friction);
+    });
     return out;
 }
 
