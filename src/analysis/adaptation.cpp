@@ -40,7 +40,59 @@ double mean_of_last(const std::vector<double>& x, size_t count) {
     return mean(x.end() - static_cast<std::ptrdiff_t>(std::min(count, x.size())), x.end());
 }
 
+/// Perturbations that differ by less are the same [deg].
+constexpr double kSame = 0.5;
+
+double savings(const std::vector<AdaptationCurve::Stretch>& stretches) {
+    const auto learned = [](const AdaptationCurve::Stretch& s) {
+        return std::abs(s.perturbation) > kSame;
+    };
+    const auto first = std::find_if(stretches.begin(), stretches.end(), learned);
+    if (first == stretches.end()) return kNaN;
+    bool between = false;  // something else was done
+    for (auto later = first + 1; later != stretches.end(); ++later) {
+        const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
+        if (same && between) {
+            const double gain =
+                mean_of_first(later->compensation, kFew) - mean_of_first(first->compensation, kFew);
+            return std::copysign(1.0, first->perturbation) * gain;
+        }
+        between = between || !same;
+    }
+    return kNaN;
+}
+
+double rebound(const std::vector<AdaptationCurve::Stretch>& stretches) {
+    constexpr size_t kLast = 2;  // a reversal is short, and goes on changing
+    double first = 0;
+    for (size_t i = 1; i < stretches.size(); ++i) {
+        const AdaptationCurve::Stretch& before = stretches[i - 1];
+        if (first == 0 && std::abs(before.perturbation) > kSame) first = before.perturbation;
+        if (!stretches[i].clamp || first * before.perturbation >= 0) continue;
+        const double change = mean_of_last(stretches[i].compensation, kFew) -
+                              mean_of_last(before.compensation, kLast);
+        return std::copysign(1.0, first) * change;
+    }
+    return kNaN;
+}
+
 }  // namespace
+
+std::vector<AdaptationCurve::Stretch> AdaptationCurve::stretches() const {
+    std::vector<Stretch> out;
+    const std::string* block = nullptr;
+    for (const Trial& trial : trials) {
+        if (block == nullptr || *block != trial.block) out.push_back({0, true, {}});
+        block = &trial.block;
+        Stretch& stretch = out.back();
+        stretch.clamp = stretch.clamp && trial.kind == "error_clamp";
+        if (trial.kind == "catch") continue;
+        if (std::abs(trial.perturbation) > std::abs(stretch.perturbation))
+            stretch.perturbation = trial.perturbation;
+        if (!std::isnan(trial.compensation)) stretch.compensation.push_back(trial.compensation);
+    }
+    return out;
+}
 
 double AdaptationCurve::perturbation() const {
     double most = 0;
@@ -68,16 +120,22 @@ AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
     };
     const auto perturbed = of_kind("perturbed");
     const auto clamp = of_kind("error_clamp");
-    return {mean(of_kind("baseline")),           mean_of_first(perturbed, kFew),
-            mean_of_last(perturbed, kFew),       mean(of_kind("catch")),
-            mean_of_first(clamp, kFew),          mean_of_last(clamp, kFew),
-            mean_of_first(of_kind("washout"), 1)};
+    const std::vector<Stretch> parts = stretches();
+    return {mean(of_kind("baseline")),
+            mean_of_first(perturbed, kFew),
+            mean_of_last(perturbed, kFew),
+            mean(of_kind("catch")),
+            mean_of_first(clamp, kFew),
+            mean_of_last(clamp, kFew),
+            mean_of_first(of_kind("washout"), 1),
+            savings(parts),
+            rebound(parts)};
 }
 
 std::vector<Table::Cell> AdaptationCurve::landmark_cells() const {
     const Landmarks at = landmarks();
-    return {perturbation(),  at.baseline,    at.early,      at.late,
-            at.catch_trials, at.clamp_first, at.clamp_last, at.washout_first};
+    return {perturbation(), at.baseline,   at.early,         at.late,    at.catch_trials,
+            at.clamp_first, at.clamp_last, at.washout_first, at.savings, at.rebound};
 }
 
 std::vector<Table::Column> landmark_columns() {
@@ -88,7 +146,9 @@ std::vector<Table::Column> landmark_columns() {
             {"catch_deg", "mean of the catch trials"},
             {"clamp_first_deg", "first eight in the clamp"},
             {"clamp_last_deg", "last eight"},
-            {"washout_first_deg", "first trial"}};
+            {"washout_first_deg", "first trial"},
+            {"savings_deg", "learning it again: first eight trials, less those of the first time"},
+            {"rebound_deg", "last eight of a clamp after the opposite, less what was before"}};
 }
 
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {

@@ -32,14 +32,27 @@ struct AdaptationCurve {
     std::string round;  ///< its name; empty without rounds
     std::vector<Trial> trials;
 
+    /// Trials of one block that followed one another.
+    struct Stretch {
+        double perturbation = 0;           ///< of its perturbed trials, the largest by size [deg]
+        bool clamp = false;                ///< all of it
+        std::vector<double> compensation;  ///< as far as measured, without catch trials [deg]
+    };
+    std::vector<Stretch> stretches() const;
     double perturbation() const;  ///< largest by size [deg]
     std::vector<double> compensation() const;
     std::vector<model::AdaptationTrial> schedule() const;
     /// Means [deg], NaN where there are no such trials: of the baseline, of the first and the last
     /// eight perturbed ones, of the catch trials, of the first and the last eight in the clamp, and
-    /// of the first in the washout.
+    /// of the first in the washout. And, toward what was learned first:
+    ///
+    /// savings   the first eight trials of the first later block with the same perturbation, less
+    ///           those of the block that had it first
+    /// rebound   the last eight trials of a clamp that follows a block with the opposite
+    ///           perturbation, less that block's last two: what was learned first comes back
     struct Landmarks {
-        double baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first;
+        double baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first, savings,
+            rebound;
     };
     Landmarks landmarks() const;
     /// The perturbation and the landmarks, for a table with landmark_columns().

@@ -28,6 +28,7 @@ ReportResult report_session(const std::string& path, const std::string& command,
     result.sessions = 1;
     write(result, made.adaptation, session.folder.file("adaptation.csv"));
     write(result, made.fits, session.folder.file("fits.csv"));
+    write(result, made.generalisation, session.folder.file("generalisation.csv"));
     write(result, made.thresholds, session.folder.file("thresholds.csv"));
     result.page = session.folder.file("report.html");
     write_file(made.page.html(), result.page);

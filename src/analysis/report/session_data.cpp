@@ -17,9 +17,12 @@ SessionData SessionData::read(const std::string& path) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
                     "If it was killed, run: dihaptic recover " + folder.path());
     }
-    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {}};
+    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {}, {}};
     if (fs::exists(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
     data.curves = adaptation_curves(data.trials);
+    if (!data.curves.empty() && fs::exists(folder.file("trial-list.csv")))
+        data.generalisation =
+            find_generalisation(data.trials, CsvFile(folder.file("trial-list.csv")));
     if (fs::exists(folder.file("procedures.csv")))
         data.tracks = threshold_tracks(data.trials, CsvFile(folder.file("procedures.csv")));
     return data;

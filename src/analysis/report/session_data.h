@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/adaptation.h"
+#include "analysis/generalisation.h"
 #include "analysis/thresholds.h"
 #include "base/table.h"
 #include "recording/session.h"
@@ -19,6 +20,7 @@ struct SessionData {
     std::optional<CsvFile> lifts;
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
+    std::vector<Generalisation> generalisation;
 
     /// Throws Error when it is no session, or has not ended.
     static SessionData read(const std::string& path);

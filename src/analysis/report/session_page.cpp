@@ -158,8 +158,40 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.table(transposed(out.fits),
                    "Means of compensation: over the baseline, the first and the last eight "
                    "perturbed trials, catch trials, the first and the last eight of the clamp, and "
-                   "the washout's first; and the models' parameters. " +
+                   "the washout's first; savings and rebound toward what was learned first; and "
+                   "the models' parameters. " +
                        origin_of(session));
+}
+
+void add_generalisation(SessionPage& out, const SessionData& session) {
+    out.page.heading("Generalisation");
+    out.generalisation.columns = {{"round", ""},
+                                  {"condition", ""},
+                                  {"angle_deg", "from the nearest trained direction"},
+                                  {"compensation_deg", "mean, less the baseline's"},
+                                  {"share", "of that in the trained directions"},
+                                  {"trials", "in which no error was seen"}};
+    std::map<std::string, Series> rounds;
+    for (const Generalisation& g : session.generalisation) {
+        out.generalisation.rows.push_back({g.round, g.condition, g.angle, g.compensation, g.share,
+                                           static_cast<double>(g.trials)});
+        Series& series = rounds[g.round];
+        series.name = g.round.empty() ? "compensation" : g.round;
+        series.drawn = Drawn::points;
+        series.x.push_back(g.angle);
+        series.y.push_back(g.compensation);
+    }
+    Chart chart{"Generalisation",
+                "angle from the trained direction [deg]",
+                "angle [deg]",
+                origin_of(session),
+                {},
+                {}};
+    for (const auto& [round, series] : rounds) chart.series.push_back(series);
+    out.page.chart(chart);
+    out.page.table(
+        out.generalisation,
+        "Compensation in clamps and catch trials after training began. " + origin_of(session));
 }
 
 /// Where the function has its share of yes, level by level, and the answers.
@@ -419,6 +451,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
     if (!session.curves.empty()) add_adaptation(out, session);
+    if (!session.generalisation.empty()) add_generalisation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
     // a rehearsal keeps no log

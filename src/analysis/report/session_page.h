@@ -15,9 +15,10 @@ std::string origin_of(const SessionData& session);
 
 struct SessionPage {
     Page page;
-    Table adaptation{};  ///< a row a reach; empty without
-    Table fits{};        ///< a row a round
-    Table thresholds{};  ///< a row a procedure
+    Table adaptation{};      ///< a row a reach; empty without
+    Table fits{};            ///< a row a round
+    Table thresholds{};      ///< a row a procedure
+    Table generalisation{};  ///< a row a direction
 };
 
 /// Throws Error when the session's log cannot be read.

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "analysis/adaptation.h"
+#include "analysis/generalisation.h"
 #include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
 #include "analysis/report/statistics.h"
@@ -31,32 +33,48 @@ TEST(Statistics, OfAKnownSample) {
     EXPECT_TRUE(std::isnan(sample({}).mean));
 }
 
-/// trials.csv of somebody who adapts as a two-rate model says, to +-180 degrees.
-std::string trials_of(const model::TwoRate& rates, double rotation, double bias) {
-    std::vector<model::AdaptationTrial> schedule;
-    std::string out = "trial_num,block,kind,round,hand_angle_deg,shown_angle_deg\n";
-    std::vector<std::string> kinds;
-    const auto add = [&](int count, const char* kind, double f) {
-        for (int i = 0; i < count; ++i) {
-            schedule.push_back({f, kind == std::string("error_clamp")});
-            kinds.emplace_back(kind);
-        }
+/// The trials of somebody who adapts as a two-rate model says.
+struct Learner {
+    struct Kind {
+        std::string block;
+        std::string kind;
     };
-    add(16, "baseline", 0);
-    add(30, "perturbed", rotation);
-    add(1, "catch", 0);
-    add(29, "perturbed", rotation);
-    add(20, "error_clamp", 0);
-    add(10, "washout", 0);
-    schedule[20].clamp = true;  // nothing was reached, and nothing seen
-    const auto x = model::compensation(rates, schedule);
-    for (size_t i = 0; i < x.size(); ++i) {
-        const double hand = -(x[i] + bias);
-        const double shown = schedule[i].clamp ? 0 : hand + schedule[i].perturbation;
-        out += std::to_string(i + 1) + "," + kinds[i] + "," + kinds[i] + ",about z," +
-               (i == 20 ? "," : std::to_string(hand) + "," + std::to_string(shown)) + "\n";
+    std::vector<model::AdaptationTrial> schedule{};
+    std::vector<Kind> kinds{};
+
+    void add(int count, const std::string& block, const std::string& kind, double f) {
+        for (int i = 0; i < count; ++i) {
+            schedule.push_back({f, kind == "error_clamp"});
+            kinds.push_back({block, kind});
+        }
     }
-    return out;
+    /// As trials.csv has them.
+    std::string trials(const model::TwoRate& rates, double bias, size_t unreached = 1000) {
+        std::string out = "trial_num,block,kind,round,hand_angle_deg,shown_angle_deg\n";
+        // nothing was reached, and nothing seen
+        if (unreached < schedule.size()) schedule[unreached].clamp = true;
+        const auto x = model::compensation(rates, schedule);
+        for (size_t i = 0; i < x.size(); ++i) {
+            const double hand = -(x[i] + bias);
+            const double shown = schedule[i].clamp ? 0 : hand + schedule[i].perturbation;
+            out +=
+                std::to_string(i + 1) + "," + kinds[i].block + "," + kinds[i].kind + ",about z," +
+                (i == unreached ? "," : std::to_string(hand) + "," + std::to_string(shown)) + "\n";
+        }
+        return out;
+    }
+};
+
+/// trials.csv of a rotation that is learned, clamped and washed out.
+std::string trials_of(const model::TwoRate& rates, double rotation, double bias) {
+    Learner learner;
+    learner.add(16, "baseline", "baseline", 0);
+    learner.add(30, "perturbed", "perturbed", rotation);
+    learner.add(1, "catch", "catch", 0);
+    learner.add(29, "perturbed", "perturbed", rotation);
+    learner.add(20, "error_clamp", "error_clamp", 0);
+    learner.add(10, "washout", "washout", 0);
+    return learner.trials(rates, bias, 20);
 }
 
 TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
@@ -79,6 +97,85 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_LT(fits->two_rate.residual_sd, 0.05);
     EXPECT_NEAR(fits->two_rate.rates.slow.retention, 0.992, 0.003);
     EXPECT_NEAR(fits->two_rate.rates.fast.learning, 0.21, 0.02);
+}
+
+TEST(Adaptation, SavingsAreWhatIsThereSoonerWhenTheSameIsLearnedAgain) {
+    testing::TemporaryFolder folder;
+    Learner learner;
+    learner.add(10, "before", "baseline", 0);
+    learner.add(40, "first", "perturbed", -30);
+    learner.add(12, "washout", "washout", 0);
+    learner.add(40, "again", "perturbed", -30);
+    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
+    const auto curve = adaptation_curves(trials).at(0);
+    double first = 0;
+    double again = 0;
+    for (size_t i = 0; i < 8; ++i) {
+        first += curve.trials[10 + i].compensation / 8;
+        again += curve.trials[62 + i].compensation / 8;
+    }
+    EXPECT_LT(again, first - 1);  // both are negative: more is learned
+    EXPECT_NEAR(curve.landmarks().savings, first - again, 1e-12);
+    EXPECT_TRUE(std::isnan(curve.landmarks().rebound));
+}
+
+TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
+    testing::TemporaryFolder folder;
+    Learner learner;
+    learner.add(64, "before", "baseline", 0);
+    learner.add(160, "learn", "perturbed", 30);
+    learner.add(16, "reverse", "perturbed", -30);
+    learner.add(48, "clamp", "error_clamp", 0);
+    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 0)));
+    const auto curve = adaptation_curves(trials).at(0);
+    const auto& t = curve.trials;
+    double last = 0;
+    for (size_t i = t.size() - 8; i < t.size(); ++i) last += t[i].compensation / 8;
+    const double before = (t[238].compensation + t[239].compensation) / 2;
+    EXPECT_GT(last - before, 3);
+    EXPECT_NEAR(curve.landmarks().rebound, last - before, 1e-12);
+    EXPECT_TRUE(std::isnan(curve.landmarks().savings));
+}
+
+TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
+    testing::TemporaryFolder folder;
+    std::string list =
+        "reach_from_x_mm,reach_from_y_mm,reach_from_z_mm,reach_to_x_mm,reach_to_y_mm,"
+        "reach_to_z_mm\n";
+    std::string trials = "trial_num,kind,condition,round,hand_angle_deg\n";
+    int number = 0;
+    const auto add = [&](const char* kind, double degrees, double compensation) {
+        const double angle = degrees * std::numbers::pi / 180;
+        list += "0,0,100," + std::to_string(50 * std::cos(angle)) + "," +
+                std::to_string(50 * std::sin(angle)) + ",100\n";
+        trials += std::to_string(++number) + "," + kind + ",at " +
+                  std::to_string(static_cast<int>(degrees)) + ",z," +
+                  std::to_string(-compensation) + "\n";
+    };
+    for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
+    add("error_clamp", 45, 20);  // before training: no probe
+    for (int i = 0; i < 10; ++i) add("perturbed", 0, 3.0 * i);
+    for (int i = 0; i < 2; ++i) {
+        add("error_clamp", 0, 21);
+        add("error_clamp", 45, 11);
+        add("catch", 90, 3);
+    }
+    const CsvFile list_file(folder.write("trial-list.csv", list));
+    const auto found = find_generalisation(CsvFile(folder.write("trials.csv", trials)), list_file);
+    ASSERT_EQ(found.size(), 3u);
+    const double angles[] = {0, 45, 90};
+    const double shares[] = {1, 0.5, 0.1};
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(found[i].trials, 2);
+        EXPECT_NEAR(found[i].angle, angles[i], 1e-4);
+        EXPECT_NEAR(found[i].compensation, 20 * shares[i], 1e-6);
+        EXPECT_NEAR(found[i].share, shares[i], 1e-6);
+    }
+    // one direction, probed itself: there is nothing to tell
+    const std::string one =
+        "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
+        "2,error_clamp,a,z,-3\n";
+    EXPECT_TRUE(find_generalisation(CsvFile(folder.write("one.csv", one)), list_file).empty());
 }
 
 TEST(Adaptation, IsNotSeenWhereNothingWasMeasuredOrPerturbed) {
