@@ -100,6 +100,63 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 
+/// The block's frames in the first trial, while it falls freely for 0.2 s through a field.
+std::vector<servo::BodyFrame> fall_through(const std::string& field) {
+    Files files;
+    files.scene.replace(files.scene.find("position_mm: [0, 0, 20]"), 23,
+                        "position_mm: [200, 0, 500]");
+    files.experiment =
+        "title: Fall\nscene: scene.yaml\nhand: { centre_mm: [0, 0, 120] }\ntask:\n"
+        "  perturbations: [{ name: field, field: { on: block, " +
+        field +
+        " } }]\n"
+        "  states:\n"
+        "    - { name: fall, exits: [{ when: time, hold_s: 0.2, outcome: done }], "
+        "hand: [{ duration_s: 0.2 }] }\n"
+        "  blocks: [{ name: all, kind: perturbed, perturb: field }]\n";
+    const RunResult result = files.run(make_plan(files.request()));
+    std::vector<servo::BodyFrame> out;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    while (const servo::Frame* frame = log.next()) {
+        // in its last tick nothing is perturbed any more
+        if (frame->trial == 1 && frame->task.outcome < 0) out.push_back(frame->bodies[1]);
+    }
+    EXPECT_GT(out.size(), 190u);
+    return out;
+}
+
+constexpr double kMass = 0.1;
+constexpr double kGravity = 9.81;
+
+TEST(Task, ABodyFallsThroughAViscousFieldTowardItsTerminalVelocity) {
+    const double b = 1;  // terminal after some 0.1 s
+    double t = 0;
+    for (const servo::BodyFrame& block : fall_through("kind: viscous, damping_Ns_m: 1")) {
+        t += 1e-3;
+        const double closed = -kMass * kGravity / b * (1 - std::exp(-b * t / kMass));
+        EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // a step is 10 mm/s at first
+        EXPECT_NEAR(block.v_WB.x(), 0, 1e-12);
+    }
+}
+
+TEST(Task, ABodyFallsThroughACurlFieldOnACycloid) {
+    // m a = m g + b e x v turns v - d at the rate b / m, where the drift d has m g + b e x d = 0
+    const double rate = 2 / kMass;
+    const double drift = kGravity / rate;
+    double t = 0;
+    for (const servo::BodyFrame& block :
+         fall_through("kind: curl, axis: [0, 1, 0], damping_Ns_m: 2")) {
+        t += 1e-3;
+        // e = y: dv_x = rate v_z, dv_z = -g - rate v_x
+        const double v_x = -drift * (1 - std::cos(rate * t));
+        const double v_z = -drift * std::sin(rate * t);
+        EXPECT_NEAR(block.v_WB.x(), v_x, 0.04 * drift);  // a tick turns v by 0.02 rad
+        EXPECT_NEAR(block.v_WB.z(), v_z, 0.04 * drift);
+        EXPECT_NEAR(block.v_WB.y(), 0, 1e-12);
+    }
+    EXPECT_GT(rate * t, 3);  // half a turn
+}
+
 TEST(Task, DoesAbortedTrialsAgain) {
     Files files;
     files.replace("hand: [{ duration_s: 0.2, reach: target }]",
