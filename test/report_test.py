@@ -64,8 +64,8 @@ class Reports(unittest.TestCase):
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), len(trials))
         for trial, row in zip(trials, rows):
-            self.assertEqual(float(row["compensation_deg"]), -float(trial["hand_angle_deg"]))
-        rotated = [float(r["perturbation_deg"]) for r in rows if r["kind"] == "perturbed"]
+            self.assertEqual(float(row["compensation"]), -float(trial["hand_angle_deg"]))
+        rotated = [float(r["perturbation"]) for r in rows if r["kind"] == "perturbed"]
         self.assertTrue(all(abs(f - 30) < 0.5 for f in rotated), rotated[:5])
 
     def test_a_lift_is_drawn_over_time(self):
@@ -97,7 +97,7 @@ class Reports(unittest.TestCase):
         self.assertIn("of 1 session", dihaptic("report", people + "/P001"))
         self.drawn(people + "/P001/report.html", 1)
         with open(people + "/population-adaptation.csv") as file:
-            late = [float(r["mean_deg"]) for r in csv.DictReader(file)][200:220]
+            late = [float(r["mean"]) for r in csv.DictReader(file)][200:220]
         self.assertGreater(sum(late) / len(late), 15)
 
     def test_it_reads_on_paper(self):

@@ -99,6 +99,7 @@ void print_trials(const Table& trials) {
         double sum = 0;
         int measured = 0;
     };
+    bool extents = false;
     std::vector<std::pair<std::string, Block>> blocks;  // by number and kind of trial
     for (const auto& row : trials.rows) {
         const std::string number = text(row[column("block_num")]);
@@ -114,13 +115,19 @@ void print_trials(const Table& trials) {
         }
         Block& block = found->second;
         ++block.outcomes[text(row[column("outcome")])];
-        const auto* angle = std::get_if<double>(&row[column("hand_angle_deg")]);
-        if (angle == nullptr || std::isnan(*angle)) continue;
-        block.sum += *angle;
+        const auto value = [&](const char* name) {
+            const auto* cell = std::get_if<double>(&row[column(name)]);
+            return cell == nullptr ? NAN : *cell;
+        };
+        const double extent = value("hand_extent_mm");
+        extents = extents || !std::isnan(extent);
+        const double measured = std::isnan(extent) ? value("hand_angle_deg") : extent;
+        if (std::isnan(measured)) continue;
+        block.sum += measured;
         ++block.measured;
     }
     fmt::print("\n{:>3s} {:10s} {:12s} {:12s} {:>10s}  outcomes\n", "", "round", "block", "kind",
-               "hand deg");
+               extents ? "hand mm" : "hand deg");
     for (const auto& [key, block] : blocks) {
         std::string outcomes;
         for (const auto& [name, count] : block.outcomes)
@@ -128,9 +135,9 @@ void print_trials(const Table& trials) {
         const double mean = block.measured > 0 ? block.sum / block.measured : NAN;
         fmt::print("{} {:>10s}  {}\n", block.label, number(mean, 2), outcomes);
     }
-    fmt::print(
-        "\nhand: mean angle of the handle from the target's direction, in trials.csv one by "
-        "one\n");
+    fmt::print("\nhand: mean {}, in trials.csv one by one\n",
+               extents ? "way of the handle's first stroke toward the target"
+                       : "angle of the handle from the target's direction");
 }
 
 void print_phases(const analysis::SessionFigures& figures) {

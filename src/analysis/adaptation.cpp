@@ -40,7 +40,12 @@ double mean_of_last(const std::vector<double>& x, size_t count) {
     return mean(x.end() - static_cast<std::ptrdiff_t>(std::min(count, x.size())), x.end());
 }
 
-/// Perturbations that differ by less are the same [deg].
+/// 100 ln(a / b); NaN where one of them is not positive.
+double in_percent(double a, double b) {
+    return a > 0 && b > 0 ? 100 * std::log(a / b) : kNaN;
+}
+
+/// Perturbations that differ by less are the same [deg], [%].
 constexpr double kSame = 0.5;
 
 double savings(const std::vector<AdaptationCurve::Stretch>& stretches) {
@@ -134,44 +139,57 @@ AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
 
 std::vector<Table::Cell> AdaptationCurve::landmark_cells() const {
     const Landmarks at = landmarks();
-    return {perturbation(), at.baseline,   at.early,         at.late,    at.catch_trials,
-            at.clamp_first, at.clamp_last, at.washout_first, at.savings, at.rebound};
+    return {
+        unit,           perturbation(), at.baseline,      at.early,   at.late,   at.catch_trials,
+        at.clamp_first, at.clamp_last,  at.washout_first, at.savings, at.rebound};
 }
 
 std::vector<Table::Column> landmark_columns() {
-    return {{"perturbation_deg", ""},
-            {"baseline_deg", "mean"},
-            {"early_deg", "first eight perturbed trials"},
-            {"late_deg", "last eight"},
-            {"catch_deg", "mean of the catch trials"},
-            {"clamp_first_deg", "first eight in the clamp"},
-            {"clamp_last_deg", "last eight"},
-            {"washout_first_deg", "first trial"},
-            {"savings_deg", "learning it again: first eight trials, less those of the first time"},
-            {"rebound_deg", "last eight of a clamp after the opposite, less what was before"}};
+    return {{"unit", "of what follows"},
+            {"perturbation", ""},
+            {"baseline", "mean"},
+            {"early", "first eight perturbed trials"},
+            {"late", "last eight"},
+            {"catch", "mean of the catch trials"},
+            {"clamp_first", "first eight in the clamp"},
+            {"clamp_last", "last eight"},
+            {"washout_first", "first trial"},
+            {"savings", "learning it again: first eight trials, less those of the first time"},
+            {"rebound", "last eight of a clamp after the opposite, less what was before"}};
 }
 
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
     std::vector<AdaptationCurve> curves;
     bool any = false;
+    bool extents = false;
     for (size_t i = 0; i < trials.rows(); ++i) {
         Trial trial;
         trial.number = static_cast<int>(trials.number(i, "trial_num"));
         trial.block = trials.text(i, "block");
         trial.kind = trials.text(i, "kind");
-        const double hand = trials.number(i, "hand_angle_deg");
-        // what was not reached was not seen to be wrong
-        trial.clamp = trial.kind == "error_clamp" || std::isnan(hand);
-        const double shown = trials.number(i, "shown_angle_deg");
-        trial.compensation = -hand;
-        // a clamp shows what it likes
-        trial.perturbation = trial.clamp ? 0 : std::remainder(shown - hand, 360);
-        any = any || !std::isnan(hand);
+        const double way = trials.number(i, "hand_extent_mm");
+        double shown;
+        if (std::isnan(way)) {
+            const double hand = trials.number(i, "hand_angle_deg");
+            trial.compensation = -hand;
+            shown = std::remainder(trials.number(i, "shown_angle_deg") - hand, 360);
+        } else {
+            extents = true;
+            trial.compensation = in_percent(trials.number(i, "wanted_extent_mm"), way);
+            shown = in_percent(trials.number(i, "shown_extent_mm"), way);
+        }
+        // what was not reached was not seen to be wrong, and a clamp shows what it likes
+        trial.clamp = trial.kind == "error_clamp" || std::isnan(trial.compensation);
+        trial.perturbation = trial.clamp ? 0 : shown;
+        any = any || !std::isnan(trial.compensation);
         const std::string round = trials.text(i, "round");
-        if (curves.empty() || curves.back().round != round) curves.push_back({round, {}});
+        if (curves.empty() || curves.back().round != round) curves.push_back({round, "deg", {}});
         curves.back().trials.push_back(trial);
     }
     if (!any) curves.clear();
+    if (extents) {
+        for (AdaptationCurve& curve : curves) curve.unit = "%";
+    }
     return curves;
 }
 

@@ -3,7 +3,8 @@
 //
 // With the handle at angle a from the target's direction, and shown at angle s, the perturbation is
 // f = s - a and the compensation x = -a: the error e = f - x is what is seen. In an error clamp it
-// is not.
+// is not. Of extents the same holds in logarithms: with the handle gone h, shown to have gone s,
+// and w wanted, f = ln(s / h), x = ln(w / h), in percent (of small changes; a doubling is 69 %).
 #pragma once
 
 #include <limits>
@@ -22,27 +23,28 @@ struct AdaptationCurve {
         int number = 0;  ///< in the session, from 1
         std::string block;
         std::string kind;         ///< of the trial, as in trials.csv
-        double perturbation = 0;  ///< f [deg]; 0 in a clamp
+        double perturbation = 0;  ///< f 0 in a clamp
         bool clamp = false;       ///< no error was seen
-        double compensation = 0;  ///< x [deg]; NaN where it was not measured
+        double compensation = 0;  ///< x; NaN where it was not measured
     };
 
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-    std::string round;  ///< its name; empty without rounds
+    std::string round;         ///< its name; empty without rounds
+    std::string unit = "deg";  ///< of f and x; "%" of extents
     std::vector<Trial> trials;
 
     /// Trials of one block that followed one another.
     struct Stretch {
-        double perturbation = 0;           ///< of its perturbed trials, the largest by size [deg]
+        double perturbation = 0;           ///< of its perturbed trials, the largest by size
         bool clamp = false;                ///< all of it
-        std::vector<double> compensation;  ///< as far as measured, without catch trials [deg]
+        std::vector<double> compensation;  ///< as far as measured, without catch trials
     };
     std::vector<Stretch> stretches() const;
-    double perturbation() const;  ///< largest by size [deg]
+    double perturbation() const;  ///< largest by size
     std::vector<double> compensation() const;
     std::vector<model::AdaptationTrial> schedule() const;
-    /// Means [deg], NaN where there are no such trials: of the baseline, of the first and the last
+    /// Means, NaN where there are no such trials: of the baseline, of the first and the last
     /// eight perturbed ones, of the catch trials, of the first and the last eight in the clamp, and
     /// of the first in the washout. And, toward what was learned first:
     ///
@@ -69,7 +71,7 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials);
 struct AdaptationFits {
     SingleRateFit single_rate;
     TwoRateFit two_rate;
-    double bias = 0;  ///< the baseline's mean, which was taken off [deg]
+    double bias = 0;  ///< the baseline's mean, which was taken off
 };
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve);
 

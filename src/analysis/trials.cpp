@@ -62,6 +62,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
         reach.to_W = vector(5) * 1e-3;
         reach.axis_W = vector(8);
         reach.phase = static_cast<int>(number(11));
+        reach.extent = first + 12 < row.size() && row[first + 12] == "extent";
         reaches_.push_back(reach);
     }
 }
@@ -75,6 +76,7 @@ void TrialFinder::add(const servo::Frame& frame) {
         row.attempt = frame.task.attempt;
         row.start = seconds(frame.time);
         row.peak_grip = row.hand_angle = row.shown_angle = row.reach_time = kNaN;
+        row.hand_extent = row.shown_extent = row.wanted_extent = kNaN;
         rows_.push_back(row);
     }
     Row& row = rows_.back();
@@ -88,14 +90,41 @@ void TrialFinder::add(const servo::Frame& frame) {
 
     const auto i = static_cast<size_t>(frame.trial - 1);
     if (i >= reaches_.size() || !std::isnan(row.reach_time)) return;
-    const ReachPlan& reach = reaches_[i];
+    if (frame.phase != reaches_[i].phase) return;
+    if (reaches_[i].extent) {
+        measure_extent(row, reaches_[i], frame);
+    } else {
+        measure_angle(row, reaches_[i], frame);
+    }
+}
+
+void TrialFinder::measure_angle(Row& row, const ReachPlan& reach, const servo::Frame& frame) const {
     const Vec3 arm = frame.fingers[reach.finger].p_WH - reach.from_W;
-    if (arm.norm() < reach.distance || frame.phase != reach.phase) return;
+    if (arm.norm() < reach.distance) return;
     const Vec3 way = reach.to_W - reach.from_W;
     row.reach_time = row.end;
     row.hand_angle = angle_about(reach.axis_W, way, arm);
     const Vec3 shown = servo::displayed_handle(frame, reach.finger).p - reach.from_W;
     row.shown_angle = angle_about(reach.axis_W, way, shown);
+}
+
+/// A finger that holds something is not where the hand is: the ways are from where it set out, and
+/// what is wanted is what was left to go of the way from the first region to the other.
+void TrialFinder::measure_extent(Row& row, const ReachPlan& reach,
+                                 const servo::Frame& frame) const {
+    const servo::FingerFrame& finger = frame.fingers[reach.finger];
+    const Vec3 shown_W = servo::displayed_handle(frame, reach.finger).p;
+    if (!row.hand_start_W) {
+        row.hand_start_W = finger.p_WH;
+        row.shown_start_W = shown_W;
+    }
+    const Vec3 way = reach.to_W - reach.from_W;
+    const Vec3 along = way.normalized();
+    if (!row.stroke.add(finger.v_WH.dot(along))) return;
+    row.reach_time = row.end;
+    row.hand_extent = (finger.p_WH - *row.hand_start_W).dot(along);
+    row.shown_extent = (shown_W - row.shown_start_W).dot(along);
+    row.wanted_extent = way.norm();
 }
 
 Table TrialFinder::table(const recording::SessionInfo& info) const {
@@ -113,9 +142,12 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
          {"outcome", "what ended it; interrupted: nothing did"},
          {"peak_grip_N", "largest grip force"},
          {"peak_force_N", "largest force on any finger"},
-         {"reach_time_s", "from its start until the handle was reach_at_mm from the reach's"},
+         {"reach_time_s", "from its start until the reach was measured"},
          {"hand_angle_deg", "of the handle then, from the target's direction, about the axis"},
-         {"shown_angle_deg", "the same of where the handle was shown"}});
+         {"shown_angle_deg", "the same of where the handle was shown"},
+         {"hand_extent_mm", "of the handle's first stroke, toward the target"},
+         {"shown_extent_mm", "the same of where the handle was shown"},
+         {"wanted_extent_mm", "that would have led to the target"}});
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row{r.start, r.end, info.title, info.participant.id, 1.0};
         const auto i = static_cast<size_t>(r.trial);
@@ -134,7 +166,8 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
                              ? info.outcomes[outcome]
                              : std::string(kInterrupted));
         row.insert(row.end(), {r.peak_grip, r.peak_force, r.reach_time - r.start,
-                               r.hand_angle * kDegrees, r.shown_angle * kDegrees});
+                               r.hand_angle * kDegrees, r.shown_angle * kDegrees,
+                               r.hand_extent * 1e3, r.shown_extent * 1e3, r.wanted_extent * 1e3});
         table.rows.push_back(row);
     }
     return table;

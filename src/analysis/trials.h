@@ -2,6 +2,7 @@
 // trials (trial-list.csv) says of it.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,26 @@ struct ReachPlan {
     Vec3 from_W = Vec3::Zero();  ///< [m]
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();  ///< that angles are about; unit
+    bool extent = false;          ///< is measured, in place of the angle
+};
+
+/// The first stroke of a movement along a line: over once its speed has fallen to a fifth of its
+/// peak, which noise and tremor do not reach.
+class FirstStroke {
+  public:
+    /// `speed`: along the line [m/s]. Returns whether the stroke ends here.
+    bool add(double speed) noexcept {
+        peak_ = std::max(peak_, speed);
+        if (over_ || peak_ < kLeastPeak || speed > kEnd * peak_) return false;
+        over_ = true;
+        return true;
+    }
+
+  private:
+    static constexpr double kLeastPeak = 0.05;  // [m/s]
+    static constexpr double kEnd = 0.2;
+    double peak_ = 0;
+    bool over_ = false;
 };
 
 /// Signed angle about an axis from one direction to another, both seen along the axis [rad]; NaN
@@ -46,8 +67,17 @@ class TrialFinder {
         double peak_force = 0;
         double hand_angle;  ///< [rad]
         double shown_angle;
-        double reach_time;  ///< when the handle was so far [s]
+        double reach_time;   ///< when the handle was so far, or its first stroke ended [s]
+        double hand_extent;  ///< [m]
+        double shown_extent;
+        double wanted_extent;  ///< from where the handle was shown first
+        FirstStroke stroke;
+        std::optional<Vec3> hand_start_W;
+        Vec3 shown_start_W = Vec3::Zero();
     };
+    void measure_angle(Row& row, const ReachPlan& reach, const servo::Frame& frame) const;
+    void measure_extent(Row& row, const ReachPlan& reach, const servo::Frame& frame) const;
+
     std::vector<std::vector<std::string>> list_;  // trial-list.csv, its header first
     std::vector<ReachPlan> reaches_;              // by trial; empty: none are measured
     std::vector<Row> rows_;

@@ -24,7 +24,7 @@ Table transposed(const Table& table) {
     for (size_t c = 1; c < table.columns.size(); ++c) {
         std::vector<Table::Cell>& row = out.rows.emplace_back();
         row.emplace_back(table.columns[c].name);
-        for (const auto& from : table.rows) row.push_back(from[c]);
+        for (const auto& from : table.rows) row.push_back(from.at(c));
     }
     return out;
 }

@@ -200,9 +200,20 @@ constexpr auto enum_names(Redo) {
     return std::array{"never", "next", "end_of_block", "random"};
 }
 
-/// The hand angle of a reach: between the way to `to` and where the handle is when it is `distance`
-/// from `from`, about `axis`, by the right hand; once in each trial, in one of its states.
+/// What of a reach is measured, once in each trial, in one of its states.
+///
+/// angle    between the way to `to` and where the handle is when it is `distance` from `from`,
+/// about
+///          `axis`, by the right hand
+/// extent   how far the handle has gone along the way from `from` to `to` when its first stroke
+///          ends
+enum class Measure { angle, extent };
+constexpr auto enum_names(Measure) {
+    return std::array{"angle", "extent"};
+}
+
 struct ReachMeasure {
+    Measure measure = Measure::angle;
     std::string finger;  ///< empty: the first
     std::string from;
     std::string to;
@@ -213,6 +224,7 @@ struct ReachMeasure {
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("measure", measure);
         v("finger", finger);
         v("from", from, Field::text().required());
         v("to", to, Field::text().required());

@@ -72,11 +72,13 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
     order(last, handles, commands);
 }
 
-/// Whether nothing is put back where a finger is: it would be pushed out of the body.
+/// Whether nothing is put back where a finger is, which would be pushed out of the body, nor out of
+/// fingers that press it, which would clap together.
 bool TaskDirector::clear(const servo::Frame& last) const noexcept {
     if (last.sequence < 0) return true;
     for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
         if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) continue;
+        if (pressed(last, home.body, -1, 1)) return false;
         for (size_t i = 0; i < last.fingers.size(); ++i) {
             const Vec3 p_BP = home.X_WB.inverse() * last.fingers[i].p_WP;
             const double margin = plan_.finger_radius[i] + kClearance;

@@ -407,7 +407,8 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
                                                {"reach_axis_x", "that angles are about"},
                                                {"reach_axis_y", ""},
                                                {"reach_axis_z", ""},
-                                               {"reach_phase", "in which it is measured"}});
+                                               {"reach_phase", "in which it is measured"},
+                                               {"reach_measure", "angle or extent"}});
     const std::vector<std::string> phases = plan.phases();
     const auto during = std::find(phases.begin(), phases.end(), reach.during) - phases.begin();
     for (size_t i = 0; i < plan.trials.size(); ++i) {
@@ -427,6 +428,7 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
         }
         for (int k = 0; k < 3; ++k) row.emplace_back(axis[k]);
         row.emplace_back(static_cast<double>(during));
+        row.emplace_back(std::string(enum_name(reach.measure)));
     }
     return table;
 }

@@ -96,6 +96,7 @@ Person::Person(const Traits& traits, const experiment::Plan& plan)
       known_(plan.task->task.regions.size(), Vec3::Zero()),
       rotations_(plan.task->stages.size(),
                  RotationMemory(traits.rotation(), traits.generalisation)),
+      gains_(plan.task->stages.size(), GainMemory(traits.gain())),
       grip_(traits, looks_of(plan.scene, traits, plan.seed), plan.settings.tick()) {
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     restart();
@@ -109,6 +110,7 @@ void Person::restart() {
     grip_.restart();
     std::fill(rotations_.begin(), rotations_.end(),
               RotationMemory(traits_.rotation(), traits_.generalisation));
+    std::fill(gains_.begin(), gains_.end(), GainMemory(traits_.gain()));
     felt_ = 0;
     seen_ = 0;
     doing_ = Doing::nothing;
@@ -374,14 +376,16 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
 }
 
 /// What the hand has to do for it to be seen to go so.
-Vec3 Person::turned_back(const Vec3& displacement) const noexcept {
+Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
-    const RotationMemory& memory = rotations_[static_cast<size_t>(phase_ - 1)];
-    return rotated(-memory.expected(displacement.normalized()), displacement);
+    const auto state = static_cast<size_t>(phase_ - 1);
+    const Vec3 d = displacement.normalized();
+    return std::exp(-gains_[state].expected(d)) *
+           rotated(-rotations_[state].expected(d), displacement);
 }
 
 Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
-    if (displacement.norm() < kReach) return turned_back(displacement);
+    if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
     reach_ = {.going = true,
               .state = static_cast<size_t>(phase_ - 1),
@@ -389,7 +393,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
               .way = displacement};
     const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
     const double sd = traits_.direction_noise * (from_above(displacement) ? kGuided : 1);
-    return noisy(1, traits_.extent_noise) * rotated(sd * noise, turned_back(displacement));
+    return noisy(1, traits_.extent_noise) * rotated(sd * noise, made_for(displacement));
 }
 
 /// Once the reach is seen to go somewhere it is mended in part, and its direction is judged before
@@ -404,12 +408,23 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
         if (doing_ == Doing::moving && traits_.online_correction > 0)
-            aim_.add({traits_.online_correction * turned_back(missed), 0, 0}, now_, left);
+            aim_.add({traits_.online_correction * made_for(missed), 0, 0}, now_, left);
     }
     if (shown.norm() < kJudged * length) return;
     reach_.seen = true;
     const Vec3 arm = look(shown, traits_.visual_noise, random_);
     reach_.error = rotation_between(reach_.way.normalized(), arm.normalized());
+}
+
+/// Its first stroke is over, and was seen to go too far or not far enough.
+void Person::judge_extent(const Sight& sight) noexcept {
+    if (!reach_.going || reach_.ended) return;
+    reach_.ended = true;
+    const double shown =
+        look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
+    const double least = 0.1 * reach_.way.norm();  // went astray, which tells nothing of its extent
+    if (shown < least) return;
+    gains_[reach_.state].learn(reach_.way.normalized(), std::log(shown / reach_.way.norm()));
 }
 
 void Person::end_reach() noexcept {
@@ -423,10 +438,11 @@ bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
     if (step.reach < 0 || corrections_ >= kMostCorrections) return false;
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
+    judge_extent(sight);
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
     ++corrections_;
-    aim_.add({turned_back(missed), 0, 0}, now_, kShortest);
+    aim_.add({made_for(missed), 0, 0}, now_, kShortest);
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include "experiment/plan.h"
 #include "experiment/seeing_driver.h"
 #include "person/eyes.h"
+#include "person/gain_memory.h"
 #include "person/grip.h"
 #include "person/rotation_memory.h"
 #include "person/traits.h"
@@ -47,7 +48,8 @@ class Person final : public experiment::SeeingDriver {
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
-    Vec3 turned_back(const Vec3& displacement) const noexcept;
+    Vec3 made_for(const Vec3& displacement) const noexcept;
+    void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const experiment::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
     double noisy(double value, double share) noexcept;
@@ -74,7 +76,9 @@ class Person final : public experiment::SeeingDriver {
     uint32_t seen_ = 0;           // which of them were
 
     // memory
-    std::vector<RotationMemory> rotations_;  // by state: what is learned in one stays there
+    // by state: what is learned in one stays there
+    std::vector<RotationMemory> rotations_;
+    std::vector<GainMemory> gains_;
     Grip grip_;
 
     // what it does
@@ -96,6 +100,7 @@ class Person final : public experiment::SeeingDriver {
         bool going = false;
         bool mended = false;
         bool seen = false;
+        bool ended = false;  // its first stroke, and how far it went was seen
         size_t state = 0;
         Vec3 from = Vec3::Zero();  // where the hand was shown [m]
         Vec3 way = Vec3::Zero();   // that it is to be shown to go [m]

@@ -62,6 +62,11 @@ std::vector<Row> population(Objects objects) {
         // 30 to 40 degrees: textbook
         {"generalisation", &Traits::generalisation, Law::log_normal, 35 * kDegree, 0.1},
 
+        // Krakauer 2000: gains take fewer reaches than rotations, and are alike in all directions;
+        // the figures are estimates
+        {"gain_retention", &Traits::gain_retention, Law::logit, 0.98, 0.3},
+        {"gain_learning", &Traits::gain_learning, Law::logit, 0.25, 0.3},
+
         // Westling and Johansson 1984: margins of 10 to 40 % of classic weights; Kinoshita's group:
         // 45 % at 200 g. Through devices more (EMBC 2022, no figure)
         {"safety_margin", &Traits::safety_margin, Law::logit, real ? 0.38 : 0.5, 0.15},

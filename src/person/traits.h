@@ -39,6 +39,9 @@ struct Traits {
     double slow_learning = 0;
     double generalisation = 0;  ///< SD of the slow one over target directions [rad]
 
+    double gain_retention = 0;  ///< of adaptation to how far movements are shown to go
+    double gain_learning = 0;
+
     double safety_margin = 0;    ///< of the static grip
     double least_grip = 0;       ///< however light the object [N]
     double peak_grip = 0;        ///< grip at lift-off over static grip
@@ -65,6 +68,7 @@ struct Traits {
     model::TwoRate rotation() const {
         return {{fast_retention, fast_learning}, {slow_retention, slow_learning}};
     }
+    model::SingleRate gain() const { return {gain_retention, gain_learning}; }
     model::SingleRate mass() const { return {mass_retention, mass_learning}; }
     model::Psychometric answers() const {
         return {model::Sigmoid::normal, answer_bias, answer_sd, answer_lapse, answer_lapse};
@@ -91,6 +95,8 @@ struct Traits {
         v("slow_retention", slow_retention, share);
         v("slow_learning", slow_learning, share);
         v("generalisation", generalisation, angle.positive());
+        v("gain_retention", gain_retention, share);
+        v("gain_learning", gain_learning, share);
         v("safety_margin", safety_margin, Field::number().within(0, 0.95));
         v("least_grip", least_grip, Field::of(Quantity::force).at_least(0));
         v("peak_grip", peak_grip, Field::number().at_least(1));

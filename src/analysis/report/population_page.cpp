@@ -77,14 +77,15 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
             block = blocks[place];
             marks.push_back({static_cast<double>(place), block});
         }
-        out.adaptation.rows.push_back({title, round, static_cast<double>(place), block,
+        out.adaptation.rows.push_back({title, round, people.front().curve->unit,
+                                       static_cast<double>(place), block,
                                        static_cast<double>(all.count), all.mean, all.sd,
                                        all.mean_interval.low, all.mean_interval.high});
     }
     Chart chart;
     chart.title = "Mean compensation" + (round.empty() ? "" : ", " + round);
     chart.x_label = "trial";
-    chart.y_label = "angle [deg]";
+    chart.y_label = "compensation [" + people.front().curve->unit + "]";
     chart.caption = fmt::format("Mean of {} people and its 95 % interval; without catch trials. {}",
                                 people.size(), origin);
     chart.series = {mean};
@@ -103,7 +104,7 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
         if (std::find(rounds.begin(), rounds.end(), round) == rounds.end()) rounds.push_back(round);
     }
     for (const std::string& round : rounds) {
-        for (size_t c = 3; c + 1 < out.people.columns.size(); ++c) {
+        for (size_t c = 4; c + 1 < out.people.columns.size(); ++c) {
             std::vector<double> values;
             for (size_t i = first_row; i < out.people.rows.size(); ++i) {
                 if (std::get<std::string>(out.people.rows[i][2]) == round)
@@ -241,14 +242,14 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
                                                          {"B_fast", ""},
                                                          {"A_slow", ""},
                                                          {"B_slow", ""},
-                                                         {"two_rate_sd_deg", "of the residuals"},
+                                                         {"two_rate_sd", "of the residuals"},
                                                          {"A", "single-rate model, fitted"},
                                                          {"B", ""},
                                                          {"session", "folder"}});
-    out.adaptation.columns = {
-        {"experiment", ""},   {"round", ""},    {"trial", ""},  {"block", ""},
-        {"people", ""},       {"mean_deg", ""}, {"sd_deg", ""}, {"mean_low_deg", "95 %"},
-        {"mean_high_deg", ""}};
+    out.adaptation.columns = {{"experiment", ""}, {"round", ""}, {"unit", "of the means"},
+                              {"trial", ""},      {"block", ""}, {"people", ""},
+                              {"mean", ""},       {"sd", ""},    {"mean_low", "95 %"},
+                              {"mean_high", ""}};
     out.thresholds.columns = {
         {"experiment", ""},   {"ppid", "participant"}, {"procedure", ""},
         {"perturbation", ""}, {"trials", "answers"},   {"threshold_share", "of the perturbation"},

@@ -77,18 +77,20 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
         "Compensation is the angle of the hand against the perturbation when it had gone the "
-        "measured distance: 0 before anything is learned, the perturbation itself when all of it "
-        "is. Models are fitted to it less the baseline's mean, by least squares, with 95 % profile "
+        "measured distance, or the logarithm by which its first stroke fell short [%]: 0 before "
+        "anything is learned, the perturbation itself when all of it is. Models are fitted to it "
+        "less the baseline's mean, by least squares, with 95 % profile "
         "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
         "parameters.");
     out.adaptation.columns = {{"round", ""},
                               {"trial_num", "in the session"},
                               {"block", ""},
                               {"kind", ""},
-                              {"perturbation_deg", "0 in a clamp"},
-                              {"compensation_deg", "of the hand"},
-                              {"two_rate_deg", "fitted"},
-                              {"single_rate_deg", "fitted"}};
+                              {"unit", "of what follows"},
+                              {"perturbation", "0 in a clamp"},
+                              {"compensation", "of the hand"},
+                              {"two_rate", "fitted"},
+                              {"single_rate", "fitted"}};
     out.fits.columns = landmark_columns();
     out.fits.columns.insert(out.fits.columns.begin(), {"round", ""});
     out.fits.columns.insert(out.fits.columns.end(), {{"A_fast", "retention a trial"},
@@ -99,10 +101,10 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
                                                      {"A_slow_95", ""},
                                                      {"B_slow", ""},
                                                      {"B_slow_95", ""},
-                                                     {"two_rate_sd_deg", "of the residuals"},
+                                                     {"two_rate_sd", "of the residuals"},
                                                      {"A", "single rate"},
                                                      {"B", ""},
-                                                     {"single_rate_sd_deg", "of the residuals"}});
+                                                     {"single_rate_sd", "of the residuals"}});
     for (const AdaptationCurve& curve : session.curves) {
         const auto fits = fit_adaptation(curve);
         Series measured{"compensation", Drawn::points, {}, {}, {}, {}};
@@ -126,13 +128,13 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
             two_rate.x.push_back(x);
             two_rate.y.push_back(fitted);
             out.adaptation.rows.push_back({curve.round, static_cast<double>(trial.number),
-                                           trial.block, trial.kind, trial.perturbation,
+                                           trial.block, trial.kind, curve.unit, trial.perturbation,
                                            trial.compensation, fitted, single});
         }
         Chart chart;
         chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
         chart.x_label = "trial";
-        chart.y_label = "angle [deg]";
+        chart.y_label = "compensation [" + curve.unit + "]";
         chart.caption = origin_of(session);
         chart.marks = marks;
         chart.series = {perturbation, measured};

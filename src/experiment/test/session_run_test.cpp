@@ -52,13 +52,14 @@ std::vector<std::string> shipped() {
         for (const auto& entry : fs::directory_iterator(folder)) {
             // a stand alone has no hand that does anything; its experiment has
             if (entry.path().stem() == "block-on-stand") continue;
-            // hundreds of trials: ShippedTask has some of them; the last three are people's
+            // hundreds of trials: ShippedTask has some of them; the last four are people's
             // (src/person/test)
             if (entry.path().stem() == "visuomotor-rotation") continue;
             if (entry.path().stem() == "directional-mass") continue;
             if (entry.path().stem() == "rotation-reversal") continue;
             if (entry.path().stem() == "grip-and-lift") continue;
             if (entry.path().stem() == "visual-scaling") continue;
+            if (entry.path().stem() == "scaling-adaptation") continue;
             out.push_back(entry.path().string());
         }
     }

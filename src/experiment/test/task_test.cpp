@@ -368,6 +368,32 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
     EXPECT_EQ(phase_after(9), 2);
 }
 
+TEST(Task, DoesNotTakeAnObjectOutOfFingersThatPressIt) {
+    Files files;
+    const Plan plan = make_plan(files.request());
+    TaskDirector director(*plan.task, 1, 1e-3);
+    servo::Frame last;
+    last.fingers.resize(1);
+    last.bodies.resize(2);
+    last.bodies[1].X_WB.p = {0.2, 0, 0.1};  // where it was carried
+    last.fingers[0].p_WP = {0.23, 0, 0.1};
+    last.contacts.push_back({});
+    last.contacts[0].a = 1;
+    last.contacts[0].b = 2;  // the finger
+    last.contacts[0].normal_force = 1;
+    const std::vector<haptics::Handle> handles{{{0.23, 0, 0.1}, Vec3::Zero()}};
+    servo::Commands commands;
+    commands.task.reserve(2);
+    director(last, handles, commands);
+    EXPECT_TRUE(commands.task.placements.empty());
+    EXPECT_EQ(commands.phase, kBetween);
+    EXPECT_EQ(commands.task.message, plan.task->move_away);
+    last.contacts.clear();
+    director(last, handles, commands);
+    EXPECT_EQ(commands.task.placements.size(), 1u);
+    EXPECT_EQ(commands.phase, 1);
+}
+
 TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
     Files files;
     const Plan plan = make_plan(files.request());

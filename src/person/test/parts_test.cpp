@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "person/eyes.h"
+#include "person/gain_memory.h"
 #include "person/grip_memory.h"
 #include "person/rotation_memory.h"
 #include "person/strokes.h"
@@ -91,6 +92,23 @@ TEST(RotationMemory, GeneralisesWhatIsSlowByAGaussianOfDirections) {
     for (int n = 0; n < 500; ++n) memory.learn(direction(0.1 * n), Vec3(0, 0, 0.1));
     EXPECT_TRUE(std::isfinite(memory.expected(direction(1)).z()));
     EXPECT_GT(memory.expected(direction(1)).z(), 0);
+}
+
+TEST(GainMemory, IsTheSingleRateModelForOneDirectionAndOfAnotherOnlyAsFarAsTheyShareAxes) {
+    const model::SingleRate rate{0.98, 0.25};
+    const Vec3 d = Vec3(2, 1, 0).normalized();
+    GainMemory memory(rate);
+    double x = 0;
+    for (int n = 0; n < 60; ++n) {
+        EXPECT_NEAR(memory.expected(d), x, 1e-12);
+        EXPECT_NEAR(memory.expected(-d), x, 1e-12);
+        const double error = std::log(1.4) - memory.expected(d);  // shown 1.4 times as far
+        memory.learn(d, error);
+        x = next(rate, x, std::log(1.4) - x);
+    }
+    EXPECT_NEAR(x, std::log(1.4) * asymptote(rate), 1e-3);
+    EXPECT_EQ(memory.expected(Vec3::UnitZ()), 0);
+    EXPECT_GT(memory.expected(Vec3::UnitX()), memory.expected(Vec3::UnitY()));
 }
 
 TEST(GripMemory, LearnsAMassAlongTheAxisThatItWasCarried) {

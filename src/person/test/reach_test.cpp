@@ -2,7 +2,8 @@
 // hand, and measured from its path.
 #include <gtest/gtest.h>
 
-#include "analysis/fits/adaptation_fit.h"
+#include "analysis/adaptation.h"
+#include "analysis/session_report.h"
 #include "person/test/reaches.h"
 
 namespace dihaptic::person {
@@ -124,6 +125,39 @@ TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
         const double lag = 0.01;  // of the handle behind its target
         EXPECT_NEAR(begun[i] - shown[i], traits.reaction_time + 0.101 * 0.8 * 0.7 + lag, 0.01);
         EXPECT_NEAR(over[i] - shown[i], traits.reaction_time + 0.5 * 0.8 * 0.7 + lag, 0.01);
+    }
+}
+
+TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScaled) {
+    Sitting sitting("scaling-adaptation");
+    sitting.end_with("  blocks:", R"(  blocks:
+    - { name: baseline, kind: baseline, repeats: 3 }
+    - { name: scaled, kind: perturbed, perturb: scaled, repeats: 10 }
+    - { name: washout, kind: washout, repeats: 4 }
+)");
+    experiment::Plan plan = sitting.plan();
+    const Traits traits = median_person(Objects::device);
+    sit_down(plan, traits);
+    experiment::RunOptions options;
+    options.out = sitting.folder.file("sessions");
+    const experiment::RunResult result = experiment::run_session(plan, options, kGoOn, {});
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const auto curves = analysis::adaptation_curves(CsvFile(result.folder + "/trials.csv"));
+    ASSERT_EQ(curves.size(), 3u);  // along x, y and z
+    const double f = 100 * std::log(1.4);
+    for (const analysis::AdaptationCurve& curve : curves) {
+        SCOPED_TRACE(curve.round);
+        EXPECT_EQ(curve.unit, "%");
+        EXPECT_NEAR(curve.perturbation(), f, 3);
+        ASSERT_EQ(curve.trials.size(), 17u);
+        const double baseline = curve.landmarks().baseline;
+        EXPECT_NEAR(baseline, 0, 5);
+        const std::vector<double> x =
+            model::compensation(model::TwoRate{traits.gain(), {0, 0}}, curve.schedule());
+        for (size_t i = 0; i < x.size(); ++i)
+            EXPECT_NEAR(curve.trials[i].compensation - baseline, x[i], 3) << i;
+        EXPECT_GT(curve.trials[12].compensation, 0.7 * f);
+        EXPECT_GT(curve.trials[13].compensation, curve.trials[16].compensation + 5);
     }
 }
 

@@ -87,6 +87,7 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_EQ(curve.round, "about z");
     EXPECT_NEAR(curve.perturbation(), -30, 1e-5);
     EXPECT_TRUE(std::isnan(curve.trials[20].compensation));
+    EXPECT_EQ(curve.landmark_cells().size(), landmark_columns().size());
     const auto at = curve.landmarks();
     EXPECT_NEAR(at.baseline, bias, 1e-5);
     EXPECT_LT(at.late, at.early);

@@ -1,0 +1,38 @@
+// Adaptation to displays that show movements larger or smaller than they are, by the single-rate
+// model (model/adaptation.h). A person expects a movement in direction d (unit) to be shown longer
+// by the factor exp(g(d)),
+//
+//     g(d) = sum over k of d_k^2 g_k                        along the world's axes
+//
+// which is the logarithm of |S d| for a scaling S = diag(exp(g_k)) that is small. A movement that
+// was shown to go too far by the error e (a logarithm) teaches the axes that it went along, so that
+// in the same direction g changes by B e:
+//
+//     g_k <- A g_k + B e d_k^2 / sum over j of d_j^4
+#pragma once
+
+#include <cmath>
+
+#include "base/geometry.h"
+#include "model/adaptation.h"
+
+namespace dihaptic::person {
+
+class GainMemory {
+  public:
+    explicit GainMemory(const model::SingleRate& rate) : rate_(rate) {}
+
+    /// g(d).
+    double expected(const Vec3& d) const noexcept { return d.cwiseAbs2().dot(gain_); }
+    /// The movement is over. `error`: ln(length shown / length wanted).
+    void learn(const Vec3& d, double error) noexcept {
+        const Vec3 share = d.cwiseAbs2() / d.cwiseAbs2().squaredNorm();
+        gain_ = rate_.retention * gain_ + rate_.learning * error * share;
+    }
+
+  private:
+    model::SingleRate rate_;
+    Vec3 gain_ = Vec3::Zero();  // g_k
+};
+
+}  // namespace dihaptic::person
