@@ -151,6 +151,7 @@ class Mouse(Window):
         self.key("alt+n", "ctrl+a")
         self.xdotool("type", "2000\n")
         time.sleep(0.5)
+        self.key("alt+x", "End")  # a point, once the block is let go: not in this session
         self.key("alt+c", "End")  # not through the dual spring, which shakes when it is so stiff
         time.sleep(0.4)
         for _ in range(3):  # through all solvers
@@ -162,6 +163,7 @@ class Mouse(Window):
             self.assertEqual(sorted(set(solver)), [0, 1, 2, 3])
             self.assertEqual(sorted(set(self.series(file, "coupling"))), [0, 2])
             self.assertEqual(sorted(set(self.series(file, "friction_scale"))), [1, 1.5])
+            self.assertEqual(sorted(set(self.series(file, "proxy"))), [0])
             stiffness = self.series(file, "stiffness")
             self.assertEqual((stiffness[0], stiffness[-1]), (1000, 2000))
             changed = np.flatnonzero(stiffness != stiffness[0])[0]

@@ -60,7 +60,12 @@ OperatorWindow::OperatorWindow(QString out)
         log(paused ? "paused: force is off" : "goes on");
         update_state();
     });
-    connect(tuning_, &TuningPanel::proxy_chosen, this, &OperatorWindow::reload);
+    connect(tuning_, &TuningPanel::proxy_chosen, this, [this](scene::ProxyKind kind) {
+        if (!runner_.running()) return;
+        runner_.set_proxy(kind);
+        log(QString("proxy: %1, once the fingers are clear of everything")
+                .arg(enum_name(kind).data()));
+    });
     connect(tuning_, &TuningPanel::solver_chosen, this, [this](dynamics::Solver solver) {
         if (!runner_.running()) return;
         runner_.set_solver(solver);
@@ -209,8 +214,7 @@ experiment::Request OperatorWindow::request() const {
     request.participant = session_->participant().toStdString();
     // to look at a file that asks for one; a session has its own
     if (request.participant.empty()) request.participant = "S01";
-    if (!tuning_->proxy().isEmpty())
-        request.set.push_back("proxy.kind=" + tuning_->proxy().toStdString());
+    request.set.emplace_back("proxy.changeable=yes");
     return request;
 }
 
@@ -475,7 +479,6 @@ void OperatorWindow::update_state() {
     session_->set_state(state(), has_trials());
     scene_->set_banner(banner());
     if (subject_) subject_->scene().set_banner(message());
-    tuning_->set_running(runner_.running());
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {

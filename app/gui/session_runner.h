@@ -40,6 +40,7 @@ class SessionRunner : public QObject {
     bool paused() const { return session_->live.paused; }
     void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
     void set_friction_scale(double scale) { session_->live.friction_scale.publish(scale); }
+    void set_proxy(haptics::ProxyKind kind) { session_->live.proxy.publish(kind); }
     /// Angle that the workspaces turn to [rad].
     void turn_workspaces(double angle) { session_->live.workspace.publish(angle); }
     /// The trial that runs.

@@ -28,7 +28,7 @@ constexpr double kUnset = -0.1;  // below the least damping, shown in words
 
 TuningPanel::TuningPanel(QWidget* parent)
     : QWidget(parent),
-      proxy_(new QComboBox),
+      proxy_(choice<scene::ProxyKind>()),
       coupling_(choice<haptics::CouplingKind>()),
       stiffness_(box(1, 20000, 100, 0, " N/m")),
       damping_(box(kUnset, 50, 0.1, 1, " N s/m")),
@@ -36,8 +36,7 @@ TuningPanel::TuningPanel(QWidget* parent)
       solver_(choice<dynamics::Solver>()),
       friction_(box(0, 5, 0.1, 2, " x")) {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
-    proxy_->addItem("as the file says", QString());
-    for (const char* name : enum_names(scene::ProxyKind{})) proxy_->addItem(name, QString(name));
+    proxy_->setToolTip("changes once the fingers are clear of everything");
     friction_->setToolTip("every coefficient of friction, times those of the scene");
     damping_->setSpecialValueText("k h / 2");
     smoothing_->setToolTip("share of the new force in the force sent: of the dual spring");
@@ -48,7 +47,7 @@ TuningPanel::TuningPanel(QWidget* parent)
     form->addRow("S&moothing", smoothing_);
     form->addRow("Contact so&lver", solver_);
     form->addRow("Frict&ion", friction_);
-    form->addRow("Pro&xy, from the next start", proxy_);
+    form->addRow("Pro&xy", proxy_);
     connect(solver_, &QComboBox::activated, this,
             [this](int index) { Q_EMIT solver_chosen(static_cast<dynamics::Solver>(index)); });
     connect(coupling_, &QComboBox::activated, this, &TuningPanel::tune);
@@ -57,7 +56,8 @@ TuningPanel::TuningPanel(QWidget* parent)
     connect(friction_, &QDoubleSpinBox::valueChanged, this, [this](double scale) {
         if (!setting_) Q_EMIT friction_scaled(scale);
     });
-    connect(proxy_, &QComboBox::activated, this, &TuningPanel::proxy_chosen);
+    connect(proxy_, &QComboBox::activated, this,
+            [this](int index) { Q_EMIT proxy_chosen(static_cast<scene::ProxyKind>(index)); });
 }
 
 void TuningPanel::set_settings(const servo::Settings& settings) {
@@ -68,6 +68,7 @@ void TuningPanel::set_settings(const servo::Settings& settings) {
     damping_->setValue(tuning.damping.value_or(kUnset));
     smoothing_->setValue(tuning.smoothing);
     friction_->setValue(1);
+    proxy_->setCurrentIndex(static_cast<int>(settings.proxy.kind));
     solver_->setCurrentIndex(static_cast<int>(settings.dynamics.solver));
     setting_ = false;
 }

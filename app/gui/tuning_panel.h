@@ -17,15 +17,12 @@ class TuningPanel : public QWidget {
 
     /// As the session starts with them.
     void set_settings(const servo::Settings& settings);
-    void set_running(bool running) { proxy_->setEnabled(!running); }
-    /// "" as the file says, or the proxy's kind.
-    QString proxy() const { return proxy_->currentData().toString(); }
 
   Q_SIGNALS:
     void solver_chosen(dihaptic::dynamics::Solver solver);
     void friction_scaled(double scale);
     void tuned(const dihaptic::haptics::Tuning& tuning);
-    void proxy_chosen();
+    void proxy_chosen(dihaptic::scene::ProxyKind kind);
 
   private:
     void tune();

@@ -1,6 +1,7 @@
 #include "dynamics/world.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "dynamics/world_impl.h"
 #include "scene/solid.h"
@@ -79,6 +80,27 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool t
     return {size() - 1};
 }
 
+BodyIndex World::add_changeable_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
+    const BodyIndex proxy = add_proxy(finger, p_WP, turns);
+    impl_->items.back().may_be_point = true;
+    return proxy;
+}
+
+void World::set_point(BodyIndex proxy, bool point) noexcept {
+    Impl& w = *impl_;
+    Impl::Item& item = w.items[static_cast<size_t>(proxy.value)];
+    assert(item.may_be_point);
+    item.is_point = point;
+    if (!w.collision) return;  // not yet active
+    for (const auto& part : item.parts) {
+        if (point) {
+            w.collision->hide(*part);
+        } else {
+            w.collision->show(*part);
+        }
+    }
+}
+
 BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     // a point has no shape; its body must have one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
@@ -109,8 +131,10 @@ void World::activate() {
     w.can_move.reserve(count);
     w.grouped_bodies.reserve(count);
     w.batch_bodies.reserve(count);
-    const auto points = static_cast<int>(std::count_if(
-        w.items.begin(), w.items.end(), [](const Impl::Item& item) { return item.is_point; }));
+    const auto points =
+        static_cast<int>(std::count_if(w.items.begin(), w.items.end(), [](const Impl::Item& item) {
+            return item.is_point || item.may_be_point;
+        }));
     w.point_contacts.reserve(points);
     const size_t manifolds =
         static_cast<size_t>(max_contacts) + static_cast<size_t>(points) * kMostPointContacts;
@@ -122,9 +146,10 @@ void World::activate() {
     w.friction.resize(count * count);
     for (size_t i = 0; i < count; ++i) {
         Impl::Item& item = w.items[i];
-        if (!item.is_point) {
+        if (!item.is_point || item.may_be_point) {
             for (const auto& part : item.parts) w.collision->add(*part, item.can_move);
         }
+        if (item.may_be_point) set_point({static_cast<int>(i)}, item.is_point);
         if (item.can_move) w.can_move.push_back(i);
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;

@@ -61,10 +61,16 @@ class World {
     /// Adds a finger's proxy at a position. Gravity does not act on it. It does not turn, or else
     /// turns about P, with the same inertia about all axes: its mean about P.
     BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
+    /// The same of one that set_point() may make a point.
+    BodyIndex add_changeable_proxy(const scene::Finger& finger, const Vec3& p_WP,
+                                   bool turns = false);
     /// Adds a finger whose proxy is a point. It meets nothing but what meet() says.
     BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
     /// Reserves all memory that steps need.
     void activate();
+
+    /// Makes a changeable proxy a point from the next step on, or again a body with its shape.
+    void set_point(BodyIndex proxy, bool point) noexcept;
 
     int size() const;        ///< number of bodies, proxies included
     int scene_size() const;  ///< number of bodies of the scene: indices below this one

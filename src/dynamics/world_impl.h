@@ -34,6 +34,7 @@ struct World::Impl {
         double torsion_radius = 0;
         bool is_proxy = false;
         bool is_point = false;
+        bool may_be_point = false;  // it has parts, hidden while it is one
         bool can_move = false;
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();

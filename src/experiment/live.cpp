@@ -4,9 +4,17 @@
 
 namespace dihaptic::experiment {
 
-void Live::prepare(const servo::Servo& servo, int object) {
+void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
     for (servo::Frame& value : frame.values()) servo.reserve(value);
-    object_ = object;
+    object_ = scene.object_index();
+    clearance_ = Clearance(scene);
+}
+
+std::optional<haptics::ProxyKind> Live::change_proxy(const servo::Frame& last) noexcept {
+    const std::optional<haptics::ProxyKind>& wish = proxy.read();
+    if (!wish || static_cast<int32_t>(*wish) == last.proxy || !clearance_.all_clear(last))
+        return std::nullopt;
+    return wish;
 }
 
 /// A tick is late more or less: the earliest zero is the truest. A pause, in which session time

@@ -8,6 +8,7 @@
 
 #include "base/latest.h"
 #include "base/ring.h"
+#include "experiment/clearance.h"
 #include "recording/showings.h"
 #include "servo/servo.h"
 
@@ -40,6 +41,9 @@ struct Live {
     /// To be had soon: stiffness and damping go there in kEase, so that what is held stays held.
     Latest<std::optional<haptics::Tuning>> tuning;
     static constexpr double kEase = 0.2;  // [s]
+    /// What fingers are, where settings.proxy.changeable: from when all are clear of everything,
+    /// so that none lets go of what it holds, or pushes away what it is put into.
+    Latest<std::optional<haptics::ProxyKind>> proxy;
     /// Every coefficient of friction times so much; unset: as the session has them.
     Latest<std::optional<double>> friction_scale;
     /// Angle that the workspaces turn to, as servo::WorkspaceTurn has it [rad].
@@ -48,8 +52,10 @@ struct Live {
     Live() {
         for (servo::Frame& value : frame.values()) value.sequence = -1;
     }
-    /// Before the first tick: memory for the frames of this servo. `object`: its body, or -1.
-    void prepare(const servo::Servo& servo, int object);
+    /// Before the first tick: memory for the frames of this servo, of this scene.
+    void prepare(const servo::Servo& servo, const scene::Scene& scene);
+    /// In the tick: the kind of proxy that may be had now.
+    std::optional<haptics::ProxyKind> change_proxy(const servo::Frame& last) noexcept;
     /// In the tick: hands over what is due again.
     void show(const servo::Frame& now) noexcept;
     /// In the tick: what the coupling is to be in this one. `now`: in the last; `h`: a tick [s].
@@ -77,6 +83,7 @@ struct Live {
     Ring samples_{65536};  // several seconds: a window that hangs longer has a gap in its curves
     std::vector<std::byte> taken_;
     int object_ = -1;
+    Clearance clearance_;
     haptics::Tuning tuning_goal_;
     double left_ = 0;  // until it is reached [s]
     Time shown_{0};

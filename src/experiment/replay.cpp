@@ -108,6 +108,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
             static_cast<haptics::CouplingKind>(recorded->coupling), recorded->stiffness,
             std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
             recorded->smoothing};
+        commands.proxy = static_cast<haptics::ProxyKind>(recorded->proxy);
         commands.friction_scale = recorded->friction_scale;
         commands.workspace_rate = recorded->workspace_rate;
         commands.solver = static_cast<dynamics::Solver>(recorded->solver);

@@ -297,7 +297,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                           2);
     std::atomic<int64_t> reached{0};
     Live* const live = options.live;
-    if (live != nullptr) live->prepare(*servo, plan.scene.object_index());
+    if (live != nullptr) live->prepare(*servo, plan.scene);
     bool resumed = false;
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
@@ -333,6 +333,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
         commands.solver = live->solver.read();
         commands.tuning = live->tune(servo->settings().coupling.tuning(), plan.settings.tick());
+        if (plan.settings.proxy.changeable && last.sequence >= 0)
+            commands.proxy = live->change_proxy(last);
         commands.friction_scale = live->friction_scale.read();
         if (task) {
             if (live->skip.exchange(false, std::memory_order_relaxed)) task->skip();

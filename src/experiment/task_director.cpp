@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "experiment/clearance.h"
 #include "servo/displayed.h"
 
 namespace dihaptic::experiment {
 namespace {
 
-constexpr double kAtHome = 1e-6;     // a body is where it belongs [m], [rad]
-constexpr double kClearance = 2e-3;  // between fingers and a body that is put back [m]
+constexpr double kAtHome = 1e-6;  // a body is where it belongs [m], [rad]
 constexpr double kNever = -1;
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
@@ -80,11 +80,8 @@ bool TaskDirector::clear(const servo::Frame& last) const noexcept {
         if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) continue;
         if (pressed(last, home.body, -1, 1)) return false;
         for (size_t i = 0; i < last.fingers.size(); ++i) {
-            const Vec3 p_BP = home.X_WB.inverse() * last.fingers[i].p_WP;
-            const double margin = plan_.finger_radius[i] + kClearance;
-            const bool in_the_way = (p_BP.array() > home.box.low.array() - margin).all() &&
-                                    (p_BP.array() < home.box.high.array() + margin).all();
-            if (in_the_way) return false;
+            if (in_the_way(home.X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
+                return false;
         }
     }
     return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "experiment/clearance.h"
 #include "experiment/lookup.h"
 
 namespace dihaptic::experiment {
@@ -57,7 +58,7 @@ class Planner {
         for (const Block& block : plan_.task.blocks) check_block(block);
         check_reach();
         for (const scene::Finger& finger : scene_.fingers)
-            plan_.finger_radius.push_back(scene::extent(finger.shape) * std::sqrt(3.0) / 2);
+            plan_.finger_radius.push_back(reach_of(finger));
         return std::move(plan_);
     }
 

@@ -110,6 +110,7 @@ struct ProxySettings {
     /// Point: a body that is pressed harder yields, and is not felt again until the point has left
     /// it [N]. Unset: none does.
     std::optional<double> popthrough;
+    bool changeable = false;  ///< the kind may change while a session runs: a window's wish
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -117,6 +118,7 @@ struct ProxySettings {
         v("friction", friction);
         v("sliding_friction", sliding_friction, Field::number().within(0, 1));
         v("popthrough", popthrough, Field::of(Quantity::force).positive());
+        v("changeable", changeable);
     }
 
     ProxyKind of(const scene::Finger& finger) const { return finger.proxy.value_or(kind); }

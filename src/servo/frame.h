@@ -157,6 +157,7 @@ struct Frame {
     double stiffness = 0;   ///< k, the same
     double damping = 0;     ///< c, the same; NaN: k h / 2
     double smoothing = 0;   ///< alpha, the same
+    int32_t proxy = 0;      ///< haptics::ProxyKind in force, of fingers without one of their own
     double friction_scale = 1;  ///< in force, of every coefficient of friction
     double workspace_turn = 0;  ///< angle of WorkspaceTurn in this tick [rad]
     double workspace_rate = 0;  ///< at which it goes on to the next tick [rad/s]
@@ -189,6 +190,7 @@ struct Frame {
         v("stiffness", f.stiffness, "N/m");
         v("damping", f.damping, "N*s/m");
         v("smoothing", f.smoothing, "1");
+        v("proxy", f.proxy, "1");
         v("friction_scale", f.friction_scale, "1");
         v("workspace_turn", f.workspace_turn, "rad");
         v("workspace_rate", f.workspace_rate, "rad/s");

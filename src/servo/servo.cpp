@@ -65,31 +65,22 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             settings.tick(), X_0D_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
-        const bool is_point = settings.proxy.of(scene.fingers[i]) == haptics::ProxyKind::point;
+        const scene::Finger& finger = scene.fingers[i];
+        const haptics::ProxyKind kind = settings.proxy.of(finger);
+        const bool is_point = kind == haptics::ProxyKind::point;
         if (info.measures_orientation) turning_.push_back(i);
-        // a point apart has nothing that could turn a body
-        const bool turns = info.measures_orientation &&
-                           !(is_point && settings.proxy.friction == haptics::PointFriction::apart);
-        if (is_point) {
-            const dynamics::BodyIndex proxy =
-                world_.add_point(scene.fingers[i], Vec3::Zero(), turns);
-            if (settings.proxy.friction == haptics::PointFriction::together) {
-                fingers_.emplace_back(
-                    haptics::SolvedPoint(scene, proxy, settings.coupling, settings.proxy), proxy);
-            } else {
-                fingers_.emplace_back(
-                    haptics::PointProxy(scene, i, proxy, settings.coupling, settings.proxy), proxy);
-            }
-        } else {
-            const dynamics::BodyIndex proxy =
-                world_.add_proxy(scene.fingers[i], Vec3::Zero(), turns);
-            fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling,
-                                  settings.safety.largest_force(info.peak_force));
-        }
-        if (turns) {
-            const double inertia = is_point ? 0 : world_.inertia(fingers_[i].proxy());
-            fingers_[i].turn_with_handle(haptics::RotationalCoupling(
-                settings.coupling, inertia, rotation_xyz(scene.fingers[i].rotation)));
+        const bool changeable = settings.proxy.changeable && !finger.proxy;
+        const bool turns = info.measures_orientation && (changeable || turns_with_handle(kind));
+        const dynamics::BodyIndex proxy =
+            changeable ? world_.add_changeable_proxy(finger, Vec3::Zero(), turns)
+            : is_point ? world_.add_point(finger, Vec3::Zero(), turns)
+                       : world_.add_proxy(finger, Vec3::Zero(), turns);
+        fingers_.push_back(make_finger(scene, i, proxy, kind));
+        spares_.emplace_back();
+        if (changeable) {
+            world_.set_point(proxy, is_point);
+            spares_.back().emplace(make_finger(
+                scene, i, proxy, is_point ? haptics::ProxyKind::rigid : haptics::ProxyKind::point));
         }
         X_D0_.push_back(X_0D_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed);
@@ -105,6 +96,50 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
 
 Servo::~Servo() {
     deactivate();
+}
+
+/// A point apart has nothing that could turn a body.
+bool Servo::turns_with_handle(haptics::ProxyKind kind) const noexcept {
+    return kind == haptics::ProxyKind::rigid ||
+           settings_.proxy.friction == haptics::PointFriction::together;
+}
+
+haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
+                                   dynamics::BodyIndex proxy, haptics::ProxyKind kind) const {
+    const scene::Finger& of = scene.fingers[finger];
+    const devices::DeviceInfo& info = devices_->info(static_cast<int>(finger));
+    const auto made = [&] {
+        if (kind == haptics::ProxyKind::rigid) {
+            return haptics::Finger(of, proxy, settings_.coupling,
+                                   settings_.safety.largest_force(info.peak_force));
+        }
+        if (settings_.proxy.friction == haptics::PointFriction::together) {
+            return haptics::Finger(
+                haptics::SolvedPoint(scene, proxy, settings_.coupling, settings_.proxy), proxy);
+        }
+        return haptics::Finger(
+            haptics::PointProxy(scene, finger, proxy, settings_.coupling, settings_.proxy), proxy);
+    };
+    haptics::Finger out = made();
+    if (info.measures_orientation && turns_with_handle(kind)) {
+        const double inertia = kind == haptics::ProxyKind::point ? 0 : world_.inertia(proxy);
+        out.turn_with_handle(
+            haptics::RotationalCoupling(settings_.coupling, inertia, rotation_xyz(of.rotation)));
+    }
+    return out;
+}
+
+void Servo::change_proxies(haptics::ProxyKind kind) noexcept {
+    settings_.proxy.kind = kind;
+    for (size_t i = 0; i < fingers_.size(); ++i) {
+        if (!spares_[i]) continue;
+        std::swap(fingers_[i], *spares_[i]);
+        world_.set_point(fingers_[i].proxy(), kind == haptics::ProxyKind::point);
+        fingers_[i].retune(settings_.coupling);
+        fingers_[i].set_friction_scale(world_.friction_scale());
+        fingers_[i].place(world_, handles_[i]);
+    }
+    soft_start_.restart();
 }
 
 void Servo::activate() {
@@ -158,6 +193,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.force_off = false;
     commands_.resume = false;
     commands_.tuning.reset();
+    commands_.proxy.reset();
     commands_.friction_scale.reset();
     commands_.workspace_rate = 0;
     if (director) director(frame_, handles_, commands_);
@@ -165,6 +201,8 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
         settings_.coupling.set(*commands_.tuning);
         for (haptics::Finger& finger : fingers_) finger.retune(settings_.coupling);
     }
+    if (commands_.proxy && *commands_.proxy != settings_.proxy.kind)
+        change_proxies(*commands_.proxy);
     if (commands_.friction_scale && *commands_.friction_scale != world_.friction_scale()) {
         world_.set_friction_scale(*commands_.friction_scale);
         for (haptics::Finger& finger : fingers_)
@@ -323,6 +361,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.stiffness = tuning.stiffness;
     frame_.damping = tuning.damping.value_or(kUnmeasured);
     frame_.smoothing = tuning.smoothing;
+    frame_.proxy = static_cast<int32_t>(settings_.proxy.kind);
     frame_.friction_scale = world_.friction_scale();
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();

@@ -32,8 +32,11 @@ struct Commands {
     bool resume = false;                     ///< the first tick after rest()
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
-    std::optional<double> friction_scale;    ///< of every coefficient, from this tick on
-    double workspace_rate = 0;               ///< of the workspaces' turn, from this tick on [rad/s]
+    /// What fingers are that may change, and that the scene gives no proxy of their own, from this
+    /// tick on. Who orders it sees to it that they are clear of everything.
+    std::optional<haptics::ProxyKind> proxy;
+    std::optional<double> friction_scale;  ///< of every coefficient, from this tick on
+    double workspace_rate = 0;             ///< of the workspaces' turn, from this tick on [rad/s]
 
     TaskFrame task;  ///< of this tick alone: it is empty before the director is asked
 };
@@ -91,6 +94,10 @@ class Servo {
     void measure(Time now) noexcept;
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
+    haptics::Finger make_finger(const scene::Scene& scene, size_t finger, dynamics::BodyIndex proxy,
+                                haptics::ProxyKind kind) const;
+    void change_proxies(haptics::ProxyKind kind) noexcept;
+    bool turns_with_handle(haptics::ProxyKind kind) const noexcept;
     /// Puts bodies where they are ordered to be, and gives them their properties.
     void order_bodies() noexcept;
     /// Force of the fields on a handle.
@@ -109,6 +116,7 @@ class Servo {
     Time period_;
     dynamics::World world_;
     std::vector<haptics::Finger> fingers_;
+    std::vector<std::optional<haptics::Finger>> spares_;  // of the other kind, where it may change
     std::vector<size_t> turning_;  // fingers whose devices measure orientation
     std::unique_ptr<devices::DeviceGroup> devices_;
     std::vector<Pose> X_0D_;  // in the world without a turn, as all that is judged there

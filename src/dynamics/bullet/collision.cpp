@@ -169,6 +169,13 @@ void Collision::update_bounds(CollisionPart& part, double h) {
     broadphase_.setAabb(part.bounds, low - margin, high + margin, &dispatcher_);
 }
 
+void Collision::hide(CollisionPart& part) {
+    part.hidden = true;
+    // its pairs end where nothing is
+    const btVector3 corner(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent);
+    broadphase_.setAabb(part.bounds, corner, corner, &dispatcher_);
+}
+
 void Collision::find_contacts(double h) {
     step_ = h;
     btDispatcherInfo info;

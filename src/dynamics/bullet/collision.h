@@ -29,6 +29,10 @@ class Collision {
     void add(CollisionPart& part, bool can_move);
     /// To be called of each part of a body that moved or is about to.
     void update_bounds(CollisionPart& part, double h);
+    /// From the next find_contacts() on the part meets nothing, until it is shown and its bounds
+    /// are updated.
+    void hide(CollisionPart& part);
+    void show(CollisionPart& part) { part.hidden = false; }
 
     /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
     /// touches wake: their user index 2 becomes 1, and their pairs are looked at too.
@@ -66,12 +70,12 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Parts of one body do not meet.
+    /// Parts of one body do not meet, nor hidden ones.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
                    (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0 &&
-                   part(a).body != part(b).body;
+                   part(a).body != part(b).body && !part(a).hidden && !part(b).hidden;
         }
     };
 

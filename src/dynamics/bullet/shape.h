@@ -38,6 +38,7 @@ struct CollisionPart {
     std::unique_ptr<Polyhedron> polyhedron;   // null when it is round, flat, or has too many edges
     btTransform X_MS;
     bool moved = false;                   // X_MS is not the identity
+    bool hidden = false;                  // it meets nothing
     btBroadphaseProxy* bounds = nullptr;  // once it is looked at
 
     btTransform X_WS() const {

@@ -155,6 +155,30 @@ TEST(Live, WorkspacesTurnAndFrictionChangesWhileABlockIsHeldAndTheReplayIsExact)
     EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
 }
 
+TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
+    Request request = block(true);
+    request.set.emplace_back("proxy.changeable=yes");
+    Desk desk(request);
+    desk.at(0.2);
+    hand::Posture goal = desk.plan.mouse->goal();
+    const double open = goal.aperture;
+    goal.aperture = 0.034;
+    desk.plan.mouse->follow(goal, desk.now());
+    EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
+    desk.live.proxy.publish(haptics::ProxyKind::point);
+    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, 0);  // they hold the block
+    goal.aperture = open;
+    desk.plan.mouse->follow(goal, desk.now());
+    EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, 1);
+    goal.aperture = 0.03;  // points close on the block as pads do
+    desk.plan.mouse->follow(goal, desk.now());
+    const servo::Frame& held = desk.at(desk.now() + 1);
+    EXPECT_GT(held.grip_force, 0.3);
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
 TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
     Files files;
     Desk desk(files.request());

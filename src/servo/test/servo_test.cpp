@@ -240,6 +240,68 @@ TEST(Servo, LoadsOfTheDirectorActOnBodies) {
     EXPECT_NEAR(frame.bodies[1].v_WB.z(), 9.81 * 0.101, 1e-6);
 }
 
+/// A finger that presses down on a block with a force, and comes back up; the proxy may change.
+class Changeable : public ::testing::TestWithParam<haptics::PointFriction> {
+  protected:
+    Settings settings;
+    Changeable() {
+        settings.proxy.friction = GetParam();
+        settings.proxy.changeable = true;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Servo, Changeable,
+                         ::testing::Values(haptics::PointFriction::together,
+                                           haptics::PointFriction::apart),
+                         [](const auto& of) { return std::string(enum_name(of.param)); });
+
+TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    // which kind, and whether it was changed to
+    const auto lift = [&](haptics::ProxyKind kind, bool changed) {
+        Settings own = settings;
+        const auto other = kind == haptics::ProxyKind::rigid ? haptics::ProxyKind::point
+                                                             : haptics::ProxyKind::rigid;
+        own.proxy.kind = changed ? other : kind;
+        Grasp grasp(own);
+        const Director order = [&](const Frame&, std::span<const haptics::Handle>,
+                                   Commands& commands) {
+            if (changed) commands.proxy = kind;
+        };
+        const testing::AllocationGuard guard;
+        for (int i = 0; i < 1100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), order);
+        EXPECT_EQ(guard.count(), 0u);
+        return grasp.servo->tick(std::chrono::milliseconds(1100), order);
+    };
+    for (const auto kind : {haptics::ProxyKind::rigid, haptics::ProxyKind::point}) {
+        const Frame always = lift(kind, false);
+        const Frame since = lift(kind, true);
+        EXPECT_EQ(always.proxy, static_cast<int>(kind));
+        EXPECT_EQ(since.proxy, static_cast<int>(kind));
+        EXPECT_GT(always.bodies[1].X_WB.p.z(), 0.06);
+        EXPECT_NEAR(since.bodies[1].X_WB.p.z(), always.bodies[1].X_WB.p.z(), 1e-4);
+        EXPECT_NEAR(since.grip_force, always.grip_force, 0.01);
+    }
+}
+
+TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndFro) {
+    Grasp grasp(settings);
+    double most = 0;
+    for (int i = 0; i < 100; ++i) {  // in the air, before the fingers close
+        const Director order = [&](const Frame&, std::span<const haptics::Handle>,
+                                   Commands& commands) {
+            commands.proxy =
+                i / 10 % 2 == 0 ? haptics::ProxyKind::rigid : haptics::ProxyKind::point;
+        };
+        const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), order);
+        for (const FingerFrame& finger : frame.fingers) {
+            most = std::max(most, finger.f_sent_W.norm());
+            EXPECT_LT((finger.p_WP - finger.p_WH).norm(), 1e-3);
+        }
+        EXPECT_TRUE(frame.contacts.size() <= 8);  // the block's own
+    }
+    EXPECT_LT(most, 0.1);
+}
+
 TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
     Grasp grasp;
     const std::atomic<bool> stop{false};
