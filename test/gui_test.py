@@ -5,6 +5,7 @@ SCREENSHOTS.
 """
 import csv
 import glob
+import math
 import os
 import pathlib
 import subprocess
@@ -427,6 +428,33 @@ class Files(Window):
         time.sleep(1.5)
         self.start()
         self.quit()
+
+
+    def test_that_take_long_can_be_cancelled(self):
+        self.open()
+        mesh = pathlib.Path(self.folder.name, "star.obj")
+        mesh.write_text(star(teeth=2000))  # minutes
+        slow = SCENE.replace("fingers:", f"  - {{ name: star, shape: mesh, file: {mesh}, unit: mm, concave: yes, "
+                                         "mass_g: 10, position_mm: [100, 0, 30] }\nfingers:", 1)
+        pathlib.Path(self.scene).write_text(slow)
+        time.sleep(2)
+        self.screenshot("opening")
+        self.key("F7")
+        time.sleep(1)
+        pathlib.Path(self.scene).write_text(SCENE)
+        time.sleep(1.5)
+        self.start()
+        self.quit()
+
+
+def star(teeth):
+    """A prism over a star, as OBJ: the more teeth, the longer it takes to cut."""
+    n = 2 * teeth
+    ring = [(1 + i % 2, math.pi * i / teeth) for i in range(n)]
+    lines = [f"v {5 * r * math.cos(a):.6f} {5 * r * math.sin(a):.6f} {z}" for z in (0, 5) for r, a in ring]
+    lines += ["f " + " ".join(str(n - i) for i in range(n)), "f " + " ".join(str(n + i + 1) for i in range(n))]
+    lines += [f"f {i + 1} {(i + 1) % n + 1} {n + (i + 1) % n + 1} {n + i + 1}" for i in range(n)]
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 #include "loader.h"
 
+#include "scene/pieces.h"
+
 namespace dihaptic::gui {
 namespace {
 
@@ -30,7 +32,13 @@ Opened open(const experiment::Request& request) {
 }  // namespace
 
 Loader::~Loader() {
+    cancel();
     if (thread_.joinable()) thread_.join();
+}
+
+void Loader::cancel() {
+    next_.reset();
+    scene::cancel_cut();
 }
 
 void Loader::load(const experiment::Request& request) {

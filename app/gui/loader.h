@@ -30,6 +30,8 @@ class Loader : public QObject {
     /// What was asked for before and is not done yet is dropped.
     void load(const experiment::Request& request);
     bool loading() const { return thread_.joinable(); }
+    /// Ends what takes long; refused() says so.
+    void cancel();
 
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);

@@ -325,6 +325,7 @@ void OperatorWindow::begin(const recording::Participant& participant) {
 
 void OperatorWindow::stop() {
     if (runner_.running()) runner_.end();
+    if (loader_.loading()) loader_.cancel();
 }
 
 void OperatorWindow::skip() {
@@ -460,7 +461,8 @@ SessionPanel::State OperatorWindow::state() const {
     using State = SessionPanel::State;
     if (runner_.finishing()) return State::finishing;
     if (runner_.running()) return runner_.paused() ? State::paused : State::running;
-    return plan_ && !loader_.loading() ? State::ready : State::nothing;
+    if (loader_.loading()) return State::opening;
+    return plan_ ? State::ready : State::nothing;
 }
 
 QString OperatorWindow::banner() const {

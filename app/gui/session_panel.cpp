@@ -80,20 +80,22 @@ void SessionPanel::set_rigs(const QStringList& files) {
 }
 
 void SessionPanel::set_state(State state, bool trials) {
-    const bool idle = state == State::nothing || state == State::ready;
+    const bool opening = state == State::opening;
+    const bool idle = state == State::nothing || state == State::ready || opening;
     const bool running = state == State::running || state == State::paused;
     start_->setEnabled(state == State::ready);
     pause_->setEnabled(running);
     pause_->setChecked(state == State::paused);
-    stop_->setEnabled(running);
+    stop_->setEnabled(running || opening);
+    stop_->setText(opening ? "Cancel" : "Stop");
     skip_->setEnabled(state == State::running && trials);
     skip_->setVisible(trials);
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
-        progress_->setRange(0, 1);
+        progress_->setRange(0, opening ? 0 : 1);  // 0: busy
         progress_->setValue(0);
-        progress_->setFormat(state == State::ready ? "ready" : "");
+        progress_->setFormat(opening ? "opening" : state == State::ready ? "ready" : "");
     }
 }
 

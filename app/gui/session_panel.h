@@ -18,7 +18,7 @@ class SessionPanel : public QWidget {
     Q_OBJECT
 
   public:
-    enum class State { nothing, ready, running, paused, finishing };
+    enum class State { nothing, opening, ready, running, paused, finishing };
 
     explicit SessionPanel(QWidget* parent = nullptr);
 
@@ -44,6 +44,7 @@ class SessionPanel : public QWidget {
     void start_requested();
     void pause_requested(bool paused);
     void skip_requested();
+    /// Of the session, or of what is being opened.
     void stop_requested();
 
   private:

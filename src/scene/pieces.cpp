@@ -1,6 +1,7 @@
 #include "scene/pieces.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -122,8 +124,14 @@ std::string off_of(const Mesh& mesh) {
     return off;
 }
 
-/// What the program wrote; nothing when it failed.
-std::optional<std::string> run(const std::string& command, const Mesh& mesh) {
+/// The program while it runs; 0: it does not. Guarded, so that nobody ends another program that has
+/// got its number.
+std::mutex cutting_guard;
+pid_t cutting = 0;
+
+/// What the program wrote; nothing when it failed. Throws Error when it was cancelled.
+std::optional<std::string> run(const std::string& command, const Mesh& mesh,
+                               const std::string& file, const Place& asked_at) {
     const TemporaryFolder folder;
     std::string in = folder.file("mesh.off");
     std::string out = folder.file("pieces");
@@ -132,9 +140,24 @@ std::optional<std::string> run(const std::string& command, const Mesh& mesh) {
     std::array<char*, 4> arguments{name.data(), in.data(), out.data(), nullptr};
     pid_t child = 0;
     int status = 0;
-    if (posix_spawn(&child, command.c_str(), nullptr, nullptr, arguments.data(), environ) != 0 ||
-        waitpid(child, &status, 0) != child || status != 0)
+    if (posix_spawn(&child, command.c_str(), nullptr, nullptr, arguments.data(), environ) != 0)
         return std::nullopt;
+    {
+        const std::lock_guard lock(cutting_guard);
+        cutting = child;
+    }
+    siginfo_t ended{};
+    waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // it is still there
+    {
+        const std::lock_guard lock(cutting_guard);
+        cutting = 0;
+        if (waitpid(child, &status, 0) != child) return std::nullopt;
+    }
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) {
+        throw Error(asked_at, "concave", "cutting " + file + " into convex pieces was cancelled",
+                    "Open the file again: it is cut once, and the pieces are kept.");
+    }
+    if (status != 0) return std::nullopt;
     return content(out);
 }
 
@@ -146,7 +169,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
                                 kProgram, file),
                     "Build all of Dihaptic: it lies beside the program dihaptic.");
     }
-    const std::optional<std::string> text = run(command, mesh);
+    const std::optional<std::string> text = run(command, mesh, file, asked_at);
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
     if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
     if (!hulls) {
@@ -158,6 +181,11 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
 }
 
 }  // namespace
+
+void cancel_cut() noexcept {
+    const std::lock_guard lock(cutting_guard);
+    if (cutting > 0) kill(cutting, SIGTERM);
+}
 
 Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
     Mesh out;

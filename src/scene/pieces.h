@@ -27,6 +27,10 @@ Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at);
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
                      Diagnostics& diagnostics);
 
+/// From any thread: a cut that is going on ends, and whoever waits for it gets an Error. Does
+/// nothing when there is none.
+void cancel_cut() noexcept;
+
 /// The file beside a mesh that keeps its pieces.
 std::string pieces_file(const std::string& mesh_file);
 /// Keeps pieces in a file. Throws Error when it cannot be written.

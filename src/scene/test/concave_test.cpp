@@ -1,6 +1,11 @@
 // Concave meshes and compounds: what they weigh, and how they are cut into convex pieces and kept.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "testing/files.h"
@@ -110,6 +115,49 @@ TEST(Concave, PiecesAreKeptAndReadAgain) {
     EXPECT_NE(testing::read_file(files.kept()), kept);
     files.read(kBody);
     EXPECT_EQ(testing::read_file(files.kept()), kept);
+}
+
+/// A prism over a star: the more teeth, the longer it takes to cut.
+std::string star(int teeth) {
+    std::string out;
+    const int n = 2 * teeth;
+    for (const int z : {0, 1}) {
+        for (int i = 0; i < n; ++i) {
+            const double r = i % 2 == 0 ? 1 : 2;
+            const double angle = std::numbers::pi * i / teeth;
+            out += "v " + std::to_string(r * std::cos(angle)) + " " +
+                   std::to_string(r * std::sin(angle)) + " " + std::to_string(z) + "\n";
+        }
+    }
+    std::string top = "f";
+    std::string bottom = "f";
+    for (int i = 0; i < n; ++i) {
+        bottom += " " + std::to_string(n - i);
+        top += " " + std::to_string(n + i + 1);
+        const int next = (i + 1) % n;
+        out += "f " + std::to_string(i + 1) + " " + std::to_string(next + 1) + " " +
+               std::to_string(n + next + 1) + " " + std::to_string(n + i + 1) + "\n";
+    }
+    return out + top + "\n" + bottom + "\n";
+}
+
+TEST(Concave, ACutThatTakesLongCanBeCancelled) {
+    Files files(star(300));
+    std::atomic<bool> read{false};
+    std::thread user([&] {
+        while (!read) {  // until it has begun
+            cancel_cut();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    });
+    const auto begin = std::chrono::steady_clock::now();
+    files.read(kBody);
+    read = true;
+    user.join();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_NE(files.said().find("was cancelled"), std::string::npos) << files.said();
+    EXPECT_FALSE(fs::exists(files.kept()));
+    cancel_cut();  // there is none
 }
 
 TEST(Concave, DamagedPiecesAreCutAnew) {
