@@ -59,7 +59,7 @@ void Recorder::run() {
     try {
         while (!done_.load()) {
             drain();
-            std::this_thread::sleep_for(kFlushEvery / 2);
+            std::this_thread::sleep_for(kWriteEvery);
         }
         drain();
     } catch (...) {

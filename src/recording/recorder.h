@@ -18,6 +18,9 @@ enum class Writing { in_place, in_thread };
 /// lose. As often a frame has all bodies, whether they changed or not: what follows a damaged chunk
 /// can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
+/// How often the thread does. While the system takes a piece it may keep a servo of several
+/// kilohertz waiting: the smaller, the shorter.
+constexpr Time kWriteEvery = std::chrono::milliseconds(5);
 
 class Recorder {
   public:
