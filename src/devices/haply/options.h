@@ -20,7 +20,7 @@ struct Options {
     std::string url = "ws://localhost:10001/";
     ForceKey force_key = ForceKey::vector;
     double time_out = 0.02;           ///< without an answer for so long, the service is gone [s]
-    double peak_force = 8;            ///< larger forces are clamped; not verified [N]
+    double peak_force = 5;            ///< larger forces are clamped; not verified [N]
     std::string verse_grip;           ///< serial of a wired grip that gives the orientation
     std::string wireless_verse_grip;  ///< the same, of a wireless one
 
