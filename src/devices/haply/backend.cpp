@@ -1,6 +1,8 @@
 #include "devices/haply/backend.h"
 
 #include "devices/haply/group.h"
+#include "devices/haply/inventory.h"
+#include "devices/haply/options.h"
 
 namespace dihaptic::devices::haply {
 namespace {

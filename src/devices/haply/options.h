@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "base/field.h"
+#include "devices/device_group.h"
 
 namespace dihaptic::devices::haply {
 
@@ -35,5 +35,8 @@ struct Options {
         v("wireless_verse_grip", wireless_verse_grip);
     }
 };
+
+/// A device's options; every problem goes to `diagnostics`.
+Options read_options(const DeviceConfig& config, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::devices::haply

@@ -3,6 +3,7 @@
 
 #include "devices/haply/connection.h"
 #include "devices/haply/group.h"
+#include "devices/haply/inventory.h"
 #include "devices/haply/messages.h"
 #include "devices/haply/test/fake_service.h"
 #include "devices/haply/test/numbered_run.h"
