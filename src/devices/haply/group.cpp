@@ -39,6 +39,7 @@ std::vector<DeviceInfo> infos(const std::vector<Wanted>& devices) {
 
 std::vector<CommandWriter::Device> addressees(const std::vector<Wanted>& devices) {
     std::vector<CommandWriter::Device> out;
+    out.reserve(devices.size());
     for (const Wanted& device : devices)
         out.push_back({device.options.device_id, device.options.force_key});
     return out;

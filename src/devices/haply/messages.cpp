@@ -5,7 +5,6 @@
 #include <cassert>
 #include <charconv>
 #include <limits>
-#include <utility>
 
 #include "devices/haply/connection.h"
 
@@ -19,14 +18,14 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls `use(key, value)` for each member; false when the text breaks off or is no object.
 template <class Use>
-bool for_members(simdjson::simdjson_result<json::object>&& object, const Use& use) {
-    json::object members;
-    if (std::move(object).get(members)) return false;
-    for (auto member : members) {
-        json::field field;
+bool for_members(const simdjson::simdjson_result<json::object>& object, const Use& use) {
+    if (object.error()) return false;
+    json::object members = object.value_unsafe();
+    for (const auto& member : members) {
+        if (member.error()) return false;
+        json::field field = member.value_unsafe();
         std::string_view key;
-        if (std::move(member).get(field) || field.unescaped_key().get(key)) return false;
-        if (!use(key, field.value())) return false;
+        if (field.unescaped_key().get(key) || !use(key, field.value())) return false;
     }
     return true;
 }
@@ -36,9 +35,8 @@ template <class Use>
 bool for_elements(json::value value, const Use& use) {
     json::array elements;
     if (value.get_array().get(elements)) return false;
-    for (auto element : elements) {
-        json::value each;
-        if (std::move(element).get(each) || !use(each)) return false;
+    for (const auto& element : elements) {
+        if (element.error() || !use(element.value_unsafe())) return false;
     }
     return true;
 }

@@ -38,7 +38,7 @@ class Conformance : public ::testing::TestWithParam<std::string> {
             haply::FakeService::Setup setup;
             setup.devices = configs;
             haply_service_ = std::make_unique<haply::FakeService>(setup, context);
-            configs = haply::rig_of(*haply_service_, configs);
+            configs = haply::rig_of(*haply_service_, configs, "time_out_ms: 1000, ");
         }
         return find_backend(GetParam())->make(configs, context);
     }
