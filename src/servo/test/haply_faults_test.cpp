@@ -13,7 +13,7 @@ using devices::haply::FakeService;
 using devices::haply::Mischief;
 using std::chrono::milliseconds;
 
-constexpr int kMessage = 360;  // the fingers have closed
+constexpr int kMessage = 150;  // the fingers have closed
 constexpr int kAfter = 30;     // ticks that are looked at after a fault
 
 struct Case {
@@ -34,7 +34,8 @@ struct Outcome {
 
 Outcome grasp(const Case& c) {
     const scene::Scene scene = block_on_table();
-    const hand::HandSpec hand = lifting_hand();
+    hand::HandSpec hand = lifting_hand();
+    hand.script.front().duration = 0.1;  // the less may come between
     const auto fingers = scene::finger_names(scene);
     const hand::ScriptDriver driver(hand, fingers);
     devices::Context context;
@@ -48,6 +49,7 @@ Outcome grasp(const Case& c) {
 
     Settings settings;
     settings.safety.max_pause = 1;  // the machine may be busy, and this is not about it
+    settings.safety.soft_start = 0;
     const auto configs =
         rig_of(service, setup.devices, fmt::format("time_out_ms: {}, ", c.time_out_ms));
     Servo servo(scene, settings, devices::find_backend("haply")->make(configs, context),
