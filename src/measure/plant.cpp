@@ -153,8 +153,17 @@ Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const BenchS
     context.impedance = hand.impedance;
     context.tremor = hand.tremor;
     context.seed = 1;
-    servo_ = std::make_unique<servo::Servo>(
-        scene, setup.settings, rig::make_devices(rig, fingers, context), rig::poses(rig, fingers));
+    std::unique_ptr<devices::DeviceGroup> devices;
+    if (setup.make_devices) {
+        std::vector<devices::DeviceConfig> simulated;
+        for (const rig::Device& device : rig.devices)
+            simulated.push_back({device.finger, device.X_WD(), device.options});
+        devices = setup.make_devices(simulated, context);
+    } else {
+        devices = rig::make_devices(rig, fingers, context);
+    }
+    servo_ = std::make_unique<servo::Servo>(scene, setup.settings, std::move(devices),
+                                            rig::poses(rig, fingers));
     servo_->activate();
 }
 

@@ -3,6 +3,7 @@
 // tests.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "analysis/grasp_trace.h"
@@ -36,6 +37,10 @@ struct BenchSetup {
     Fingering fingering = Fingering::ideal;
     Row row = Row::ideal;
     std::vector<rig::Device> devices;  ///< of thumb and index, simulated; empty: ideal ones
+    /// Puts another backend before them; null: they are reached directly.
+    std::function<std::unique_ptr<devices::DeviceGroup>(
+        const std::vector<devices::DeviceConfig>& simulated, const devices::Context& context)>
+        make_devices;
     hand::Impedance impedance;
     double squeeze = 0.015;  ///< targets go so far beyond contact [m]
     double lift = 0.1;       ///< the hand rises so far [m]

@@ -10,10 +10,10 @@
 //     I dw/dt = t_finger + t_device,    R <- exp(h w) R
 #pragma once
 
-#include <algorithm>
-#include <array>
+#include <vector>
 
 #include "base/clock.h"
+#include "devices/past.h"
 #include "devices/simulated/options.h"
 #include "hand/finger.h"
 
@@ -58,33 +58,6 @@ class Plant {
     Vec3 w_ = Vec3::Zero();
     std::vector<Wrench> pending_;  // written, the oldest acting now; delay_ticks + 1 of them
     size_t newest_ = 0;
-};
-
-/// The last so many values of one sensor, for a velocity from its steps.
-template <class T>
-class Past {
-  public:
-    explicit Past(int window) : window_(window) {}
-
-    struct Sample {
-        Time time{0};
-        T value;
-    };
-    /// Keeps a value, and returns the one that was `window` ticks before, or the oldest; none for
-    /// the first.
-    const Sample* exchange(Time now, const T& value) noexcept {
-        const auto size = static_cast<int>(past_.size());
-        past_[static_cast<size_t>(count_ % size)] = {now, value};
-        const int back = std::min(window_, count_);
-        const Sample& old = past_[static_cast<size_t>((count_ - back) % size)];
-        ++count_;
-        return back == 0 ? nullptr : &old;
-    }
-
-  private:
-    int window_;
-    std::array<Sample, Options::kMostWindow + 1> past_{};
-    int count_ = 0;
 };
 
 /// What an encoder and a driver make of a position: steps, and a velocity from past positions.

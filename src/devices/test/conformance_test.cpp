@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "devices/device_group.h"
+#include "devices/haply/test/fake_service.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::devices {
@@ -32,9 +33,17 @@ class Conformance : public ::testing::TestWithParam<std::string> {
             return now < std::chrono::seconds(1);
         };
         const Pose X_WD{rotation_xyz({0.3, 0.1, -0.5}), {0.1, 0.2, 0.3}};
-        return find_backend(GetParam())->make({{"thumb", {}, {}}, {"index", X_WD, {}}}, context);
+        std::vector<DeviceConfig> configs{{"thumb", {}, {}}, {"index", X_WD, {}}};
+        if (GetParam() == "haply") {
+            haply::FakeService::Setup setup;
+            setup.devices = configs;
+            haply_service_ = std::make_unique<haply::FakeService>(setup, context);
+            configs = haply::rig_of(*haply_service_, configs, "time_out_ms: 1000, ");
+        }
+        return find_backend(GetParam())->make(configs, context);
     }
     StillDriver driver_;
+    std::unique_ptr<haply::FakeService> haply_service_;
 };
 
 TEST_P(Conformance, LivesThroughItsLifeCycleTwice) {

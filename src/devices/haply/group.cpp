@@ -1,0 +1,246 @@
+#include "devices/haply/group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+#include <thread>
+
+#include "devices/haply/connection.h"
+#include "devices/haply/inventory.h"
+#include "devices/haply/messages.h"
+#include "devices/past.h"
+
+namespace dihaptic::devices::haply {
+namespace {
+
+/// Readings that an angular velocity is taken over, as the service says none of grips.
+constexpr int kTurnWindow = 8;
+
+std::optional<Grip> grip_of(const Options& options) {
+    if (!options.wireless_verse_grip.empty())
+        return Grip{GripKind::wireless_verse_grip, options.wireless_verse_grip};
+    if (!options.verse_grip.empty()) return Grip{GripKind::verse_grip, options.verse_grip};
+    return {};
+}
+
+std::vector<DeviceInfo> infos(const std::vector<Wanted>& devices) {
+    std::vector<DeviceInfo> out;
+    for (const Wanted& device : devices) {
+        DeviceInfo info;
+        info.model = "Haply Inverse3";
+        info.peak_force = device.options.peak_force;
+        info.measures_orientation = device.grip.has_value();
+        out.push_back(info);
+    }
+    return out;
+}
+
+std::vector<CommandWriter::Device> addressees(const std::vector<Wanted>& devices) {
+    std::vector<CommandWriter::Device> out;
+    out.reserve(devices.size());
+    for (const Wanted& device : devices)
+        out.push_back({device.options.device_id, device.options.force_key});
+    return out;
+}
+
+class HaplyGroup final : public DeviceGroup {
+  public:
+    HaplyGroup(const std::vector<Wanted>& devices, Time tick)
+        : DeviceGroup(infos(devices)),
+          devices_(devices),
+          url_(*Url::parse(devices.front().options.url)),
+          time_out_(from_seconds(devices.front().options.time_out)),
+          tick_(tick),
+          reader_(Connection::kMostBytes),
+          writer_(addressees(devices)),
+          forces_D_(devices.size(), Vec3::Zero()),
+          cycles_(devices.size()) {}
+    ~HaplyGroup() override { deactivate(); }
+
+    bool paces() const override { return true; }
+    bool can_stop() const override { return true; }
+
+  private:
+    /// Of a device, while it is active.
+    struct Cycle {
+        bool clamped = false;
+        Reading last{};
+        Past<Quat> past{kTurnWindow};
+    };
+
+    void do_activate() override {
+        try {
+            connect();
+        } catch (const Error&) {
+            connection_.close();
+            throw;
+        }
+    }
+
+    void connect() {
+        connection_.open(url_, kSetUpTime);
+        receive_first(connection_, reader_, message_, "list of devices");
+        check_inventory(message_, devices_);
+        // no force yet: what the service thinks of our messages is known before a hand feels any
+        std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
+        connection_.send(writer_.write(forces_D_, true), kSetUpTime);
+        receive_first(connection_, reader_, message_, "answer to a command");
+        check_answer(message_, devices_);
+        stopped_.store(false);
+        unanswered_ = 0;
+        fresh_ = true;
+        sound_ = true;
+        for (Cycle& cycle : cycles_) {
+            cycle.past = Past<Quat>(kTurnWindow);
+            cycle.clamped = false;
+        }
+    }
+
+    void do_deactivate() override {
+        std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
+        if (!stopped_.load()) connection_.send(writer_.write(forces_D_, false), time_out_);
+        connection_.close();
+    }
+
+    /// Takes every answer that is due; the last is the state.
+    void receive() noexcept {
+        for (; unanswered_ > 0; --unanswered_) {
+            const std::string_view text = connection_.receive(time_out_);
+            sound_ = !text.empty() && reader_.read(text, message_) && message_.error.empty();
+            if (!connection_.is_open()) {
+                unanswered_ = 0;
+                break;
+            }
+        }
+        fresh_ = true;
+    }
+
+    void send() noexcept {
+        if (stopped_.load(std::memory_order_relaxed)) {
+            for (Vec3& force : forces_D_) force.setZero();
+        }
+        if (connection_.send(writer_.write(forces_D_, false), time_out_)) ++unanswered_;
+    }
+
+    void ask_without_force() noexcept {
+        for (Vec3& force : forces_D_) force.setZero();
+        send();
+    }
+
+    void do_read(Time now, std::span<Reading> readings) noexcept override {
+        if (!fresh_) {
+            if (unanswered_ == 0) ask_without_force();
+            receive();
+        }
+        fresh_ = false;
+        const bool answers = connection_.is_open() && sound_;
+        for (size_t i = 0; i < devices_.size(); ++i) {
+            Cycle& cycle = cycles_[i];
+            if (!answers || !take(devices_[i], cycle, now)) {
+                cycle.last.v_DH.setZero();
+                cycle.last.w_DH.setZero();
+                cycle.last.status = kNotAnswering;
+            }
+            readings[i] = cycle.last;
+            if (cycle.clamped) readings[i].status |= kForceClamped;
+        }
+    }
+
+    /// What the message says of a device; false when it says too little.
+    bool take(const Wanted& device, Cycle& cycle, Time now) const noexcept {
+        const DeviceState* state = message_.device(device.options.device_id);
+        if (state == nullptr || !state->p_DH || !state->v_DH) return false;
+        if (state->power_supply == false || state->calibrated == false || state->ready == false)
+            return false;
+        Reading& reading = cycle.last;
+        reading.status = 0;
+        reading.p_DH = *state->p_DH;
+        reading.v_DH = *state->v_DH;
+        if (!device.grip) return true;
+        const GripState* grip = message_.grip(device.grip->kind, device.grip->id);
+        if (grip == nullptr || !grip->R) return false;
+        reading.buttons = grip->buttons;
+        reading.R_DH = *grip->R;
+        const auto* old = cycle.past.exchange(now, reading.R_DH);
+        reading.w_DH.setZero();
+        if (old != nullptr && now > old->time) {
+            reading.w_DH =
+                rotation_vector(reading.R_DH * old->value.conjugate()) / seconds(now - old->time);
+        }
+        return true;
+    }
+
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        for (size_t i = 0; i < devices_.size(); ++i) {
+            Vec3& force = forces_D_[i];
+            force = wrenches_D[i].force;
+            const double size = force.norm();
+            const double most = devices_[i].options.peak_force;
+            cycles_[i].clamped = size > most;
+            if (size > most) force *= most / size;
+            if (!force.allFinite()) force.setZero();
+        }
+        send();
+    }
+
+    void do_pace(const std::function<bool()>& tick) override {
+        receive();
+        fresh_ = false;  // it may be as old as the pause before
+        while (true) {
+            if (unanswered_ == 0) ask_without_force();
+            receive();
+            if (!tick()) return;
+            if (!connection_.is_open()) std::this_thread::sleep_for(tick_);
+        }
+    }
+
+    void do_stop() noexcept override {
+        stopped_.store(true);
+        connection_.shut_down();
+    }
+
+    std::vector<Wanted> devices_;
+    Url url_;
+    Time time_out_;
+    Time tick_;
+    Connection connection_;
+    StateReader reader_;
+    StateMessage message_;
+    CommandWriter writer_;
+    std::vector<Vec3> forces_D_;
+    std::vector<Cycle> cycles_;
+    int unanswered_ = 0;  // messages that the service owes an answer to
+    bool fresh_ = false;  // message_ was not read yet
+    bool sound_ = false;  // message_ is what the service last said
+    std::atomic<bool> stopped_{false};
+};
+
+}  // namespace
+
+std::unique_ptr<DeviceGroup> make_group(const std::vector<DeviceConfig>& configs,
+                                        const Context& context) {
+    Diagnostics diagnostics;
+    std::vector<Wanted> devices;
+    std::set<std::string> ids;
+    for (const DeviceConfig& config : configs) {
+        const Options options = read_options(config, diagnostics);
+        devices.push_back({options, config.place, grip_of(options)});
+        const Options& first = devices.front().options;
+        if (!options.device_id.empty() && !ids.insert(options.device_id).second) {
+            diagnostics.error(config.place, "device_id",
+                              fmt::format("'{}' is another finger's device too", options.device_id),
+                              "Give each finger a device of its own.");
+        }
+        if (options.url != first.url || options.time_out != first.time_out) {
+            diagnostics.error(config.place, "url", "url or time_out differ from another device's",
+                              "One message of one service carries all fingers: give all devices "
+                              "the same.");
+        }
+    }
+    diagnostics.throw_if_errors();
+    return std::make_unique<HaplyGroup>(devices, from_seconds(context.tick));
+}
+
+}  // namespace dihaptic::devices::haply

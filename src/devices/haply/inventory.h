@@ -1,0 +1,36 @@
+// What the service has, beside what a rig file wants of it.
+#pragma once
+
+#include <span>
+
+#include "devices/device_group.h"
+#include "devices/haply/connection.h"
+#include "devices/haply/messages.h"
+
+namespace dihaptic::devices::haply {
+
+/// Connecting, and the first messages, which take longer than those of the cycle.
+constexpr Time kSetUpTime = std::chrono::seconds(2);
+
+struct Grip {
+    GripKind kind;
+    std::string id;
+};
+struct Wanted {
+    Options options;
+    Place place;
+    std::optional<Grip> grip;  ///< that gives the orientation
+};
+
+/// An inventory, or the first answer to a command; `what` it is, for messages. Throws Error.
+void receive_first(Connection& connection, StateReader& reader, StateMessage& message,
+                   const char* what);
+/// Throws Error unless each device and grip is there once and can be used as it is.
+void check_inventory(const StateMessage& message, std::span<const Wanted> devices);
+/// Throws Error when the service did not understand the first command.
+void check_answer(const StateMessage& message, std::span<const Wanted> devices);
+
+/// What the service at a url lists.
+Survey survey_of(const std::string& url);
+
+}  // namespace dihaptic::devices::haply

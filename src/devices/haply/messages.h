@@ -1,0 +1,91 @@
+// What is said to the service, and what it says: JSON, written and read without memory of its own.
+// The README has an example of each.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/geometry.h"
+#include "devices/haply/options.h"
+
+namespace dihaptic::devices::haply {
+
+/// What the service says of an Inverse3. What it leaves out is none.
+struct DeviceState {
+    std::string_view id;
+    /// In D [m], [m/s]; a component that is not a number is NaN, one left out is 0.
+    std::optional<Vec3> p_DH;
+    std::optional<Vec3> v_DH;
+    std::optional<bool> calibrated;
+    std::optional<bool> ready;
+    std::optional<bool> power_supply;
+};
+
+enum class GripKind { verse_grip, wireless_verse_grip };
+constexpr auto enum_names(GripKind) {
+    return std::array{"verse_grip", "wireless_verse_grip"};
+}
+
+/// What it says of a grip.
+struct GripState {
+    GripKind kind = GripKind::verse_grip;
+    std::string_view id;
+    std::optional<Quat> R;  ///< not a number where it is not one
+    uint32_t buttons = 0;   ///< a, b, c: 1, 2, 4
+};
+
+/// A message of the service. Texts are valid until the next one is read.
+struct StateMessage {
+    static constexpr size_t kMostDevices = 16;  ///< and grips; more are left out
+
+    std::span<const DeviceState> devices() const { return {device_list.data(), device_count}; }
+    std::span<const GripState> grips() const { return {grip_list.data(), grip_count}; }
+    /// The only one of that serial number; null when there is none, or several.
+    const DeviceState* device(std::string_view id) const;
+    const GripState* grip(GripKind kind, std::string_view id) const;
+
+    std::array<DeviceState, kMostDevices> device_list;
+    size_t device_count = 0;
+    std::array<GripState, kMostDevices> grip_list;
+    size_t grip_count = 0;
+    std::string_view error;  ///< what the service complains of
+};
+
+/// Reads messages. Neither allocates nor throws, once made.
+class StateReader {
+  public:
+    explicit StateReader(size_t most_bytes);
+    ~StateReader();
+
+    /// False when the text is no complete JSON object; `out` then means nothing. Behind the text
+    /// Connection::kPadding bytes must be readable.
+    bool read(std::string_view text, StateMessage& out) noexcept;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Writes the one message of a tick. Neither allocates nor throws, once made.
+class CommandWriter {
+  public:
+    struct Device {
+        std::string id;
+        ForceKey key;
+    };
+    explicit CommandWriter(std::vector<Device> devices);
+
+    /// `forces_D` by device [N]: finite. `first`: also says who we are. Valid until the next call.
+    std::string_view write(std::span<const Vec3> forces_D, bool first) noexcept;
+
+  private:
+    std::vector<Device> devices_;
+    std::string text_;
+};
+
+}  // namespace dihaptic::devices::haply

@@ -1,0 +1,22 @@
+// The whole of `dihaptic bench grasp` on Inverse3 devices behind a fake service, beside the same
+// simulated devices reached directly.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "measure/grasp.h"
+#include "measure/test/through_haply.h"
+
+namespace dihaptic::measure {
+namespace {
+
+TEST(HaplyGraspSoak, HasTheFiguresOfTheSimulatedDevices) {
+    const BenchSetup setup;
+    const GraspFigures simulated = bench_grasp(setup, {});
+    std::unique_ptr<devices::haply::FakeService> service;
+    const GraspFigures haply = bench_grasp(through_haply(setup, service), {});
+    fmt::print("{}\n", to_table({{setup, simulated}, {setup, haply}}));
+    EXPECT_EQ(to_json(haply, setup), to_json(simulated, setup));
+}
+
+}  // namespace
+}  // namespace dihaptic::measure
