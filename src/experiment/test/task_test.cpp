@@ -335,6 +335,27 @@ TEST(Task, AKeyEndsAState) {
     EXPECT_EQ(plan.task->outcomes.at(static_cast<size_t>(std::max(0, outcome))).name, "reached");
 }
 
+/// A director of these files' task, asked tick by tick: one finger over a block that is not home.
+struct Asked {
+    explicit Asked(Files& files) : plan(make_plan(files.request())) {
+        last.fingers.resize(1);
+        last.bodies.resize(2);
+        last.bodies[1].X_WB.p = {0.2, 0, 0.1};
+        commands.task.reserve(2);
+    }
+    const servo::Commands& tick() {
+        commands.task.clear();
+        director(last, handles, commands);
+        return commands;
+    }
+
+    Plan plan;
+    TaskDirector director{*plan.task, 1, 1e-3};
+    servo::Frame last;
+    std::vector<haptics::Handle> handles{{{0.23, 0, 0.1}, Vec3::Zero()}};
+    servo::Commands commands;
+};
+
 TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
     Files files;
     files.replace("{ when: inside, region: start, hold_s: 0.2, to: reach }",
@@ -351,18 +372,13 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
         EXPECT_NEAR(time, std::round(time), 1.5e-3);
     }
 
-    TaskDirector director(*plan.task, 1, 1e-3);
-    servo::Frame last;  // none yet: nothing is in the way
-    last.sequence = -1;
-    last.fingers.resize(1);
-    last.bodies.resize(2);
-    const std::vector<haptics::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
+    Asked asked(files);
     const auto phase_after = [&](int code) {
-        director.trigger(code);
-        servo::Commands commands;
-        director(last, handles, commands);
-        return commands.phase;
+        asked.director.trigger(code);
+        return asked.tick().phase;
     };
+    EXPECT_EQ(phase_after(9), kBetween);  // the finger is where the block belongs
+    asked.last.fingers[0].p_WP = asked.handles[0].p_WH;
     EXPECT_EQ(phase_after(0), 1);
     EXPECT_EQ(phase_after(8), 1);  // another code
     EXPECT_EQ(phase_after(9), 2);
@@ -370,47 +386,31 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
 
 TEST(Task, DoesNotTakeAnObjectOutOfFingersThatPressIt) {
     Files files;
-    const Plan plan = make_plan(files.request());
-    TaskDirector director(*plan.task, 1, 1e-3);
-    servo::Frame last;
-    last.fingers.resize(1);
-    last.bodies.resize(2);
-    last.bodies[1].X_WB.p = {0.2, 0, 0.1};  // where it was carried
-    last.fingers[0].p_WP = {0.23, 0, 0.1};
-    last.contacts.push_back({});
-    last.contacts[0].a = 1;
-    last.contacts[0].b = 2;  // the finger
-    last.contacts[0].normal_force = 1;
-    const std::vector<haptics::Handle> handles{{{0.23, 0, 0.1}, Vec3::Zero()}};
-    servo::Commands commands;
-    commands.task.reserve(2);
-    director(last, handles, commands);
-    EXPECT_TRUE(commands.task.placements.empty());
-    EXPECT_EQ(commands.phase, kBetween);
-    EXPECT_EQ(commands.task.message, plan.task->move_away);
-    last.contacts.clear();
-    director(last, handles, commands);
-    EXPECT_EQ(commands.task.placements.size(), 1u);
-    EXPECT_EQ(commands.phase, 1);
+    Asked asked(files);
+    asked.last.fingers[0].p_WP = asked.handles[0].p_WH;
+    asked.last.contacts.push_back({});
+    asked.last.contacts[0].a = 1;
+    asked.last.contacts[0].b = 2;  // the finger
+    asked.last.contacts[0].normal_force = 1;
+    const servo::Commands& held = asked.tick();
+    EXPECT_TRUE(held.task.placements.empty());
+    EXPECT_EQ(held.phase, kBetween);
+    EXPECT_EQ(held.task.message, asked.plan.task->move_away);
+    asked.last.contacts.clear();
+    const servo::Commands& released = asked.tick();
+    EXPECT_EQ(released.task.placements.size(), 1u);
+    EXPECT_EQ(released.phase, 1);
 }
 
 TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
     Files files;
-    const Plan plan = make_plan(files.request());
-    TaskDirector director(*plan.task, 1, 1e-3);
-    servo::Frame last;
-    last.fingers.resize(1);
-    last.bodies.resize(2);
-    const std::vector<haptics::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
-    servo::Commands commands;
-    director.skip();
-    director(last, handles, commands);
-    EXPECT_EQ(commands.trial, 1);
-    EXPECT_EQ(commands.task.outcome, plan.task->skipped);
-    EXPECT_NE(commands.phase, kBetween);  // whose frames are no trial's
-    commands = {};
-    director(last, handles, commands);
-    EXPECT_EQ(commands.trial, 2);
+    Asked asked(files);
+    asked.director.skip();
+    const servo::Commands& skipped = asked.tick();
+    EXPECT_EQ(skipped.trial, 1);
+    EXPECT_EQ(skipped.task.outcome, asked.plan.task->skipped);
+    EXPECT_NE(skipped.phase, kBetween);  // whose frames are no trial's
+    EXPECT_EQ(asked.tick().trial, 2);
 }
 
 TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
