@@ -20,6 +20,7 @@
 #include "base/geometry.h"
 #include "hand/driver.h"
 #include "hand/spec.h"
+#include "model/phantom_arm.h"
 
 namespace dihaptic::devices {
 
@@ -42,6 +43,8 @@ struct Reading {
     /// [rad/s], of devices that measure orientation.
     Quat R_DH = Quat::Identity();
     Vec3 w_DH = Vec3::Zero();
+    /// Angles of the arm's joints, of devices that have one in their info [rad].
+    Vec3 joints = Vec3::Zero();
 };
 
 /// What a device can do.
@@ -58,6 +61,9 @@ struct DeviceInfo {
     /// [N/m], [N*s/m].
     std::optional<double> max_stiffness;
     std::optional<double> max_damping;
+
+    /// Of a Premium that tells the angles of its joints: p_DH is where they put the endpoint.
+    std::optional<model::PhantomLinks> arm;
 
     bool measures_orientation = false;
     double peak_torque = 0;  ///< 0: it renders none [N*m]

@@ -17,14 +17,19 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
                           "a device that renders torque measures orientation",
                           "Add orientation: yes, or leave out peak_torque_Nm.");
     }
+    if (options.joint_offset != Vec3::Zero() && options.arm != Mechanics::phantom) {
+        diagnostics.error(config.place, "joint_offset", "a device without joints has none",
+                          "Add arm: phantom, or leave out joint_offset_deg.");
+    }
     return options;
 }
 
 struct Device {
     Options options;
-    Pose X_WD;
+    Pose X_WD;  // where it truly is
     Plant plant;
     Encoder encoder;
+    JointEncoder joints;
     Gimbal gimbal;
     uint32_t clamped = 0;
 };
@@ -40,6 +45,10 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
         info.mass = option.mass + context.impedance.mass;
         info.delay = option.delay_ticks * context.tick;
         info.workspace = option.workspace;
+        if (option.arm == Mechanics::phantom) {
+            info.arm = option.links;
+            info.mass = Arm::least_mass(option) + context.impedance.mass;
+        }
         info.max_stiffness = option.max_stiffness;
         info.max_damping = option.max_damping;
         info.measures_orientation = option.orientation;
@@ -60,10 +69,11 @@ class SimulatedGroup final : public DeviceGroup {
                    const Context& context)
         : DeviceGroup(infos(options, context)) {
         for (size_t i = 0; i < configs.size(); ++i) {
-            devices_.push_back({options[i], configs[i].X_WD,
+            const Pose X_WD = configs[i].X_WD * options[i].misplaced();
+            devices_.push_back({options[i], X_WD,
                                 Plant(options[i], context.impedance, context.tremor, context.seed,
-                                      static_cast<int>(i), *context.driver),
-                                Encoder(options[i]), Gimbal(options[i])});
+                                      static_cast<int>(i), *context.driver, X_WD),
+                                Encoder(options[i]), JointEncoder(options[i]), Gimbal(options[i])});
         }
     }
 
@@ -81,10 +91,18 @@ class SimulatedGroup final : public DeviceGroup {
             if (stopped_.load(std::memory_order_relaxed)) device.plant.release();
             device.plant.advance(now);
             const Pose X_DW = device.X_WD.inverse();
-            const Encoder::Measured measured = device.encoder.measure(
-                now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
+            Encoder::Measured measured;
+            Vec3 joints = Vec3::Zero();
+            if (const Arm* arm = device.plant.arm()) {
+                measured = device.joints.measure(now, *arm);
+                joints = arm->reported();
+            } else {
+                measured = device.encoder.measure(now, X_DW * device.plant.p_WH(),
+                                                  X_DW.R * device.plant.v_WH());
+            }
             readings[i] = {measured.p, measured.v, static_cast<uint32_t>(device.options.buttons),
                            device.clamped};
+            readings[i].joints = joints;
             if (device.options.orientation) {
                 const Quat& R_WD = device.X_WD.R;
                 const Gimbal::Measured turned =
