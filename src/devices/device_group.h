@@ -50,6 +50,7 @@ struct Reading {
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
+    std::string serial;  ///< "" if it tells none
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     double continuous_force =
         std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
@@ -57,6 +58,9 @@ struct DeviceInfo {
     double mass = 0;     ///< of handle and hand together; 0: not known [kg]
     double delay = 0;    ///< from write to force [s]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
+    /// By which its readings are larger than the hand's movement, and the forces above than those
+    /// in the hand.
+    double scale = 1;
     /// What the maker says it renders calmly, if he does: what shares of its maximum are taken of
     /// [N/m], [N*s/m].
     std::optional<double> max_stiffness;
@@ -79,6 +83,7 @@ struct DeviceConfig {
     Pose X_WD;
     Node options;  ///< the backend's own
     Place place{};
+    double scale = 1;  ///< of the world over the hand's movement, about D's origin
 };
 
 /// What some backends need of the rest of the program.

@@ -61,7 +61,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         force_guards_.emplace_back(
             settings.safety,
             haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace,
-                                  info.peak_torque, info.continuous_torque},
+                                  info.peak_torque, info.continuous_torque, info.scale},
             settings.tick(), X_0D_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
@@ -84,7 +84,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
             const dynamics::BodyIndex proxy =
                 world_.add_proxy(scene.fingers[i], Vec3::Zero(), turns);
             fingers_.emplace_back(scene.fingers[i], proxy, settings.coupling,
-                                  settings.safety.largest_force(info.peak_force));
+                                  settings.safety.largest_force(info.peak_force, info.scale));
         }
         if (turns) {
             const double inertia = is_point ? 0 : world_.inertia(fingers_[i].proxy());
@@ -92,7 +92,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
                 settings.coupling, inertia, rotation_xyz(scene.fingers[i].rotation)));
         }
         X_D0_.push_back(X_0D_[i].inverse());
-        guards_.emplace_back(settings.safety.max_speed);
+        guards_.emplace_back(settings.safety.max_speed * info.scale);
     }
     const size_t n = fingers_.size();
     readings_.resize(n);

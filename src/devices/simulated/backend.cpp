@@ -24,6 +24,34 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
+/// A hand that sees its fingers in the world, scaled, and aims accordingly: it moves 1/s of the way
+/// from D's origin to a place.
+class AimingDriver final : public hand::Driver {
+  public:
+    AimingDriver(const std::vector<DeviceConfig>& configs, const hand::Driver& seen) : seen_(seen) {
+        for (const DeviceConfig& config : configs) aims_.push_back({config.X_WD.p, config.scale});
+    }
+    double duration() const override { return seen_.duration(); }
+    const std::vector<Phase>& phases() const override { return seen_.phases(); }
+
+  private:
+    struct Aim {
+        Vec3 origin;
+        double scale;
+    };
+    hand::FingerTarget do_target(int finger, double t) const noexcept override {
+        hand::FingerTarget target = seen_.target(finger, t);
+        const Aim& aim = aims_[static_cast<size_t>(finger)];
+        if (aim.scale == 1) return target;
+        target.p_WT = aim.origin + (target.p_WT - aim.origin) / aim.scale;
+        target.v_WT /= aim.scale;
+        return target;
+    }
+
+    const hand::Driver& seen_;
+    std::vector<Aim> aims_;
+};
+
 struct Device {
     Options options;
     Pose X_WD;  // where it truly is
@@ -39,6 +67,7 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
     for (const Options& option : options) {
         DeviceInfo info;
         info.model = std::string("simulated ") + std::string(enum_name(option.preset));
+        info.serial = option.serial;
         info.peak_force = option.peak_force;
         if (option.continuous_force) info.continuous_force = *option.continuous_force;
         info.damping = context.impedance.damping;
@@ -67,12 +96,13 @@ class SimulatedGroup final : public DeviceGroup {
   public:
     SimulatedGroup(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options,
                    const Context& context)
-        : DeviceGroup(infos(options, context)) {
+        : DeviceGroup(infos(options, context)),
+          driver_(std::make_unique<AimingDriver>(configs, *context.driver)) {
         for (size_t i = 0; i < configs.size(); ++i) {
             const Pose X_WD = configs[i].X_WD * options[i].misplaced();
             devices_.push_back({options[i], X_WD,
                                 Plant(options[i], context.impedance, context.tremor, context.seed,
-                                      static_cast<int>(i), *context.driver, X_WD),
+                                      static_cast<int>(i), *driver_, X_WD),
                                 Encoder(options[i]), JointEncoder(options[i]), Gimbal(options[i])});
         }
     }
@@ -129,6 +159,7 @@ class SimulatedGroup final : public DeviceGroup {
 
     void do_stop() noexcept override { stopped_.store(true); }
 
+    std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "base/field.h"
 #include "base/geometry.h"
@@ -29,6 +30,7 @@ constexpr auto enum_names(Mechanics) {
 }
 
 struct Options {
+    std::string serial;                      ///< that it tells
     Preset preset = Preset::plant;           ///< sets all others, which may then be given too
     double mass = 0.075;                     ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;                 ///< larger forces are clamped [N]
@@ -57,8 +59,13 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("serial", serial);
         v("preset", preset);
-        if constexpr (requires { v.diagnostics(); }) *this = of(preset);
+        if constexpr (requires { v.diagnostics(); }) {
+            const std::string given = serial;
+            *this = of(preset);
+            serial = given;
+        }
         v("mass", mass, Field::of(Quantity::mass).within(1e-3, 100));
         v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(1e4));
         v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
