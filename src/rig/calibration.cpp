@@ -191,7 +191,12 @@ Vec3 cloud_extents(const std::vector<Vec3>& points) {
 
 CalibrationResult calibrate(const CalibrationInput& input) {
     const CalibrationSolver solver(input);
-    check_movement(input, solver);
+    if (input.devices.size() > 1) {
+        check_movement(input, solver);
+    } else if (input.jig_samples.empty()) {
+        throw Error("one device alone is calibrated by a jig, and none was touched",
+                    "Give the rig file a jig, or two devices.");
+    }
     check_jig(input);
     const size_t links = input.link_samples.size();
     const size_t touches = input.jig_samples.size();
@@ -232,7 +237,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         }
     }
     Calibration& calibration = out.calibration;
-    calibration.slips = static_cast<double>(slips) / static_cast<double>(links);
+    if (links > 0) calibration.slips = static_cast<double>(slips) / static_cast<double>(links);
     check_link(all, calibration.slips);
     calibration.link_length = all.length;
     calibration.link_rms = rms(along);

@@ -113,7 +113,7 @@ const Device& device_of(const Rig& rig, const std::string& finger) {
                             fmt::join(held, ", ")));
 }
 
-Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
     Rig rig;
     try {
         read_fields(rig, read_yaml(file), diagnostics);
@@ -122,6 +122,11 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
         return rig;
     }
     if (!diagnostics.has_errors()) check(rig, diagnostics);
+    return rig;
+}
+
+Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+    Rig rig = read_rig_to_calibrate(file, diagnostics);
     if (!rig.calibration.empty()) {
         const auto folder = std::filesystem::path(file).parent_path();
         read_calibration(rig, (folder / rig.calibration).string(), diagnostics);

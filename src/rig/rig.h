@@ -68,6 +68,9 @@ struct Rig {
 
 /// Reads a rig file, and its calibration; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
+/// The same of a rig that is about to be calibrated: its calibration may be missing, and is not
+/// read.
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
