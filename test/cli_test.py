@@ -85,7 +85,7 @@ class Commands(unittest.TestCase):
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("rig.yaml:", result.stdout)
             self.assertIn("calibration: mine.yaml cannot be used. Calibrate the rig", result.stdout)
-            result = dihaptic("calibrate", rig, "--simulate")
+            result = dihaptic("calibrate", rig)
             self.assertEqual(result.returncode, 0, result.stderr)
             agree = re.search(r"agree to ([\d.]+) mm rms", result.stdout)
             self.assertLess(float(agree[1]), 0.1, result.stdout)

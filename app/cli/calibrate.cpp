@@ -2,6 +2,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <thread>
@@ -20,9 +21,9 @@ namespace fs = std::filesystem;
 struct Options {
     std::string rig;
     std::string out;
-    bool simulate = false;
-    uint64_t seed = 1;
 };
+
+constexpr uint64_t kSeed = 1;  // of the simulated hand's slips
 
 /// Thrown when the person gives up.
 struct GivenUp {};
@@ -50,6 +51,7 @@ class Guide {
             "everywhere.");
         ask("   Then press Enter.", [] {});
         sampler_.activate();
+        active_ = true;
         for (size_t i = 1; i < rig_.devices.size(); ++i) carry(i);
         for (size_t i = 0; i < rig_.devices.size(); ++i) touch(i);
         sampler_.deactivate();
@@ -61,17 +63,40 @@ class Guide {
         fmt::print("{}\n", text);
         std::fflush(stdout);
     }
-    /// Waits for Enter; `meanwhile` is called a thousand times a second.
+    /// Calls `each` a thousand times a second, or when devices that keep time are ready, until it
+    /// returns false.
+    template <class Each>
+    void repeat(const Each& each) {
+        std::exception_ptr failure;
+        const auto guarded = [&] {
+            try {
+                return each();
+            } catch (...) {
+                failure = std::current_exception();  // not through a vendor's library
+                return false;
+            }
+        };
+        if (active_ && sampler_.devices().paces()) {
+            sampler_.devices().pace(guarded);
+        } else {
+            auto due = Clock::now();
+            while (guarded()) {
+                due += std::chrono::milliseconds(1);
+                std::this_thread::sleep_until(due);
+            }
+        }
+        if (failure) std::rethrow_exception(failure);
+    }
+    /// Waits for Enter.
     template <class Meanwhile>
     void ask(const std::string& text, const Meanwhile& meanwhile) {
         say(text);
-        auto due = Clock::now();
-        while (!entered()) {
+        repeat([&] {
             if (stop_requested) throw GivenUp{};
+            if (entered()) return false;
             meanwhile();
-            due += std::chrono::milliseconds(1);
-            std::this_thread::sleep_until(due);
-        }
+            return true;
+        });
     }
     void tick() {
         sampler_.tick(Clock::now() - begin_);
@@ -110,21 +135,22 @@ class Guide {
             ask(fmt::format("\n3. Jig: touch '{}' with the {}'s endpoint, and press Enter.",
                             rig_.jig[point].name, rig_.devices[device].finger),
                 [&] { tick(); });
-            auto due = Clock::now();
-            for (int taken = 0; taken < kTouches;) {
+            int taken = 0;
+            repeat([&] {
+                if (stop_requested) throw GivenUp{};
                 tick();
                 if (sampling()) {
                     sampler_.add_touch(device, point);
                     ++taken;
                 }
-                due += std::chrono::milliseconds(1);
-                std::this_thread::sleep_until(due);
-            }
+                return taken < kTouches;
+            });
         }
     }
 
     const rig::Rig& rig_;
     rig::CalibrationSampler sampler_;
+    bool active_ = false;
     Clock::time_point begin_ = Clock::now();
     int64_t ticks_ = 0;
 };
@@ -184,17 +210,13 @@ void calibrate(const Options& options) {
     print(diagnostics.problems());
     diagnostics.throw_if_errors();
     rig::CalibrationInput input;
-    if (options.simulate) {
+    if (rig.devices.front().backend == "simulated") {
         ProgressLine line("calibrate");
-        input = rig::simulate_calibration(rig, options.seed, [&](double share) {
+        input = rig::simulate_calibration(rig, kSeed, [&](double share) {
             line.show(share);
             return !stop_requested.load();
         });
     } else {
-        if (rig.devices.front().backend == "simulated") {
-            throw Error({options.rig, 0}, "", "has simulated devices, which nobody can hold",
-                        "Add --simulate: a simulated hand does it.");
-        }
         try {
             input = Guide(rig).lead();
         } catch (const GivenUp&) {
@@ -233,11 +255,8 @@ void add_calibrate(CLI::App& app) {
     command->add_option("-o,--out", options->out,
                         "calibration file; otherwise the rig's own, beside it. The picture of what "
                         "remains gets its name");
-    command->add_flag("--simulate", options->simulate,
-                      "simulated devices, moved by a simulated hand");
-    command->add_option("--seed", options->seed, "of that hand's slips")->check(seed_range());
     command->footer(
-        "\nExample:\n  dihaptic calibrate rigs/premium-misplaced.yaml --simulate -o "
+        "\nExample:\n  dihaptic calibrate rigs/premium-misplaced.yaml -o "
         "calibration.yaml");
     command->callback([options] { calibrate(*options); });
 }

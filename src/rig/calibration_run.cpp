@@ -189,8 +189,8 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
                                       const std::function<bool(double share)>& progress) {
     for (const Device& device : rig.devices) {
         if (device.backend == "simulated") continue;
-        throw Error(device.place, "backend", "only simulated devices have a simulated hand",
-                    "Leave out --simulate.");
+        throw Error(device.place, "backend", "is not simulated, as the first one's is",
+                    "All devices of a rig are of one backend.");
     }
     const Rig plain = uncorrected(rig);
     const CalibrationHand hand(rig.devices.size(), common_box(plain), jig_of(rig), seed);

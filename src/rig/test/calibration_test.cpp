@@ -144,6 +144,20 @@ Judged judge(const Faulty& rig, const Calibration* calibration) {
     return out;
 }
 
+/// For --gtest_output=json: micrometres.
+void record(uint64_t seed, const Judged& before, const Judged& after, const Calibration& says) {
+    const auto um = [&](const char* name, double metres) {
+        ::testing::Test::RecordProperty("seed_" + std::to_string(seed) + "_" + name,
+                                        static_cast<int>(std::lround(metres * 1e6)));
+    };
+    um("before_rms", before.agreement.rms);
+    um("before_worst", before.agreement.worst);
+    um("after_rms", after.agreement.rms);
+    um("after_worst", after.agreement.worst);
+    um("says_rms", says.agreement_rms);
+    um("says_link_worst", says.link_worst);
+}
+
 TEST(Calibration, BringsMisplacedPremiumsTogether) {
     for (uint64_t seed = 1; seed <= 5; ++seed) {
         const Faulty rig(seed);
@@ -153,6 +167,7 @@ TEST(Calibration, BringsMisplacedPremiumsTogether) {
         const CalibrationResult result = calibrate(input);
         const Judged before = judge(rig, nullptr);
         const Judged after = judge(rig, &result.calibration);
+        record(seed, before, after, result.calibration);
         EXPECT_GT(before.agreement.rms, 2e-3);
         // the encoders' steps alone are 0.02 mm; the bars are 0.1 and 0.3 mm
         EXPECT_LT(after.agreement.rms, 0.03e-3);
@@ -194,6 +209,7 @@ TEST(Calibration, WithoutJointAnglesSaysWhatRemains) {
         touch_jig(rig, input);
         const Calibration calibration = calibrate(input).calibration;
         const Judged after = judge(rig, &calibration);
+        record(seed, judge(rig, nullptr), after, calibration);
         // ten times worse than with joint angles, and it does not say less; more, when both are
         // wrong alike in one place but not in the two that the link's ends are in
         EXPECT_GT(after.agreement.rms, 0.2e-3);
