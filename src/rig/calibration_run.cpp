@@ -30,6 +30,11 @@ hand::Impedance firm() {
     return out;
 }
 
+struct Ball {
+    Vec3 centre;
+    double radius;  // [m]
+};
+
 class CalibrationHand final : public hand::Driver {
   public:
     struct Stretch {
@@ -39,9 +44,8 @@ class CalibrationHand final : public hand::Driver {
         int point = -1;     // of the jig; -1: the link
     };
 
-    CalibrationHand(size_t devices, const Eigen::AlignedBox3d& box, const std::vector<Vec3>& jig,
-                    uint64_t seed)
-        : box_(box), jig_(jig) {
+    CalibrationHand(size_t devices, const Ball& ball, const std::vector<Vec3>& jig, uint64_t seed)
+        : ball_(ball), jig_(jig) {
         double t = 0;
         const auto add = [&](double duration, size_t device, int point) {
             stretches_.push_back({t, t + duration, device, point});
@@ -86,30 +90,31 @@ class CalibrationHand final : public hand::Driver {
         const Stretch& now = at(t);
         if (now.point >= 0 && now.device == device) {
             const auto point = static_cast<size_t>(now.point);
-            const Vec3 from = point == 0 ? box_.center() : jig_[point - 1];
-            const Vec3 to = point == jig_.size() ? box_.center() : jig_[point];
+            const Vec3 from = point == 0 ? ball_.centre : jig_[point - 1];
+            const Vec3 to = point == jig_.size() ? ball_.centre : jig_[point];
             return from + model::minimum_jerk((t - now.start) / kMove).share * (to - from);
         }
         const bool carries = now.point < 0 && (device == 0 || device == now.device);
-        if (!carries) return box_.center();
+        if (!carries) return ball_.centre;
         // from the middle, where both fingers wait, and back
         const double raised = model::minimum_jerk((t - now.start) / kRaise).share *
                               model::minimum_jerk((now.end - t) / kRaise).share;
         const auto wave = [&](double hertz) { return std::sin(2 * std::numbers::pi * hertz * t); };
-        const Vec3 off = box_.sizes().cwiseProduct(Vec3(wave(0.11), wave(0.17), wave(0.23))) / 2;
+        const Vec3 waves(wave(0.11), wave(0.17), wave(0.23));
+        const Vec3 off = ball_.radius / std::max(1.0, waves.norm()) * waves;
         const double up = 0.95 * wave(0.13);
         const double around = 2 * std::numbers::pi * 0.29 * t;
         const double level = std::sqrt(1 - up * up);
         const Vec3 along(level * std::cos(around), level * std::sin(around), up);
-        if (device == 0) return box_.center() + raised * (off + kLink / 2 * along);
+        if (device == 0) return ball_.centre + raised * (off + kLink / 2 * along);
         const auto slip = static_cast<size_t>(std::max(0.0, t) / kSlipping);
         const double in =
             std::sin(std::numbers::pi * std::fmod(std::max(0.0, t), kSlipping) / kSlipping);
-        return box_.center() + raised * (off - kLink / 2 * along +
-                                         in * in * slips_[std::min(slip, slips_.size() - 1)]);
+        return ball_.centre + raised * (off - kLink / 2 * along +
+                                        in * in * slips_[std::min(slip, slips_.size() - 1)]);
     }
 
-    Eigen::AlignedBox3d box_;
+    Ball ball_;
     std::vector<Vec3> jig_;
     std::vector<Stretch> stretches_;
     std::vector<Vec3> slips_;
@@ -124,15 +129,14 @@ std::vector<Vec3> jig_of(const Rig& rig) {
 }
 
 /// Where the middle of the link can be carried, whichever way it points.
-Eigen::AlignedBox3d common_box(const Rig& rig) {
+Ball common_ball(const Rig& rig) {
     const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
-    const Vec3 less = Vec3::Constant(kLink / 2 + kMargin);
-    Eigen::AlignedBox3d box(found.box.min() + less, found.box.max() - less);
-    if (found.shared == 0 || box.isEmpty()) {
+    const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};
+    if (ball.radius < kLeastDepth / 4) {
         throw Error(rig.place, "devices", "share too little reach for a link to be carried",
                     "See dihaptic workspace, and move the devices nearer to each other.");
     }
-    return box;
+    return ball;
 }
 
 }  // namespace
@@ -192,8 +196,12 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
         throw Error(device.place, "backend", "is not simulated, as the first one's is",
                     "All devices of a rig are of one backend.");
     }
+    if (rig.devices.size() == 1 && rig.jig.empty()) {
+        throw Error(rig.place, "jig", "one device alone is calibrated by a jig, and there is none",
+                    "Give the rig file a jig, or two devices.");
+    }
     const Rig plain = uncorrected(rig);
-    const CalibrationHand hand(rig.devices.size(), common_box(plain), jig_of(rig), seed);
+    const CalibrationHand hand(rig.devices.size(), common_ball(plain), jig_of(rig), seed);
     CalibrationSampler sampler(rig, &hand);
     sampler.activate();
     const auto end = from_seconds(hand.duration());
