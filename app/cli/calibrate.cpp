@@ -2,6 +2,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -22,6 +24,8 @@ struct Options {
     std::string rig;
     std::string out;
 };
+
+using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kSeed = 1;  // of the simulated hand's slips
 
