@@ -50,7 +50,7 @@ struct Reading {
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
-    std::string serial;  ///< "" if it tells none
+    std::string serial;                                           ///< "" if it tells none
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     double continuous_force =
         std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
