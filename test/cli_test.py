@@ -41,7 +41,7 @@ class Commands(unittest.TestCase):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
                     ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"]]
+                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -63,6 +63,47 @@ class Commands(unittest.TestCase):
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn("map.svg: error: cannot be written. Name another file by --map", result.stderr)
+
+    def test_workspace_measures_and_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = folder + "/workspace.svg"
+            result = dihaptic("workspace", "rigs/premium-arms.yaml", "-o", picture)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"shared +\d+\.\d\d litres")
+            self.assertIn("largest sphere in it", pathlib.Path(picture).read_text())
+            result = dihaptic("workspace", "rigs/ideal-pair.yaml", "-o", picture)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not say where its reach ends."
+                          " Give it workspace_mm", result.stderr)
+
+    def test_calibrate_finds_what_is_misplaced_and_sessions_use_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            text = pathlib.Path("rigs/premium-misplaced.yaml").read_text()
+            pathlib.Path(rig).write_text(text.replace("jig:", "calibration: mine.yaml\njig:"))
+            result = dihaptic("check", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("rig.yaml:", result.stdout)
+            self.assertIn("calibration: mine.yaml cannot be used. Calibrate the rig", result.stdout)
+            result = dihaptic("calibrate", rig)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            agree = re.search(r"agree to ([\d.]+) mm rms", result.stdout)
+            self.assertLess(float(agree[1]), 0.1, result.stdout)
+            before = re.search(r"before +([\d.]+) mm rms", result.stdout)
+            self.assertGreater(float(before[1]), 1, result.stdout)
+            self.assertTrue(pathlib.Path(folder + "/mine.svg").exists())
+            result = dihaptic("check", rig)
+            self.assertEqual(result.returncode, 0, result.stdout)
+            # an old one is warned of, and a session keeps the one that it was made with
+            mine = pathlib.Path(folder + "/mine.yaml")
+            mine.write_text(re.sub(r"date: .*", "date: 2020-01-01", mine.read_text()))
+            result = dihaptic("run", "experiments/lift-block.yaml", "--rig", rig, "--out", folder + "/sessions")
+            self.assertIn("Calibrate it again: dihaptic calibrate", result.stderr)
+            mine.unlink()
+            session = session_of(folder + "/sessions")
+            self.assertTrue(pathlib.Path(session + "/calibration.yaml").exists())
+            result = dihaptic("replay", session)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
     def test_a_window_needs_a_screen(self):
         nowhere = {name: value for name, value in os.environ.items()

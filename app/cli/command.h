@@ -33,6 +33,8 @@ void add_video(CLI::App& app);
 void add_report(CLI::App& app);
 void add_export(CLI::App& app);
 void add_gui(CLI::App& app);
+void add_workspace(CLI::App& app);
+void add_calibrate(CLI::App& app);
 
 /// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each
 /// tenth.

@@ -80,6 +80,8 @@ int main(int argc, char** argv) {
     cli::add_report(app);
     cli::add_export(app);
     cli::add_gui(app);
+    cli::add_workspace(app);
+    cli::add_calibrate(app);
     try {
         refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);

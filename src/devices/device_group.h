@@ -20,6 +20,7 @@
 #include "base/geometry.h"
 #include "hand/driver.h"
 #include "hand/spec.h"
+#include "model/phantom_arm.h"
 
 namespace dihaptic::devices {
 
@@ -42,11 +43,14 @@ struct Reading {
     /// [rad/s], of devices that measure orientation.
     Quat R_DH = Quat::Identity();
     Vec3 w_DH = Vec3::Zero();
+    /// Angles of the arm's joints, of devices that have one in their info [rad].
+    Vec3 joints = Vec3::Zero();
 };
 
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
+    std::string serial;                                           ///< "" if it tells none
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     double continuous_force =
         std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
@@ -54,10 +58,16 @@ struct DeviceInfo {
     double mass = 0;     ///< of handle and hand together; 0: not known [kg]
     double delay = 0;    ///< from write to force [s]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
+    /// By which its readings are larger than the hand's movement, and the forces above than those
+    /// in the hand.
+    double scale = 1;
     /// What the maker says it renders calmly, if he does: what shares of its maximum are taken of
     /// [N/m], [N*s/m].
     std::optional<double> max_stiffness;
     std::optional<double> max_damping;
+
+    /// Of a Premium that tells the angles of its joints: p_DH is where they put the endpoint.
+    std::optional<model::PhantomLinks> arm;
 
     bool measures_orientation = false;
     double peak_torque = 0;  ///< 0: it renders none [N*m]
@@ -73,6 +83,7 @@ struct DeviceConfig {
     Pose X_WD;
     Node options;  ///< the backend's own
     Place place{};
+    double scale = 1;  ///< of the world over the hand's movement, about D's origin
 };
 
 /// What some backends need of the rest of the program.

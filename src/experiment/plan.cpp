@@ -106,6 +106,7 @@ Plan make_plan(const Request& request) {
         // a mouse can turn the hand, which is felt where orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
+    rig::check_age(plan.rig, recording::iso_now(), diagnostics);
     const auto real = [](const rig::Device& device) { return device.backend != "simulated"; };
     if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), real))
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));

@@ -178,12 +178,12 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
     if (!plan.settings.safety.max_force) return;
     for (int i = 0; i < devices.size(); ++i) {
         const devices::DeviceInfo& info = devices.info(i);
-        if (*plan.settings.safety.max_force <= info.peak_force) continue;
-        diagnostics.warning(
-            place_of(plan, "safety.max_force"), "safety.max_force",
-            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
-                        *plan.settings.safety.max_force, info.model, info.peak_force),
-            "The device's peak holds: lower it, or leave it out.");
+        const double peak = info.peak_force / info.scale;  // in the hand
+        if (*plan.settings.safety.max_force <= peak) continue;
+        diagnostics.warning(place_of(plan, "safety.max_force"), "safety.max_force",
+                            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
+                                        *plan.settings.safety.max_force, info.model, peak),
+                            "The device's peak holds: lower it, or leave it out.");
         break;
     }
 }

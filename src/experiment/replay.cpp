@@ -54,6 +54,7 @@ std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& 
         options("orientation", device.orientation);
         options("peak_torque", device.peak_torque, Field::of(Quantity::torque));
         options("continuous_torque", device.continuous_torque, Field::of(Quantity::torque));
+        options("scale", device.scale);
         configs.push_back({device.finger, {}, options.take()});
     }
     return devices::find_backend("replay")->make(configs, context);

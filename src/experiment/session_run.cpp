@@ -85,7 +85,13 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
     scene.hand = write_fields(plan.hand);
     std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
     write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
-    write_file(to_yaml(write_fields(plan.rig)), folder.file("rig.yaml"));
+    rig::Rig rig = plan.rig;
+    if (rig.calibrated) {
+        rig.calibration = "calibration.yaml";
+        write_file(to_yaml(write_fields(*rig.calibrated)), folder.file(rig.calibration));
+        names.push_back(rig.calibration);
+    }
+    write_file(to_yaml(write_fields(rig)), folder.file("rig.yaml"));
     write_file(to_yaml(write_fields(plan.settings)), folder.file("settings.yaml"));
     write_csv(list_fields(plan.settings, plan.origins), folder.file("settings.csv"));
     for (const char* name : {"scene.yaml", "rig.yaml", "settings.yaml"}) names.emplace_back(name);
@@ -260,7 +266,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                                        device.workspace,
                                        device.measures_orientation,
                                        device.peak_torque,
-                                       {}};
+                                       {},
+                                       device.scale};
         if (std::isfinite(device.continuous_force))
             record.continuous_force = device.continuous_force;
         if (std::isfinite(device.continuous_torque))

@@ -48,7 +48,7 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
-    const double excess = generated() - kEnergyBudget;
+    const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
     flags |= kEnergyGenerated;
     if (mode_ != EnergyGuardMode::act) return damper_;

@@ -28,7 +28,9 @@ constexpr double kMostEnergyTurnDamping = 0.004;
 
 class EnergyGuard {
   public:
-    explicit EnergyGuard(EnergyGuardMode mode) : mode_(mode) {}
+    /// `budget` [J].
+    explicit EnergyGuard(EnergyGuardMode mode, double budget = kEnergyBudget)
+        : mode_(mode), budget_(budget) {}
 
     /// Once a tick of h [s]: the handle, the proxy after the tick's step, what the coupling wants
     /// to do to the handle from now on, and the energy that its springs have then, though they may
@@ -42,6 +44,7 @@ class EnergyGuard {
 
   private:
     EnergyGuardMode mode_;
+    double budget_;
     bool started_ = false;
     Pose X_WH_;          // at the last tick
     Pose X_WP_;          // the same

@@ -7,9 +7,10 @@ ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limit
     : tick_(tick),
       X_WD_(X_WD),
       X_DW_(X_WD.inverse()),
-      energy_(settings.energy_guard),
+      energy_(settings.energy_guard, limits.scale * limits.scale * kEnergyBudget),
       wall_(limits.workspace, settings.workspace_stiffness, tick),
-      limiter_(settings.largest_force(limits.peak_force), settings.max_force_rate,
+      limiter_(settings.largest_force(limits.peak_force, limits.scale),
+               settings.max_force_rate * limits.scale,
                Heating(limits.peak_force, limits.continuous_force, settings.heating_time)) {
     if (limits.peak_torque <= 0) return;
     torque_limiter_.emplace(

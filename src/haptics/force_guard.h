@@ -14,13 +14,14 @@
 
 namespace dihaptic::haptics {
 
-/// What a device can do, for its limits.
+/// What a device can do, for its limits: in the world's measure where its movement is scaled.
 struct DeviceLimits {
     double peak_force;              ///< [N]
     double continuous_force;        ///< that it can hold for ever; infinite: not known [N]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
     double peak_torque = 0;         ///< 0: it renders none [N*m]
     double continuous_torque = std::numeric_limits<double>::infinity();  ///< [N*m]
+    double scale = 1;  ///< forces and lengths here over those of the hand
 };
 
 /// What the guard had to do: see also LimitFlags and EnergyFlags.

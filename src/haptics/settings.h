@@ -146,8 +146,11 @@ struct SafetySettings {
     int dead_man_button = 0;           ///< which of its buttons
     EnergyGuardMode energy_guard = EnergyGuardMode::warn;
 
-    /// Magnitude limit with a device of so much peak force [N].
-    double largest_force(double peak) const { return std::min(max_force.value_or(peak), peak); }
+    /// Magnitude limit with a device of so much peak force, which is `scale` times what the hand
+    /// gets of it [N].
+    double largest_force(double peak, double scale = 1) const {
+        return max_force ? std::min(*max_force * scale, peak) : peak;
+    }
     /// The same of torque [N*m].
     double largest_torque(double peak) const { return std::min(max_torque.value_or(peak), peak); }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/markup.h"
+#include "base/svg.h"
 #include "measure/tune.h"
 
 namespace dihaptic::measure {
@@ -13,38 +13,12 @@ namespace {
 
 constexpr double kCell = 44, kLeft = 96, kTop = 84;  // [px]
 
-class Picture {
+class Picture : public Svg {
   public:
-    Picture(double width, double height) {
-        out_ = fmt::format(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" "
-            "height=\"{1:g}\" font-family=\"sans-serif\" font-size=\"13\">\n"
-            "<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n",
-            width, height);
-    }
+    using Svg::Svg;
     void cell(double x, double y, const char* colour, const std::string& tip = "") {
-        out_ += fmt::format(
-            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\" fill=\"{}\" "
-            "stroke=\"#ffffff\"><title>{}</title></rect>\n",
-            x - kCell / 2, y - kCell / 2, kCell, kCell, colour, escaped_markup(tip));
+        rectangle(x - kCell / 2, y - kCell / 2, kCell, kCell, colour, "stroke=\"#ffffff\"", tip);
     }
-    /// An SVG path; `fill` may be "none".
-    void path(const std::string& d, const char* stroke, double width, const char* fill = "none") {
-        out_ += fmt::format(
-            "<path d=\"{}\" stroke=\"{}\" stroke-width=\"{:g}\" fill=\"{}\" "
-            "stroke-linejoin=\"round\" stroke-linecap=\"round\"/>\n",
-            d, stroke, width, fill);
-    }
-    /// `anchor`: start, middle, end.
-    void text(double x, double y, const std::string& words, const char* anchor = "start",
-              const char* more = "") {
-        out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", x,
-                            y, anchor, more, escaped_markup(words));
-    }
-    std::string take() { return out_ + "</svg>\n"; }
-
-  private:
-    std::string out_;
 };
 
 void cross(Picture& picture, double x, double y) {
@@ -142,7 +116,7 @@ std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std
                  "middle");
     const double middle = kTop + rows * kCell / 2;
     picture.text(36, middle, "damping of the coupling, N·s/m", "middle",
-                 fmt::format("transform=\"rotate(-90 36 {:g})\"", middle).c_str());
+                 fmt::format("transform=\"rotate(-90 36 {:g})\"", middle));
 
     // the damping that the program takes when none is given
     std::string line;

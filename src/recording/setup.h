@@ -34,6 +34,7 @@ struct DeviceRecord {
     bool orientation = false;                 ///< whether it is measured
     double peak_torque = 0;                   ///< [N*m]
     std::optional<double> continuous_torque;  ///< [N*m]
+    double scale = 1;  ///< of the world over the hand's movement, in forces and lengths above too
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -45,6 +46,7 @@ struct DeviceRecord {
         v("orientation", orientation);
         v("peak_torque", peak_torque, Field::of(Quantity::torque));
         v("continuous_torque", continuous_torque, Field::of(Quantity::torque));
+        v("scale", scale);
     }
 };
 

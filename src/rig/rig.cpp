@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "base/field_writer.h"
+#include "rig/corrected_devices.h"
 
 namespace dihaptic::rig {
 namespace {
@@ -45,6 +47,58 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     outlets::check(rig.outlets, diagnostics);
 }
 
+void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostics) {
+    Calibration calibration;
+    try {
+        read_fields(calibration, read_yaml(file), diagnostics);
+    } catch (const Error& e) {
+        diagnostics.error(rig.place, "calibration",
+                          fmt::format("{} cannot be used", rig.calibration),
+                          "Calibrate the rig (dihaptic calibrate), or leave out calibration.");
+        diagnostics.add(e.problems());
+        return;
+    }
+    if (!days_between(calibration.date, calibration.date) && !calibration.date.empty()) {
+        diagnostics.error(calibration.place, "date",
+                          fmt::format("'{}' is no date", calibration.date),
+                          "Write it as 2026-11-21.");
+    }
+    for (const Device& device : rig.devices) {
+        if (calibration.find(device.finger) != nullptr) continue;
+        diagnostics.error(calibration.place, "devices",
+                          fmt::format("has no part for the {}'s device", device.finger),
+                          "Calibrate the rig again.");
+    }
+    rig.calibrated = calibration;
+}
+
+/// What is done to a device's readings; nothing, when they are as they come.
+std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
+                                     const devices::DeviceInfo& info) {
+    Adjustment out;
+    out.scale = device.scale;
+    const DeviceCalibration* part = rig.calibrated ? rig.calibrated->find(device.finger) : nullptr;
+    if (part == nullptr) {
+        if (device.scale == 1) return {};
+        return out;
+    }
+    if (part->joint_offset && !info.arm) {
+        throw Error(device.place, "calibration",
+                    fmt::format("has offsets of joints for the {}'s device ({}), which tells no "
+                                "joint angles",
+                                device.finger, info.model),
+                    "Calibrate the rig again.");
+    }
+    if (!part->serial.empty() && !info.serial.empty() && part->serial != info.serial) {
+        throw Error(device.place, "calibration",
+                    fmt::format("is of device {}, and the {} holds {}", part->serial, device.finger,
+                                info.serial),
+                    "Calibrate the rig again, or connect that device.");
+    }
+    out.correction = part->correction(info.arm);
+    return out;
+}
+
 }  // namespace
 
 const Device& device_of(const Rig& rig, const std::string& finger) {
@@ -59,7 +113,7 @@ const Device& device_of(const Rig& rig, const std::string& finger) {
                             fmt::join(held, ", ")));
 }
 
-Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
     Rig rig;
     try {
         read_fields(rig, read_yaml(file), diagnostics);
@@ -69,6 +123,32 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
     }
     if (!diagnostics.has_errors()) check(rig, diagnostics);
     return rig;
+}
+
+Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+    Rig rig = read_rig_to_calibrate(file, diagnostics);
+    if (!rig.calibration.empty()) {
+        const auto folder = std::filesystem::path(file).parent_path();
+        read_calibration(rig, (folder / rig.calibration).string(), diagnostics);
+    }
+    return rig;
+}
+
+void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {
+    if (!rig.calibrated) return;
+    const std::optional<int> days = days_between(rig.calibrated->date, today);
+    if (!days || *days <= kOldCalibration) return;
+    diagnostics.warning(rig.calibrated->place, "date",
+                        fmt::format("the rig was calibrated {} days ago", *days),
+                        "Calibrate it again: dihaptic calibrate.");
+}
+
+Rig uncorrected(const Rig& rig) {
+    Rig out = rig;
+    out.calibration.clear();
+    out.calibrated.reset();
+    for (Device& device : out.devices) device.scale = 1;
+    return out;
 }
 
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
@@ -96,11 +176,21 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     for (const std::string& finger : fingers) {
         const Device& device = device_of(rig, finger);
         backend = devices::find_backend(device.backend);
-        configs.push_back({finger, device.X_WD(), device.options, device.place});
+        configs.push_back({finger, device.X_WD(), device.options, device.place, device.scale});
     }
     if (backend == nullptr)
         throw Error(rig.place, "devices", "there are none", "List at least one device.");
-    return backend->make(configs, context);
+    auto group = backend->make(configs, context);
+    std::vector<Adjustment> adjustments;
+    bool adjusted = false;
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        const auto own =
+            adjustment(rig, device_of(rig, fingers[i]), group->info(static_cast<int>(i)));
+        adjusted = adjusted || own;
+        adjustments.push_back(own.value_or(Adjustment{}));
+    }
+    if (adjusted) return make_corrected(std::move(group), std::move(adjustments));
+    return group;
 }
 
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers) {

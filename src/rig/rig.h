@@ -3,6 +3,7 @@
 
 #include "devices/device_group.h"
 #include "outlets/outlet.h"
+#include "rig/calibration.h"
 
 namespace dihaptic::rig {
 
@@ -11,7 +12,10 @@ struct Device {
     std::string backend;
     Vec3 position = Vec3::Zero();  ///< of D's origin in the world [m]
     Vec3 rotation = Vec3::Zero();  ///< about the world's axes x, then y, then z [rad]
-    Node options;                  ///< the backend's own
+    /// Positions in the world over those of the hand, about D's origin; forces on the hand are as
+    /// much smaller (corrected_devices.h).
+    double scale = 1;
+    Node options;  ///< the backend's own
     Place place;
 
     template <class Visitor>
@@ -20,6 +24,7 @@ struct Device {
         v("backend", backend, Field::text().required());
         v("position", position, Field::length().within(-100, 100));
         v("rotation", rotation, Field::of(Quantity::angle));
+        v("scale", scale, Field::number().within(0.1, 10));
         v("options", options);
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -27,30 +32,58 @@ struct Device {
     Pose X_WD() const { return {rotation_xyz(rotation), position}; }
 };
 
+/// A point whose place in the world is known, and that endpoints can touch.
+struct JigPoint {
+    std::string name;
+    Vec3 position = Vec3::Zero();  ///< [m]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("position", position, Field::length().within(-10, 10).required());
+    }
+};
+
 struct Rig {
     std::string title;
     std::vector<Device> devices;
     std::vector<outlets::OutletConfig> outlets;
+    std::string calibration;  ///< its file, beside the rig's; empty: none
+    std::vector<JigPoint> jig;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
+    std::optional<Calibration> calibrated;  ///< what `calibration` says
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title);
         v("devices", devices, Field::text().required());
         v("outlets", outlets);
+        v("calibration", calibration);
+        v("jig", jig);
         v("settings", settings);
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Reads a rig file; every problem goes to `diagnostics`.
+/// Reads a rig file, and its calibration; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
+/// The same of a rig that is about to be calibrated: its calibration may be missing, and is not
+/// read.
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 
-/// The devices for the scene's fingers, in the fingers' order. Throws Error when a finger has none.
+/// Warns of a calibration that is older than kOldCalibration. `today`: ISO 8601.
+void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
+constexpr int kOldCalibration = 30;  // days
+
+/// The rig without calibration and scales: its devices as they report themselves.
+Rig uncorrected(const Rig& rig);
+
+/// The devices for the scene's fingers, in the fingers' order, corrected and scaled. Throws Error
+/// when a finger has none, or when the calibration is of other devices.
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context);

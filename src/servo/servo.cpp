@@ -61,7 +61,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         force_guards_.emplace_back(
             settings.safety,
             haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace,
-                                  info.peak_torque, info.continuous_torque},
+                                  info.peak_torque, info.continuous_torque, info.scale},
             settings.tick(), X_0D_[i]);
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
@@ -83,7 +83,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
                 scene, i, proxy, is_point ? haptics::ProxyKind::rigid : haptics::ProxyKind::point));
         }
         X_D0_.push_back(X_0D_[i].inverse());
-        guards_.emplace_back(settings.safety.max_speed);
+        guards_.emplace_back(settings.safety.max_speed * info.scale);
     }
     const size_t n = fingers_.size();
     readings_.resize(n);
@@ -111,7 +111,7 @@ haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
     const auto made = [&] {
         if (kind == haptics::ProxyKind::rigid) {
             return haptics::Finger(of, proxy, settings_.coupling,
-                                   settings_.safety.largest_force(info.peak_force));
+                                   settings_.safety.largest_force(info.peak_force, info.scale));
         }
         if (settings_.proxy.friction == haptics::PointFriction::together) {
             return haptics::Finger(

@@ -11,6 +11,7 @@ struct Options {
     bool orientation = false;
     double peak_torque = 0;                   ///< [N*m]
     std::optional<double> continuous_torque;  ///< [N*m]
+    double scale = 1;                         ///< DeviceInfo::scale
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -20,6 +21,7 @@ struct Options {
         v("orientation", orientation);
         v("peak_torque", peak_torque, Field::of(Quantity::torque).at_least(0));
         v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
+        v("scale", scale, Field::number().positive());
     }
 };
 
@@ -37,6 +39,7 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
         info.workspace = options.workspace;
         info.measures_orientation = options.orientation;
         info.peak_torque = options.peak_torque;
+        info.scale = options.scale;
         if (options.continuous_torque) info.continuous_torque = *options.continuous_torque;
         out.push_back(info);
     }

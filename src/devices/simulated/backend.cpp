@@ -17,14 +17,47 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
                           "a device that renders torque measures orientation",
                           "Add orientation: yes, or leave out peak_torque_Nm.");
     }
+    if (options.joint_offset != Vec3::Zero() && options.arm != Mechanics::phantom) {
+        diagnostics.error(config.place, "joint_offset", "a device without joints has none",
+                          "Add arm: phantom, or leave out joint_offset_deg.");
+    }
     return options;
 }
 
+/// A hand that sees its fingers in the world, scaled, and aims accordingly: it moves 1/s of the way
+/// from D's origin to a place.
+class AimingDriver final : public hand::Driver {
+  public:
+    AimingDriver(const std::vector<DeviceConfig>& configs, const hand::Driver& seen) : seen_(seen) {
+        for (const DeviceConfig& config : configs) aims_.push_back({config.X_WD.p, config.scale});
+    }
+    double duration() const override { return seen_.duration(); }
+    const std::vector<Phase>& phases() const override { return seen_.phases(); }
+
+  private:
+    struct Aim {
+        Vec3 origin;
+        double scale;
+    };
+    hand::FingerTarget do_target(int finger, double t) const noexcept override {
+        hand::FingerTarget target = seen_.target(finger, t);
+        const Aim& aim = aims_[static_cast<size_t>(finger)];
+        if (aim.scale == 1) return target;
+        target.p_WT = aim.origin + (target.p_WT - aim.origin) / aim.scale;
+        target.v_WT /= aim.scale;
+        return target;
+    }
+
+    const hand::Driver& seen_;
+    std::vector<Aim> aims_;
+};
+
 struct Device {
     Options options;
-    Pose X_WD;
+    Pose X_WD;  // where it truly is
     Plant plant;
     Encoder encoder;
+    JointEncoder joints;
     Gimbal gimbal;
     uint32_t clamped = 0;
 };
@@ -34,12 +67,17 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
     for (const Options& option : options) {
         DeviceInfo info;
         info.model = std::string("simulated ") + std::string(enum_name(option.preset));
+        info.serial = option.serial;
         info.peak_force = option.peak_force;
         if (option.continuous_force) info.continuous_force = *option.continuous_force;
         info.damping = context.impedance.damping;
         info.mass = option.mass + context.impedance.mass;
         info.delay = option.delay_ticks * context.tick;
         info.workspace = option.workspace;
+        if (option.arm == Mechanics::phantom) {
+            info.arm = option.links;
+            info.mass = Arm::least_mass(option) + context.impedance.mass;
+        }
         info.max_stiffness = option.max_stiffness;
         info.max_damping = option.max_damping;
         info.measures_orientation = option.orientation;
@@ -58,12 +96,14 @@ class SimulatedGroup final : public DeviceGroup {
   public:
     SimulatedGroup(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options,
                    const Context& context)
-        : DeviceGroup(infos(options, context)) {
+        : DeviceGroup(infos(options, context)),
+          driver_(std::make_unique<AimingDriver>(configs, *context.driver)) {
         for (size_t i = 0; i < configs.size(); ++i) {
-            devices_.push_back({options[i], configs[i].X_WD,
+            const Pose X_WD = configs[i].X_WD * options[i].misplaced();
+            devices_.push_back({options[i], X_WD,
                                 Plant(options[i], context.impedance, context.tremor, context.seed,
-                                      static_cast<int>(i), *context.driver),
-                                Encoder(options[i]), Gimbal(options[i])});
+                                      static_cast<int>(i), *driver_, X_WD),
+                                Encoder(options[i]), JointEncoder(options[i]), Gimbal(options[i])});
         }
     }
 
@@ -81,10 +121,18 @@ class SimulatedGroup final : public DeviceGroup {
             if (stopped_.load(std::memory_order_relaxed)) device.plant.release();
             device.plant.advance(now);
             const Pose X_DW = device.X_WD.inverse();
-            const Encoder::Measured measured = device.encoder.measure(
-                now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
+            Encoder::Measured measured;
+            Vec3 joints = Vec3::Zero();
+            if (const Arm* arm = device.plant.arm()) {
+                measured = device.joints.measure(now, *arm);
+                joints = arm->reported();
+            } else {
+                measured = device.encoder.measure(now, X_DW * device.plant.p_WH(),
+                                                  X_DW.R * device.plant.v_WH());
+            }
             readings[i] = {measured.p, measured.v, static_cast<uint32_t>(device.options.buttons),
                            device.clamped};
+            readings[i].joints = joints;
             if (device.options.orientation) {
                 const Quat& R_WD = device.X_WD.R;
                 const Gimbal::Measured turned =
@@ -111,6 +159,7 @@ class SimulatedGroup final : public DeviceGroup {
 
     void do_stop() noexcept override { stopped_.store(true); }
 
+    std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
 };

@@ -4,9 +4,11 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "base/field.h"
 #include "base/geometry.h"
+#include "model/phantom_arm.h"
 
 namespace dihaptic::devices::simulated {
 
@@ -20,7 +22,15 @@ constexpr auto enum_names(Preset) {
     return std::array{"plant", "premium_1_0", "touch", "sigma_7"};
 }
 
+/// point: one mass at the endpoint, alike along all axes. phantom: the links and joints of a
+/// Premium.
+enum class Mechanics { point, phantom };
+constexpr auto enum_names(Mechanics) {
+    return std::array{"point", "phantom"};
+}
+
 struct Options {
+    std::string serial;                      ///< that it tells
     Preset preset = Preset::plant;           ///< sets all others, which may then be given too
     double mass = 0.075;                     ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;                 ///< larger forces are clamped [N]
@@ -34,6 +44,13 @@ struct Options {
     std::optional<double> max_stiffness;  ///< that the maker says it renders calmly [N/m]
     std::optional<double> max_damping;    ///< the same [N*s/m]
 
+    Mechanics arm = Mechanics::point;
+    model::PhantomLinks links;           ///< phantom: those of a 1.0 are not verified [m]
+    Vec3 joint_offset = Vec3::Zero();    ///< phantom: true less reported angles, as a reset
+                                         ///< off the standard configuration leaves it [rad]
+    Vec3 misplaced_by = Vec3::Zero();    ///< of D from where the rig has it, in D [m]
+    Vec3 misplaced_turn = Vec3::Zero();  ///< the same, about D's x, then y, then z [rad]
+
     bool orientation = false;  ///< whether it is measured: else the endpoint does not turn
     double peak_torque = 0;    ///< larger torques are clamped; 0: it renders none [N*m]
     std::optional<double> continuous_torque;  ///< that the motors can hold for long [N*m]
@@ -42,8 +59,13 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("serial", serial);
         v("preset", preset);
-        if constexpr (requires { v.diagnostics(); }) *this = of(preset);
+        if constexpr (requires { v.diagnostics(); }) {
+            const std::string given = serial;
+            *this = of(preset);
+            serial = given;
+        }
         v("mass", mass, Field::of(Quantity::mass).within(1e-3, 100));
         v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(1e4));
         v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
@@ -55,12 +77,21 @@ struct Options {
         v("workspace", workspace, Field::length().positive());
         v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
         v("max_damping", max_damping, Field::of(Quantity::damping).positive());
+        v("arm", arm);
+        v("thigh", links.thigh, Field::length().within(0.05, 1));
+        v("shin", links.shin, Field::length().within(0.05, 1));
+        v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.2, 0.2));
+        v("misplaced_by", misplaced_by, Field::length().within(-0.1, 0.1));
+        v("misplaced_turn", misplaced_turn, Field::of(Quantity::angle).within(-0.5, 0.5));
         v("orientation", orientation);
         v("peak_torque", peak_torque, Field::of(Quantity::torque).within(0, 100));
         v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
         v("inertia", inertia, Field::of(Quantity::inertia).within(1e-7, 1));
         v("angle_step", angle_step, Field::of(Quantity::angle).within(0, 0.1));
     }
+
+    /// Pose of the true D in the one that the rig has.
+    Pose misplaced() const { return {rotation_xyz(misplaced_turn), misplaced_by}; }
 
     static constexpr int kMostWindow = 64;
     static Options of(Preset preset);

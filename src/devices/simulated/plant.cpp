@@ -46,17 +46,22 @@ Options Options::of(Preset preset) {
 }
 
 Plant::Plant(const Options& options, const hand::Impedance& impedance,
-             const hand::TremorSpec& tremor, uint64_t seed, int finger, const hand::Driver& driver)
+             const hand::TremorSpec& tremor, uint64_t seed, int finger, const hand::Driver& driver,
+             const Pose& X_WD)
     : options_(options),
+      X_WD_(X_WD),
       finger_(impedance),
       tremor_(tremor, seed, finger),
       index_(finger),
       driver_(driver),
-      pending_(static_cast<size_t>(options.delay_ticks) + 1) {}
+      pending_(static_cast<size_t>(options.delay_ticks) + 1) {
+    if (options.arm == Mechanics::phantom) arm_.emplace(options, impedance.mass);
+}
 
 bool Plant::holds(const Options& options, const hand::Impedance& impedance) {
     const double h = seconds(kStep);
-    const double mass = options.mass + impedance.mass;
+    const double own = options.arm == Mechanics::phantom ? Arm::least_mass(options) : options.mass;
+    const double mass = own + impedance.mass;
     const double k = impedance.stiffness + impedance.stiffness_per_force * options.peak_force;
     const bool turns =
         !options.orientation ||
@@ -72,6 +77,7 @@ void Plant::reset() {
     v_.setZero();
     R_ = target.R_WT;
     w_.setZero();
+    if (arm_) p_ = X_WD_ * arm_->reset(X_WD_.inverse() * p_);
     release();
 }
 
@@ -92,20 +98,17 @@ bool Plant::hold(const Wrench& wrench_W) noexcept {
 
 void Plant::advance(Time now) noexcept {
     const Wrench& device = pending_[(newest_ + 1) % pending_.size()];
-    const Vec3& f_device = device.force;
-    const double mass = options_.mass + finger_.mass();
+    if (arm_) arm_->drive(X_WD_.R.conjugate() * device.force);
     while (time_ < now) {
         const Time step = std::min(kStep, now - time_);
         const double h = seconds(step);
         hand::FingerTarget target = driver_.target(index_, seconds(time_));
         tremor_.add(target, seconds(time_));
-        v_ += h / mass * (finger_.pull(target, p_, v_, f_device, h) + f_device);
-        if (options_.friction > 0) {
-            const double most = h / mass * options_.friction;
-            const double speed = v_.norm();
-            v_ *= speed > most ? 1 - most / speed : 0;
+        if (arm_) {
+            move_arm(target, device.force, h);
+        } else {
+            move_point(target, device.force, h);
         }
-        p_ += h * v_;
         if (options_.orientation) {
             w_ += h / options_.inertia * (finger_.turn(target, R_, w_) + device.torque);
             R_ = (rotation_by(h * w_) * R_).normalized();
@@ -114,12 +117,45 @@ void Plant::advance(Time now) noexcept {
     }
 }
 
+void Plant::move_point(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept {
+    const double mass = options_.mass + finger_.mass();
+    v_ += h / mass * (finger_.pull(target, p_, v_, f_device, h) + f_device);
+    if (options_.friction > 0) {
+        const double most = h / mass * options_.friction;
+        const double speed = v_.norm();
+        v_ *= speed > most ? 1 - most / speed : 0;
+    }
+    p_ += h * v_;
+}
+
+void Plant::move_arm(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept {
+    // what the finger feels moves on once a step, its pull is asked for several times
+    finger_.pull(target, p_, v_, f_device, h);
+    arm_->move(h, [&](const Vec3& p_DH, const Vec3& v_DH) noexcept -> Vec3 {
+        return X_WD_.R.conjugate() *
+               finger_.pull(target, X_WD_ * p_DH, X_WD_.R * v_DH, f_device, 0);
+    });
+    p_ = X_WD_ * arm_->p_DH();
+    v_ = X_WD_.R * arm_->v_DH();
+}
+
 Encoder::Measured Encoder::measure(Time now, const Vec3& p, const Vec3& v) noexcept {
     if (step_ <= 0) return {p, v};
     const Vec3 stepped = (p / step_).array().round().matrix() * step_;
     const auto* old = past_.exchange(now, stepped);
     if (old == nullptr) return {stepped, Vec3::Zero()};
     return {stepped, (stepped - old->value) / seconds(now - old->time)};
+}
+
+Encoder::Measured JointEncoder::measure(Time now, const Arm& arm) noexcept {
+    const Vec3 q = arm.reported();
+    Vec3 rate = arm.rate();
+    if (arm.has_steps()) {
+        const auto* old = past_.exchange(now, q);
+        rate = old == nullptr ? Vec3::Zero() : Vec3((q - old->value) / seconds(now - old->time));
+    }
+    return {model::phantom_position(arm.links(), q),
+            model::phantom_jacobian(arm.links(), q) * rate};
 }
 
 Gimbal::Measured Gimbal::measure(Time now, const Quat& R, const Vec3& w) noexcept {

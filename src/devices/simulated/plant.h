@@ -8,13 +8,15 @@
 // turns too, alike and without friction, with the same inertia I about all axes:
 //
 //     I dw/dt = t_finger + t_device,    R <- exp(h w) R
+//
+// With `arm: phantom` joints take the place of the point (arm.h).
 #pragma once
 
 #include <vector>
 
 #include "base/clock.h"
 #include "devices/past.h"
-#include "devices/simulated/options.h"
+#include "devices/simulated/arm.h"
 #include "hand/finger.h"
 
 namespace dihaptic::devices::simulated {
@@ -22,7 +24,7 @@ namespace dihaptic::devices::simulated {
 class Plant {
   public:
     Plant(const Options& options, const hand::Impedance& impedance, const hand::TremorSpec& tremor,
-          uint64_t seed, int finger, const hand::Driver& driver);
+          uint64_t seed, int finger, const hand::Driver& driver, const Pose& X_WD = {});
 
     /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
     /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
@@ -38,6 +40,8 @@ class Plant {
     /// No force from now on, whatever is on its way.
     void release() noexcept;
 
+    /// What its joints do, of one that has them.
+    const Arm* arm() const { return arm_ ? &*arm_ : nullptr; }
     const Vec3& p_WH() const { return p_; }
     const Vec3& v_WH() const { return v_; }
     const Quat& R_WH() const { return R_; }
@@ -46,7 +50,12 @@ class Plant {
   private:
     static constexpr Time kStep = std::chrono::microseconds(100);
 
+    void move_point(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept;
+    void move_arm(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept;
+
     Options options_;
+    Pose X_WD_;  // where it truly is
+    std::optional<Arm> arm_;
     hand::Finger finger_;
     hand::Tremor tremor_;
     int index_;
@@ -74,6 +83,17 @@ class Encoder {
 
   private:
     double step_;
+    Past<Vec3> past_;
+};
+
+/// The same of an arm, whose joints have an encoder each.
+class JointEncoder {
+  public:
+    explicit JointEncoder(const Options& options) : past_(options.velocity_window) {}
+
+    Encoder::Measured measure(Time now, const Arm& arm) noexcept;
+
+  private:
     Past<Vec3> past_;
 };
 

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Bad{"title: x\n", "devices: is missing"}, Bad{"devices: []\n", "there are none"},
         Bad{"devices:\n  - {finger: thumb, backend: phantom}\n",
-            "rig.yaml:2: error: backend: 'phantom' is not known. Known: replay, simulated."},
+            "rig.yaml:2: error: backend: 'phantom' is not known. Known: "},
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: a, backend: simulated}\n",
             "'a' holds two devices"},
         Bad{"devices:\n  - {finger: a, backend: simulated, options: {preset: premium}}\n",
@@ -57,6 +57,97 @@ INSTANTIATE_TEST_SUITE_P(
             "mass_g: must be positive"},
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: b, backend: replay}\n",
             "All devices of a rig are of one backend"}));
+
+class StillDriver final : public hand::Driver {
+  public:
+    double duration() const override { return 0; }
+    const std::vector<Phase>& phases() const override { return phases_; }
+
+  private:
+    hand::FingerTarget do_target(int, double) const noexcept override {
+        return {{0.03, 0.02, 0.01}, Vec3::Zero()};
+    }
+    std::vector<Phase> phases_;
+};
+
+constexpr const char* kPart =
+    "date: 2026-10-01\ndevices:\n  - {finger: thumb, serial: P-1, shift_mm: [1, 2, 3], turn_deg: "
+    "[0, 0, "
+    "90]}\n";
+
+/// A rig of one device, and its calibration.
+Rig calibrated(const testing::TemporaryFolder& folder, const std::string& calibration,
+               const std::string& options, Diagnostics& diagnostics) {
+    folder.write("calibration.yaml", calibration);
+    return read_rig(folder.write("rig.yaml",
+                                 "calibration: calibration.yaml\ndevices:\n  - {finger: thumb, "
+                                 "backend: simulated, options: {" +
+                                     options + "}}\n"),
+                    diagnostics);
+}
+
+TEST(RigFile, ReadsItsCalibrationAndItsDevicesAreCorrected) {
+    const testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    const Rig rig = calibrated(folder, kPart, "serial: P-1", diagnostics);
+    ASSERT_FALSE(diagnostics.has_errors());
+    const StillDriver driver;
+    devices::Context context;
+    context.driver = &driver;
+    const auto first = [&](const Rig& of) {
+        const auto group = make_devices(of, {"thumb"}, context);
+        group->activate();
+        std::vector<devices::Reading> readings(1);
+        group->read(Time(0), readings);
+        return readings[0].p_DH;
+    };
+    EXPECT_LT((first(uncorrected(rig)) - Vec3(0.03, 0.02, 0.01)).norm(), 1e-12);
+    EXPECT_LT((first(rig) - Vec3(-0.02 + 1e-3, 0.03 + 2e-3, 0.01 + 3e-3)).norm(), 1e-12);
+
+    check_age(rig, "2026-10-31", diagnostics);
+    EXPECT_TRUE(diagnostics.problems().empty());
+    check_age(rig, "2026-11-21", diagnostics);
+    ASSERT_EQ(diagnostics.problems().size(), 1U);
+    EXPECT_NE(diagnostics.problems()[0].text().find("calibrated 51 days ago. Calibrate it again"),
+              std::string::npos);
+}
+
+TEST(RigFile, RefusesACalibrationOfOtherDevices) {
+    const testing::TemporaryFolder folder;
+    const StillDriver driver;
+    devices::Context context;
+    context.driver = &driver;
+    const auto refusal = [&](const std::string& calibration, const std::string& options) {
+        Diagnostics diagnostics;
+        const Rig rig = calibrated(folder, calibration, options, diagnostics);
+        std::string all;
+        for (const Problem& problem : diagnostics.problems()) all += problem.text() + "\n";
+        if (!all.empty()) return all;
+        try {
+            make_devices(rig, {"thumb"}, context);
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return all;
+    };
+    const auto said = [&](const std::string& text, const std::string& words) {
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+    };
+    said(refusal(kPart, "serial: P-2"), "is of device P-1, and the thumb holds P-2. Calibrate");
+    said(refusal("date: 2026-10-01\ndevices:\n  - {finger: toe}\n", ""),
+         "calibration.yaml:1: error: devices: has no part for the thumb's device");
+    said(refusal("date: 2026-10-01\ndevices:\n  - {finger: thumb, joint_offset_deg: [0, 1, 1]}\n",
+                 ""),
+         "which tells no joint angles. Calibrate the rig again");
+    said(refusal("date: soon\ndevices:\n  - {finger: thumb}\n", ""),
+         "'soon' is no date. Write it as");
+    said(refusal("date: 2026-10-01\ndevices:\n  - {finger: thumb, shift_cm: [0, 0, 5]}\nwhat: 1\n",
+                 ""),
+         "calibration.yaml:4: error: what");
+    said(problems_of("calibration: none.yaml\ndevices:\n  - {finger: thumb, backend: simulated}\n"),
+         "calibration: none.yaml cannot be used. Calibrate the rig (dihaptic calibrate)");
+    said(problems_of("devices:\n  - {finger: thumb, backend: simulated, scale: 100}\n"), "scale: ");
+}
 
 TEST(RigFile, SaysWhichFingerHasNoDevice) {
     const Rig rig = simulated_rig({"thumb"});

@@ -1,0 +1,65 @@
+#include "rig/workspace.h"
+
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "command.h"
+
+namespace dihaptic::cli {
+namespace {
+
+void show_workspace(const std::string& file, const std::string& out) {
+    Diagnostics diagnostics;
+    const rig::Rig rig = rig::read_rig(file, diagnostics);
+    print(diagnostics.problems());
+    diagnostics.throw_if_errors();
+    const std::vector<rig::Reach> reaches = rig::reaches(rig);
+    rig::Workspace found;
+    {
+        ProgressLine line("workspace");
+        found = rig::find_workspace(reaches, [&](double share) {
+            line.show(share);
+            return !stop_requested.load();
+        });
+    }
+    if (stop_requested) {
+        fmt::print(stderr, "interrupted: there is no picture\n");
+        exit_code = kFailed;
+        return;
+    }
+    write_file(rig::workspace_picture(found, reaches, rig.title), out);
+    fmt::print("{}\n", rig.title);
+    for (size_t i = 0; i < reaches.size(); ++i)
+        fmt::print("  {:10} reaches {:8.2f} litres\n", reaches[i].finger(), found.volumes[i] * 1e3);
+    fmt::print("  {:10} {:16.2f} litres\n", "shared", found.shared * 1e3);
+    if (found.shared > 0) {
+        const Vec3 size = found.box.sizes() * 1e3;
+        const Vec3 middle = found.box.center() * 1e3;
+        fmt::print(
+            "  largest box in it     {:.0f} x {:.0f} x {:.0f} mm around [{:.0f}, {:.0f}, {:.0f}]\n",
+            size.x(), size.y(), size.z(), middle.x(), middle.y(), middle.z());
+        const Vec3 centre = found.sphere_centre * 1e3;
+        fmt::print("  largest sphere in it  radius {:.0f} mm around [{:.0f}, {:.0f}, {:.0f}]\n",
+                   found.sphere_radius * 1e3, centre.x(), centre.y(), centre.z());
+    } else {
+        fmt::print("  The devices reach no place together: move them in the rig file.\n");
+        exit_code = kFailed;
+    }
+    fmt::print("picture: {}\n", out);
+}
+
+}  // namespace
+
+void add_workspace(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "workspace", "Where the devices of a rig get to, each and all together, with a picture");
+    auto file = std::make_shared<std::string>();
+    auto out = std::make_shared<std::string>("workspace.svg");
+    command->add_option("RIG", *file, "rig file")->required();
+    command->add_option("-o,--out", *out, "the picture from above, an SVG file")
+        ->capture_default_str();
+    command->footer("\nExample:\n  dihaptic workspace rigs/premium-arms.yaml -o workspace.svg");
+    command->callback([file, out] { show_workspace(*file, *out); });
+}
+
+}  // namespace dihaptic::cli

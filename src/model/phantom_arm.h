@@ -1,0 +1,78 @@
+// The arm of a PHANToM Premium: a turret, and a thigh and a shin that a parallelogram drives from
+// the turret.
+//
+// Joint angles q = (turret, thigh, shin) are zero in the reset pose: thigh level toward the person,
+// shin hanging at a right angle. The turret turns right, thigh and shin turn up; the shin's angle
+// is from the vertical. The device's frame D has its origin at the endpoint in the reset pose, x
+// right, y up, z toward the person. README.md has the equations.
+#pragma once
+
+#include "base/geometry.h"
+
+namespace dihaptic::model {
+
+struct PhantomLinks {
+    double thigh = 0.14;  ///< l1 [m]
+    double shin = 0.14;   ///< l2 [m]
+
+    bool operator==(const PhantomLinks&) const = default;
+};
+
+/// Which joint angles the arm allows [rad]. The bounds of thigh less shin are known of a Premium
+/// 1.5; the others are guesses that its pictures allow.
+struct PhantomLimits {
+    Vec3 low;
+    Vec3 high;
+    double bend_low;  ///< of thigh less shin
+    double bend_high;
+};
+const PhantomLimits& phantom_limits();
+
+/// p_DH of joint angles [m].
+Vec3 phantom_position(const PhantomLinks& links, const Vec3& q) noexcept;
+/// J: v_DH = J dq/dt, and so joint torques = J^T f_D [m].
+Mat3 phantom_jacobian(const PhantomLinks& links, const Vec3& q) noexcept;
+/// Acceleration of the endpoint at steady joint rates: dJ/dt q' [m/s^2].
+Vec3 phantom_steady_acceleration(const PhantomLinks& links, const Vec3& q,
+                                 const Vec3& rate) noexcept;
+/// |det J| = l1 l2 rho cos(q2 - q3): where it vanishes, the arm cannot give every force [m^3].
+double phantom_determinant(const PhantomLinks& links, const Vec3& q) noexcept;
+/// Joint angles at p_DH; where the links are too long or too short for it, those of the nearest
+/// point on its line to the shoulder.
+Vec3 phantom_joints(const PhantomLinks& links, const Vec3& p_DH) noexcept;
+/// Whether the arm's joints allow the angles.
+bool phantom_allows(const Vec3& q) noexcept;
+/// Whether the endpoint gets to p_DH.
+bool phantom_reaches(const PhantomLinks& links, const Vec3& p_DH) noexcept;
+
+/// M(q) q'' + C(q, q') + G(q) + damping q' = joint torques, in sums of the parts' masses.
+struct PhantomDynamics {
+    // M11 = m0 + m_thigh cos 2q2 + m_shin cos 2q3 + m_both cos q2 sin q3 [kg*m^2]
+    double m0 = 0;
+    double m_thigh = 0;
+    double m_shin = 0;
+    double m_both = 0;  // and M23 = -m_both / 2 sin(q2 - q3)
+    double m22 = 0;
+    double m33 = 0;
+    // G2 = g_thigh cos q2, G3 = g_shin sin q3 [N*m]
+    double g_thigh = 0;
+    double g_shin = 0;
+    double damping = 0;  ///< of each joint [N*m*s]
+
+    /// The Premium 1.5 without its rotors, as published.
+    static PhantomDynamics premium_1_5();
+    /// The same arm with other links: masses scale with the lengths, inertias with their cubes. The
+    /// parts of a Premium 1.0 are not published.
+    static PhantomDynamics scaled(const PhantomLinks& links);
+};
+
+/// M(q) [kg*m^2].
+Mat3 phantom_mass_matrix(const PhantomDynamics& arm, const Vec3& q) noexcept;
+/// C(q, q') by the Christoffel symbols of M [N*m].
+Vec3 phantom_coriolis(const PhantomDynamics& arm, const Vec3& q, const Vec3& rate) noexcept;
+/// G(q) [N*m].
+Vec3 phantom_gravity(const PhantomDynamics& arm, const Vec3& q) noexcept;
+/// Kinetic and potential energy, the latter zero at the reset pose [J].
+double phantom_energy(const PhantomDynamics& arm, const Vec3& q, const Vec3& rate) noexcept;
+
+}  // namespace dihaptic::model

@@ -1,0 +1,256 @@
+#include "rig/calibration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "rig/calibration_solver.h"
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr size_t kFolds = 5;
+/// Samples are held out in stretches of time, since neighbours in time say the same.
+constexpr size_t kStretches = 50;
+/// Least share of the link's directions along any axis, as the eigenvalue of the mean of d d^T: a
+/// third when it points everywhere alike.
+constexpr double kLeastTurned = 0.04;
+/// Beyond, the endpoints were not held by one link [m].
+constexpr double kMostSpread = 2e-3;
+constexpr double kMostSlips = 0.3;
+/// Least extent of the jig across its longest [m].
+constexpr double kLeastJig = 0.03;
+
+double rms(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value * value;
+    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double worst(const std::vector<double>& values) {
+    double most = 0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    return most;
+}
+
+void check_movement(const CalibrationInput& input, const CalibrationSolver& solver) {
+    const std::string again =
+        "Move the endpoints, joined, through all of the workspace: far and near, left and right, "
+        "up and down.";
+    if (input.link_samples.size() < kLeastSamples) {
+        throw Error(fmt::format("{} samples are too few, {} are needed", input.link_samples.size(),
+                                kLeastSamples),
+                    again);
+    }
+    const CalibrationSolution nominal = solver.nominal();
+    std::vector<std::vector<Vec3>> clouds(input.devices.size());
+    Mat3 turned = Mat3::Zero();
+    for (const CalibrationInput::LinkSample& sample : input.link_samples) {
+        const Vec3 a = solver.endpoint(nominal, sample.a, sample.at_a);
+        const Vec3 b = solver.endpoint(nominal, sample.b, sample.at_b);
+        clouds[sample.a].push_back(a);
+        clouds[sample.b].push_back(b);
+        const Vec3 d = (a - b).normalized();
+        turned += d * d.transpose() / static_cast<double>(input.link_samples.size());
+    }
+    for (size_t i = 0; i < clouds.size(); ++i) {
+        if (clouds[i].empty()) {
+            throw Error(
+                fmt::format("the {}'s device was joined to no other", input.devices[i].finger),
+                "Join each device to the first by the link.");
+        }
+        const Vec3 extents = cloud_extents(clouds[i]);
+        if (extents[0] >= kLeastDepth) continue;
+        throw Error(
+            fmt::format("the cloud of the {}'s endpoint was {:.0f} x {:.0f} x {:.0f} mm: {:.0f} mm "
+                        "deep, and {:.0f} are needed",
+                        input.devices[i].finger, extents[2] * 1e3, extents[1] * 1e3,
+                        extents[0] * 1e3, extents[0] * 1e3, kLeastDepth * 1e3),
+            again);
+    }
+    const double least = Eigen::SelfAdjointEigenSolver<Mat3>(turned).eigenvalues()[0];
+    if (least < kLeastTurned) {
+        throw Error("the link pointed nearly the same way, or into one plane, all the time",
+                    "Turn it while it is moved: along the table to all sides, and upright.");
+    }
+}
+
+void check_jig(const CalibrationInput& input) {
+    if (input.jig_samples.empty()) return;
+    std::vector<Vec3> points;
+    for (const CalibrationInput::JigSample& sample : input.jig_samples)
+        points.push_back(input.jig[sample.point]);
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+    Mat3 spread = Mat3::Zero();
+    for (const Vec3& p : points)
+        spread += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
+    const Vec3 variance = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+    if (std::sqrt(std::max(0.0, variance[1])) * 2 >= kLeastJig) return;
+    throw Error("the points of the jig that were touched are on a line, or too near to each other",
+                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
+}
+
+void check_link(const CalibrationSolution& solution, double slips) {
+    if (solution.link_spread <= kMostSpread && slips <= kMostSlips) return;
+    throw Error(
+        fmt::format("the endpoints were not held by one link: its length varied by {:.1f} mm, and "
+                    "{:.0f} % of the samples were slips",
+                    solution.link_spread * 1e3, slips * 100),
+        "Fasten it to both endpoints, and move them again. If it was: do the rig file's position, "
+        "rotation, backend and links name these devices?");
+}
+
+/// Which samples a fold is fitted to; the others are judged by it.
+std::vector<uint8_t> without(size_t count, size_t fold, size_t stretches) {
+    std::vector<uint8_t> use(count, 1);
+    for (size_t k = 0; k < count; ++k) use[k] = k * stretches / count % kFolds != fold;
+    return use;
+}
+
+DeviceCalibration part_of(const CalibrationInput::Device& device, const Correction& correction) {
+    DeviceCalibration out;
+    out.finger = device.finger;
+    out.serial = device.serial;
+    out.shift = correction.X.p;
+    out.turn = angles_xyz(correction.X.R);
+    if (correction.arm) {
+        out.joint_offset = correction.joint_offset;
+        return out;
+    }
+    const Mat3& S = correction.stretch;
+    out.stretch = S.diagonal();
+    out.skew = {S(1, 2), S(0, 2), S(0, 1)};
+    return out;
+}
+
+Vec3 middle(const CalibrationSolver& solver, const CalibrationSolution& solution,
+            const CalibrationInput::LinkSample& sample) {
+    return (solver.endpoint(solution, sample.a, sample.at_a) +
+            solver.endpoint(solution, sample.b, sample.at_b)) /
+           2;
+}
+
+}  // namespace
+
+Correction DeviceCalibration::correction(const std::optional<model::PhantomLinks>& arm) const {
+    Correction out;
+    out.X = {rotation_xyz(turn), shift};
+    if (joint_offset) {
+        out.arm = arm;
+        out.joint_offset = *joint_offset;
+    }
+    out.stretch << stretch.x(), skew.z(), skew.y(), skew.z(), stretch.y(), skew.x(), skew.y(),
+        skew.x(), stretch.z();
+    return out;
+}
+
+const DeviceCalibration* Calibration::find(const std::string& finger) const {
+    const auto found = std::find_if(devices.begin(), devices.end(),
+                                    [&](const DeviceCalibration& d) { return d.finger == finger; });
+    return found == devices.end() ? nullptr : &*found;
+}
+
+std::optional<int> days_between(const std::string& from, const std::string& to) {
+    const auto day = [](const std::string& text) -> std::optional<std::chrono::sys_days> {
+        int y = 0, m = 0, d = 0;
+        if (std::sscanf(text.c_str(), "%4d-%2d-%2d", &y, &m, &d) != 3) return {};
+        const std::chrono::year_month_day date{std::chrono::year(y),
+                                               std::chrono::month(static_cast<unsigned>(m)),
+                                               std::chrono::day(static_cast<unsigned>(d))};
+        if (!date.ok()) return {};
+        return std::chrono::sys_days(date);
+    };
+    const auto first = day(from);
+    const auto last = day(to);
+    if (!first || !last) return {};
+    return static_cast<int>((*last - *first).count());
+}
+
+Vec3 cloud_extents(const std::vector<Vec3>& points) {
+    if (points.empty()) return Vec3::Zero();
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+    Mat3 spread = Mat3::Zero();
+    for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+    const Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors();
+    Vec3 out;
+    std::vector<double> along(points.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        for (size_t k = 0; k < points.size(); ++k) along[k] = axes.col(axis).dot(points[k] - mean);
+        std::sort(along.begin(), along.end());
+        const size_t outer = points.size() / 100;
+        out[axis] = along[points.size() - 1 - outer] - along[outer];
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+CalibrationResult calibrate(const CalibrationInput& input) {
+    const CalibrationSolver solver(input);
+    if (input.devices.size() > 1) {
+        check_movement(input, solver);
+    } else if (input.jig_samples.empty()) {
+        throw Error("one device alone is calibrated by a jig, and none was touched",
+                    "Give the rig file a jig, or two devices.");
+    }
+    check_jig(input);
+    const size_t links = input.link_samples.size();
+    const size_t touches = input.jig_samples.size();
+    const CalibrationSolution nominal = solver.nominal();
+    const CalibrationSolution all =
+        solver.solve(nominal, std::vector<uint8_t>(links, 1), std::vector<uint8_t>(touches, 1));
+
+    CalibrationResult out;
+    out.before.resize(links);
+    out.after.resize(links);
+    std::vector<double> along;
+    std::vector<double> off_jig;
+    for (size_t k = 0; k < links; ++k) {
+        const CalibrationInput::LinkSample& sample = input.link_samples[k];
+        out.before[k] = {middle(solver, nominal, sample), solver.link_misfit(nominal, sample)};
+    }
+    size_t slips = 0;
+    for (size_t fold = 0; fold < kFolds; ++fold) {
+        const auto link = without(links, fold, kStretches);
+        auto jig = std::vector<uint8_t>(touches, 1);
+        // a touched point as a whole: its samples say the same
+        for (size_t k = 0; k < touches; ++k) jig[k] = input.jig_samples[k].point % kFolds != fold;
+        const CalibrationSolution part = solver.solve(all, link, jig);
+        for (size_t k = 0; k < links; ++k) {
+            if (link[k]) continue;
+            const CalibrationInput::LinkSample& sample = input.link_samples[k];
+            const double misfit = solver.link_misfit(part, sample);
+            const bool slip = std::abs(misfit) > kSlip * all.link_spread;
+            out.after[k] = {middle(solver, part, sample), misfit, slip};
+            out.before[k].slip = slip;
+            slips += slip;
+            if (!slip) along.push_back(misfit);
+        }
+        for (size_t k = 0; k < touches; ++k) {
+            if (jig[k]) continue;
+            const double misfit = solver.jig_misfit(part, input.jig_samples[k]).norm();
+            if (misfit <= 2 * kSlip * all.jig_spread) off_jig.push_back(misfit);
+        }
+    }
+    Calibration& calibration = out.calibration;
+    if (links > 0) calibration.slips = static_cast<double>(slips) / static_cast<double>(links);
+    check_link(all, calibration.slips);
+    calibration.link_length = all.length;
+    calibration.link_rms = rms(along);
+    calibration.link_worst = worst(along);
+    // the link points everywhere alike, and shows one of three directions at a time
+    calibration.agreement_rms = std::sqrt(3.0) * calibration.link_rms;
+    if (touches > 0) {
+        calibration.jig_rms = rms(off_jig);
+        calibration.jig_worst = worst(off_jig);
+    }
+    for (size_t i = 0; i < input.devices.size(); ++i)
+        calibration.devices.push_back(part_of(input.devices[i], all.corrections[i]));
+    return out;
+}
+
+}  // namespace dihaptic::rig

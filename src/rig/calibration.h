@@ -1,0 +1,132 @@
+// Calibration: from endpoints that were moved about, joined by a link of constant and unknown
+// length, and that touched the points of a jig, to the correction of each device. README.md has the
+// equations, what such a movement cannot tell, and the sources.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rig/correction.h"
+
+namespace dihaptic::rig {
+
+/// One device's part of a calibration file: a Correction.
+struct DeviceCalibration {
+    std::string finger;
+    std::string serial;         ///< of the device; "" where it tells none
+    Vec3 shift = Vec3::Zero();  ///< of the true D in the rig file's [m]
+    Vec3 turn = Vec3::Zero();   ///< the same, about x, then y, then z [rad]
+    std::optional<Vec3>
+        joint_offset;             ///< true less reported; unset: stretch and skew instead [rad]
+    Vec3 stretch = Vec3::Zero();  ///< along x, y, z
+    Vec3 skew = Vec3::Zero();     ///< in yz, xz, xy
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("finger", finger, Field::text().required());
+        v("serial", serial);
+        v("shift", shift, Field::length().within(-1, 1));
+        v("turn", turn, Field::of(Quantity::angle));
+        v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.5, 0.5));
+        v("stretch", stretch, Field::number().within(-0.5, 0.5));
+        v("skew", skew, Field::number().within(-0.5, 0.5));
+    }
+
+    /// `arm`: of the device; its joints are used when `joint_offset` is set.
+    Correction correction(const std::optional<model::PhantomLinks>& arm) const;
+};
+
+/// A calibration file.
+struct Calibration {
+    std::string date;  ///< ISO 8601: 2026-11-21
+    std::vector<DeviceCalibration> devices;
+    // of samples that the solution did not see, slips left out
+    double link_length = 0;           ///< [m]
+    double link_rms = 0;              ///< misfit along the link [m]
+    double link_worst = 0;            ///< [m]
+    double agreement_rms = 0;         ///< of two endpoints held together, in space [m]
+    std::optional<double> jig_rms;    ///< distance from the jig's points [m]
+    std::optional<double> jig_worst;  ///< [m]
+    double slips = 0;                 ///< share of the samples that the rest speaks against
+    Place place{};
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("date", date, Field::text().required());
+        v("devices", devices, Field::text().required());
+        v("link_length", link_length, Field::length());
+        v("link_rms", link_rms, Field::length());
+        v("link_worst", link_worst, Field::length());
+        v("agreement_rms", agreement_rms, Field::length());
+        v("jig_rms", jig_rms, Field::length());
+        v("jig_worst", jig_worst, Field::length());
+        v("slips", slips);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+    /// The part of a finger's device, or null.
+    const DeviceCalibration* find(const std::string& finger) const;
+};
+
+/// Whole days from an ISO 8601 date to another; nothing when one is none.
+std::optional<int> days_between(const std::string& from, const std::string& to);
+
+/// What a device reported at one moment.
+struct CalibrationReading {
+    Vec3 p_DH = Vec3::Zero();    ///< [m]
+    Vec3 joints = Vec3::Zero();  ///< [rad]
+};
+
+struct CalibrationInput {
+    struct Device {
+        std::string finger;
+        std::string serial;
+        Pose X_WD;  ///< as the rig file has it
+        std::optional<model::PhantomLinks> arm;
+    };
+    /// Endpoints of two devices, joined: in the order in which they were taken.
+    struct LinkSample {
+        size_t a = 0, b = 1;
+        CalibrationReading at_a, at_b;
+    };
+    /// A device's endpoint on a point of the jig.
+    struct JigSample {
+        size_t device = 0;
+        CalibrationReading at;
+        size_t point = 0;
+    };
+    std::vector<Device> devices;
+    std::vector<Vec3> jig;  ///< its points, in the world [m]
+    std::vector<LinkSample> link_samples;
+    std::vector<JigSample> jig_samples;
+};
+
+/// How far apart the calibrated distance and the link's length are, where the link's middle was.
+struct LinkResidual {
+    Vec3 p_W = Vec3::Zero();
+    double misfit = 0;  ///< [m]
+    bool slip = false;
+};
+
+struct CalibrationResult {
+    Calibration calibration;           ///< without a date
+    std::vector<LinkResidual> before;  ///< by what the rig file has, from the median distance
+    std::vector<LinkResidual> after;   ///< of samples held out
+};
+
+/// Throws Error with a remedy when the movement was too short, too small, too flat, or when the
+/// link did not keep its length.
+CalibrationResult calibrate(const CalibrationInput& input);
+
+/// Least extent of each device's cloud of endpoints, along its thinnest direction [m].
+constexpr double kLeastDepth = 0.06;
+constexpr size_t kLeastSamples = 300;
+
+/// How deep a cloud of points is: extents along its principal axes but for the outermost
+/// hundredths, the smallest first [m].
+Vec3 cloud_extents(const std::vector<Vec3>& points);
+
+/// SVG text: misfits over the workspace from above, before and after.
+std::string residual_picture(const CalibrationResult& result, const std::string& title);
+
+}  // namespace dihaptic::rig

@@ -1,0 +1,224 @@
+#include "rig/calibration_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "model/minimum_jerk.h"
+#include "rig/workspace.h"
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr double kLink = 0.05;      // length [m]
+constexpr double kCarry = 60;       // for so long [s]
+constexpr double kRaise = 1.5;      // from rest, and back to it [s]
+constexpr double kMove = 0.6;       // from one point of the jig to the next [s]
+constexpr double kTouch = 0.4;      // on it [s]
+constexpr double kSlipping = 0.2;   // [s]
+constexpr double kSlips = 0.05;     // share of the time
+constexpr double kSlipSize = 5e-3;  // [m]
+constexpr double kMargin = 0.01;    // from where the devices' common reach ends [m]
+
+/// Fingers that do not yield: what they hold is a tool.
+hand::Impedance firm() {
+    hand::Impedance out;
+    out.stiffness = 1e5;
+    out.damping = 150;
+    return out;
+}
+
+struct Ball {
+    Vec3 centre;
+    double radius;  // [m]
+};
+
+class CalibrationHand final : public hand::Driver {
+  public:
+    struct Stretch {
+        double start = 0;
+        double end = 0;
+        size_t device = 0;  // that is joined to the first, or touches
+        int point = -1;     // of the jig; -1: the link
+    };
+
+    CalibrationHand(size_t devices, const Ball& ball, const std::vector<Vec3>& jig, uint64_t seed)
+        : ball_(ball), jig_(jig) {
+        double t = 0;
+        const auto add = [&](double duration, size_t device, int point) {
+            stretches_.push_back({t, t + duration, device, point});
+            t += duration;
+        };
+        for (size_t device = 1; device < devices; ++device) add(kCarry, device, -1);
+        for (size_t device = 0; device < devices; ++device) {
+            for (size_t point = 0; point < jig.size(); ++point)
+                add(kMove + kTouch, device, static_cast<int>(point));
+            if (!jig.empty()) add(kMove, device, static_cast<int>(jig.size()));  // and back
+        }
+        duration_ = t;
+        Random random(seed, "slips");
+        for (double from = 0; from < t; from += kSlipping) {
+            const bool slips = random.uniform(0, 1) < kSlips;
+            const Vec3 d = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+            slips_.push_back(slips ? Vec3(kSlipSize * d) : Vec3(Vec3::Zero()));
+        }
+    }
+
+    double duration() const override { return duration_; }
+    const std::vector<Phase>& phases() const override { return phases_; }
+    const Stretch& at(double t) const noexcept {
+        size_t i = 0;
+        while (i + 1 < stretches_.size() && t >= stretches_[i].end) ++i;
+        return stretches_[i];
+    }
+    bool samples(double t) const noexcept {
+        const Stretch& stretch = at(t);
+        if (stretch.point < 0) return t - stretch.start > kRaise && stretch.end - t > kRaise;
+        return t - stretch.start > kMove + 0.1;  // at rest
+    }
+
+  private:
+    hand::FingerTarget do_target(int finger, double t) const noexcept override {
+        constexpr double kStep = 1e-4;
+        const auto device = static_cast<size_t>(finger);
+        return {place(device, t),
+                (place(device, t + kStep) - place(device, t - kStep)) / (2 * kStep)};
+    }
+    Vec3 place(size_t device, double t) const noexcept {
+        const Stretch& now = at(t);
+        if (now.point >= 0 && now.device == device) {
+            const auto point = static_cast<size_t>(now.point);
+            const Vec3 from = point == 0 ? ball_.centre : jig_[point - 1];
+            const Vec3 to = point == jig_.size() ? ball_.centre : jig_[point];
+            return from + model::minimum_jerk((t - now.start) / kMove).share * (to - from);
+        }
+        const bool carries = now.point < 0 && (device == 0 || device == now.device);
+        if (!carries) return ball_.centre;
+        // from the middle, where both fingers wait, and back
+        const double raised = model::minimum_jerk((t - now.start) / kRaise).share *
+                              model::minimum_jerk((now.end - t) / kRaise).share;
+        const auto wave = [&](double hertz) { return std::sin(2 * std::numbers::pi * hertz * t); };
+        const Vec3 waves(wave(0.11), wave(0.17), wave(0.23));
+        const Vec3 off = ball_.radius / std::max(1.0, waves.norm()) * waves;
+        const double up = 0.95 * wave(0.13);
+        const double around = 2 * std::numbers::pi * 0.29 * t;
+        const double level = std::sqrt(1 - up * up);
+        const Vec3 along(level * std::cos(around), level * std::sin(around), up);
+        if (device == 0) return ball_.centre + raised * (off + kLink / 2 * along);
+        const auto slip = static_cast<size_t>(std::max(0.0, t) / kSlipping);
+        const double in =
+            std::sin(std::numbers::pi * std::fmod(std::max(0.0, t), kSlipping) / kSlipping);
+        return ball_.centre + raised * (off - kLink / 2 * along +
+                                        in * in * slips_[std::min(slip, slips_.size() - 1)]);
+    }
+
+    Ball ball_;
+    std::vector<Vec3> jig_;
+    std::vector<Stretch> stretches_;
+    std::vector<Vec3> slips_;
+    std::vector<Phase> phases_;
+    double duration_ = 0;
+};
+
+std::vector<Vec3> jig_of(const Rig& rig) {
+    std::vector<Vec3> out;
+    for (const JigPoint& point : rig.jig) out.push_back(point.position);
+    return out;
+}
+
+/// Where the middle of the link can be carried, whichever way it points.
+Ball common_ball(const Rig& rig) {
+    const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
+    const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};
+    if (ball.radius < kLeastDepth / 4) {
+        throw Error(rig.place, "devices", "share too little reach for a link to be carried",
+                    "See dihaptic workspace, and move the devices nearer to each other.");
+    }
+    return ball;
+}
+
+}  // namespace
+
+CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* driver) {
+    std::vector<std::string> fingers;
+    for (const Device& device : rig.devices) fingers.push_back(device.finger);
+    devices::Context context;
+    context.driver = driver;
+    context.impedance = firm();
+    devices_ = make_devices(uncorrected(rig), fingers, context);
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        input_.devices.push_back({fingers[i], info.serial, rig.devices[i].X_WD(), info.arm});
+    }
+    input_.jig = jig_of(rig);
+    readings_.resize(fingers.size());
+    none_.resize(fingers.size());
+}
+
+void CalibrationSampler::tick(Time now) noexcept {
+    devices_->read(now, readings_);
+    devices_->write(none_);
+}
+
+std::string CalibrationSampler::trouble() const {
+    for (size_t i = 0; i < readings_.size(); ++i) {
+        const bool silent = (readings_[i].status & devices::kNotAnswering) != 0;
+        if (!silent && readings_[i].p_DH.allFinite() && readings_[i].joints.allFinite()) continue;
+        return fmt::format("the {}'s device does not answer: look at its power and its cables",
+                           input_.devices[i].finger);
+    }
+    return "";
+}
+
+void CalibrationSampler::add_link(size_t other) {
+    input_.link_samples.push_back({0, other, reading(0), reading(other)});
+}
+
+void CalibrationSampler::add_touch(size_t device, size_t point) {
+    input_.jig_samples.push_back({device, reading(device), point});
+}
+
+Vec3 CalibrationSampler::cloud(size_t device) const {
+    std::vector<Vec3> points;
+    for (const CalibrationInput::LinkSample& sample : input_.link_samples) {
+        if (sample.a == device) points.push_back(sample.at_a.p_DH);
+        if (sample.b == device) points.push_back(sample.at_b.p_DH);
+    }
+    return cloud_extents(points);
+}
+
+CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
+                                      const std::function<bool(double share)>& progress) {
+    for (const Device& device : rig.devices) {
+        if (device.backend == "simulated") continue;
+        throw Error(device.place, "backend", "is not simulated, as the first one's is",
+                    "All devices of a rig are of one backend.");
+    }
+    if (rig.devices.size() == 1 && rig.jig.empty()) {
+        throw Error(rig.place, "jig", "one device alone is calibrated by a jig, and there is none",
+                    "Give the rig file a jig, or two devices.");
+    }
+    const Rig plain = uncorrected(rig);
+    const CalibrationHand hand(rig.devices.size(), common_ball(plain), jig_of(rig), seed);
+    CalibrationSampler sampler(rig, &hand);
+    sampler.activate();
+    const auto end = from_seconds(hand.duration());
+    for (Time now{0}; now < end; now += std::chrono::milliseconds(1)) {
+        sampler.tick(now);
+        if (now % CalibrationSampler::kEvery != Time(0)) continue;
+        if (!progress(seconds(now) / hand.duration())) break;
+        if (!hand.samples(seconds(now))) continue;
+        const CalibrationHand::Stretch& stretch = hand.at(seconds(now));
+        if (stretch.point < 0) {
+            sampler.add_link(stretch.device);
+        } else {
+            sampler.add_touch(stretch.device, static_cast<size_t>(stretch.point));
+        }
+    }
+    sampler.deactivate();
+    return sampler.input();
+}
+
+}  // namespace dihaptic::rig

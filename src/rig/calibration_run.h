@@ -1,0 +1,54 @@
+// Taking the samples of a calibration: what is common to guided and simulated ones, and the hand
+// that does it on simulated devices.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "rig/rig.h"
+
+namespace dihaptic::rig {
+
+/// Collects samples of a rig's devices, as they report themselves, with forces off.
+class CalibrationSampler {
+  public:
+    /// Two endpoints, or an endpoint and a point of the jig, are sampled so often.
+    static constexpr Time kEvery = std::chrono::milliseconds(20);
+
+    /// Throws Error as make_devices() does. `driver`: of simulated devices.
+    CalibrationSampler(const Rig& rig, const hand::Driver* driver);
+
+    void activate() { devices_->activate(); }
+    void deactivate() { devices_->deactivate(); }
+    devices::DeviceGroup& devices() { return *devices_; }
+    /// One tick: reads, and writes no force.
+    void tick(Time now) noexcept;
+    /// Why the last tick's reading of a device cannot be used; "" when it can.
+    std::string trouble() const;
+
+    /// The last tick's endpoints of the first device and another, joined.
+    void add_link(size_t other);
+    /// The last tick's endpoint of a device on a point of the jig.
+    void add_touch(size_t device, size_t point);
+    /// Extents of the cloud of a device's endpoint, as far as it goes, the smallest first [m].
+    Vec3 cloud(size_t device) const;
+    const CalibrationInput& input() const { return input_; }
+
+  private:
+    CalibrationReading reading(size_t device) const {
+        return {readings_[device].p_DH, readings_[device].joints};
+    }
+
+    std::unique_ptr<devices::DeviceGroup> devices_;
+    CalibrationInput input_;
+    std::vector<devices::Reading> readings_;
+    std::vector<Wrench> none_;
+};
+
+/// On simulated devices a firm hand carries a link of 50 mm through what all devices reach, letting
+/// it slip in a twentieth of the time, and touches the jig. Throws Error when the rig's devices are
+/// not simulated. `progress` gets the share that is done, and returns false to give up.
+CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
+                                      const std::function<bool(double share)>& progress);
+
+}  // namespace dihaptic::rig

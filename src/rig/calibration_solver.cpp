@@ -1,0 +1,210 @@
+#include "rig/calibration_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dihaptic::rig {
+namespace {
+
+using Gradient = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12>;
+
+// priors: standard deviations of what a rig may be off by
+constexpr double kTurn = 0.2;    // [rad]
+constexpr double kShift = 0.05;  // [m]
+constexpr double kOffset = 0.2;  // [rad]
+constexpr double kStretch = 0.1;
+constexpr double kLeastSpread = 2e-6;  // below any device's encoders [m]
+constexpr int kHuberSteps = 12;
+constexpr int kMostSteps = 80;
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Of a misfit over its spread.
+double weight(double ratio, bool redescending) {
+    constexpr double kHuber = 1.345;
+    if (!redescending) return std::abs(ratio) <= kHuber ? 1 : kHuber / std::abs(ratio);
+    if (std::abs(ratio) >= kSlip) return 0;
+    const double rest = 1 - ratio * ratio / (kSlip * kSlip);
+    return rest * rest;
+}
+
+Mat3 cross_matrix(const Vec3& v) {
+    Mat3 out;
+    out << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return out;
+}
+
+/// S from xx, yy, zz, yz, xz, xy.
+Mat3 symmetric(const Eigen::Ref<const Eigen::VectorXd>& s) {
+    Mat3 out;
+    out << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    return out;
+}
+
+}  // namespace
+
+CalibrationSolver::CalibrationSolver(const CalibrationInput& input) : input_(input) {
+    for (size_t i = 0; i < input.devices.size(); ++i) {
+        first_.push_back(count_);
+        count_ += 6 + shape_count(i);
+    }
+    ++count_;
+}
+
+CalibrationSolution CalibrationSolver::nominal() const {
+    CalibrationSolution out;
+    for (const CalibrationInput::Device& device : input_.devices) {
+        out.corrections.emplace_back();
+        out.corrections.back().arm = device.arm;
+    }
+    std::vector<double> distances;
+    for (const CalibrationInput::LinkSample& sample : input_.link_samples)
+        distances.push_back(link_misfit(out, sample));
+    out.length = median(distances);
+    return out;
+}
+
+Vec3 CalibrationSolver::endpoint(const CalibrationSolution& solution, size_t device,
+                                 const CalibrationReading& at) const {
+    return input_.devices[device].X_WD * solution.corrections[device].position(at.p_DH, at.joints);
+}
+
+double CalibrationSolver::link_misfit(const CalibrationSolution& solution,
+                                      const CalibrationInput::LinkSample& sample) const {
+    return (endpoint(solution, sample.a, sample.at_a) - endpoint(solution, sample.b, sample.at_b))
+               .norm() -
+           solution.length;
+}
+
+Vec3 CalibrationSolver::jig_misfit(const CalibrationSolution& solution,
+                                   const CalibrationInput::JigSample& sample) const {
+    return endpoint(solution, sample.device, sample.at) - input_.jig[sample.point];
+}
+
+double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<uint8_t>& link,
+                               const std::vector<uint8_t>& jig, bool redescending) const {
+    const auto n = static_cast<Eigen::Index>(count_);
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
+    const auto at = [&](size_t device) { return static_cast<Eigen::Index>(first_[device]); };
+    // slope of the endpoint by its device's parameters: turn, shift, shape
+    const auto slope = [&](size_t device, const CalibrationReading& reading) {
+        const Correction& correction = solution.corrections[device];
+        Gradient out(3, static_cast<Eigen::Index>(6 + shape_count(device)));
+        const Mat3 R = correction.X.R.toRotationMatrix();
+        out.leftCols<3>() = -cross_matrix(R * correction.shaped(reading.p_DH, reading.joints));
+        out.middleCols<3>(3) = Mat3::Identity();
+        if (correction.arm) {
+            out.rightCols<2>() = R * model::phantom_jacobian(
+                                         *correction.arm, reading.joints + correction.joint_offset)
+                                         .rightCols<2>();
+        } else {
+            for (int i = 0; i < 6; ++i) {
+                Eigen::Matrix<double, 6, 1> unit = Eigen::Matrix<double, 6, 1>::Unit(i);
+                out.col(6 + i) = R * symmetric(unit) * reading.p_DH;
+            }
+        }
+        return Gradient(input_.devices[device].X_WD.R.toRotationMatrix() * out);
+    };
+
+    std::vector<double> misfits;
+    for (size_t k = 0; k < link.size(); ++k)
+        if (link[k]) misfits.push_back(std::abs(link_misfit(solution, input_.link_samples[k])));
+    // medians of a normal distribution's size, in one dimension and in three
+    solution.link_spread = std::max(kLeastSpread, median(misfits) / 0.6745);
+    misfits.clear();
+    for (size_t k = 0; k < jig.size(); ++k)
+        if (jig[k]) misfits.push_back(jig_misfit(solution, input_.jig_samples[k]).norm());
+    solution.jig_spread = std::max(kLeastSpread, median(misfits) / 1.538);
+
+    Eigen::RowVectorXd row(n);
+    for (size_t k = 0; k < link.size(); ++k) {
+        if (!link[k]) continue;
+        const CalibrationInput::LinkSample& sample = input_.link_samples[k];
+        const double misfit = link_misfit(solution, sample);
+        const double w = weight(misfit / solution.link_spread, redescending) /
+                         (solution.link_spread * solution.link_spread);
+        if (w == 0) continue;
+        const Vec3 along =
+            (endpoint(solution, sample.a, sample.at_a) - endpoint(solution, sample.b, sample.at_b))
+                .normalized();
+        row.setZero();
+        const Gradient a = slope(sample.a, sample.at_a);
+        const Gradient b = slope(sample.b, sample.at_b);
+        row.segment(at(sample.a), a.cols()) += along.transpose() * a;
+        row.segment(at(sample.b), b.cols()) -= along.transpose() * b;
+        row[n - 1] = -1;
+        H.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose(), w);
+        g += w * misfit * row.transpose();
+    }
+    for (size_t k = 0; k < jig.size(); ++k) {
+        if (!jig[k]) continue;
+        const CalibrationInput::JigSample& sample = input_.jig_samples[k];
+        const Vec3 misfit = jig_misfit(solution, sample);
+        const double w = weight(misfit.norm() / solution.jig_spread, redescending) /
+                         (solution.jig_spread * solution.jig_spread);
+        const Gradient a = slope(sample.device, sample.at);
+        H.block(at(sample.device), at(sample.device), a.cols(), a.cols()) += w * a.transpose() * a;
+        g.segment(at(sample.device), a.cols()) += w * a.transpose() * misfit;
+    }
+    H = Eigen::MatrixXd(H.selfadjointView<Eigen::Lower>());
+    const auto expect = [&](Eigen::Index i, double value, double prior) {
+        H(i, i) += 1 / (prior * prior);
+        g[i] += value / (prior * prior);
+    };
+    for (size_t device = 0; device < solution.corrections.size(); ++device) {
+        const Correction& correction = solution.corrections[device];
+        const Vec3 turn = rotation_vector(correction.X.R);
+        const Eigen::Index i = at(device);
+        for (int axis = 0; axis < 3; ++axis) {
+            expect(i + axis, turn[axis], kTurn);
+            expect(i + 3 + axis, correction.X.p[axis], kShift);
+        }
+        if (correction.arm) {
+            expect(i + 6, correction.joint_offset[1], kOffset);
+            expect(i + 7, correction.joint_offset[2], kOffset);
+            continue;
+        }
+        const Mat3& S = correction.stretch;
+        const std::array<double, 6> shape{S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
+        for (size_t j = 0; j < shape.size(); ++j)
+            expect(i + 6 + static_cast<Eigen::Index>(j), shape[j], kStretch);
+    }
+    H(n - 1, n - 1) += 1;  // a link of a metre, more or less: for jigs without one
+
+    const Eigen::VectorXd change = -H.ldlt().solve(g);
+    for (size_t device = 0; device < solution.corrections.size(); ++device) {
+        Correction& correction = solution.corrections[device];
+        const Eigen::Index i = at(device);
+        correction.X.R = (rotation_by(change.segment<3>(i)) * correction.X.R).normalized();
+        correction.X.p += change.segment<3>(i + 3);
+        if (correction.arm) {
+            correction.joint_offset.tail<2>() += change.segment<2>(i + 6);
+        } else {
+            correction.stretch += symmetric(change.segment<6>(i + 6));
+        }
+    }
+    solution.length += change[n - 1];
+    return change.cwiseAbs().maxCoeff();
+}
+
+CalibrationSolution CalibrationSolver::solve(CalibrationSolution start,
+                                             const std::vector<uint8_t>& link,
+                                             const std::vector<uint8_t>& jig) const {
+    constexpr double kDone = 1e-8;  // of any parameter [m, rad]
+    for (int i = 0; i < kHuberSteps; ++i) {
+        if (step(start, link, jig, false) < kDone) break;
+    }
+    for (int i = 0; i < kMostSteps; ++i) {
+        if (step(start, link, jig, true) < kDone) break;
+    }
+    return start;
+}
+
+}  // namespace dihaptic::rig

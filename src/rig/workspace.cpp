@@ -1,0 +1,286 @@
+#include "rig/workspace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dihaptic::rig {
+namespace {
+
+/// Points of the grid: about as many, so that any rig takes about as long.
+constexpr double kPoints = 8e6;
+constexpr double kFinest = 1e-3;  // [m]
+/// The largest box is looked for among cells of several points a side, at most so many a side.
+constexpr int kMostCells = 64;
+
+/// A hand that does nothing: devices are made, but not moved.
+class StillDriver final : public hand::Driver {
+  public:
+    double duration() const override { return 0; }
+    const std::vector<Phase>& phases() const override { return phases_; }
+
+  private:
+    hand::FingerTarget do_target(int, double) const noexcept override { return {}; }
+    std::vector<Phase> phases_;
+};
+
+/// Which points of a grid are in.
+struct Grid {
+    Eigen::Vector3i size;
+    std::vector<uint8_t> in;
+
+    explicit Grid(const Eigen::Vector3i& n)
+        : size(n),
+          in(static_cast<size_t>(n.x()) * static_cast<size_t>(n.y()) * static_cast<size_t>(n.z())) {
+    }
+    size_t at(int x, int y, int z) const {
+        return (static_cast<size_t>(z) * static_cast<size_t>(size.y()) + static_cast<size_t>(y)) *
+                   static_cast<size_t>(size.x()) +
+               static_cast<size_t>(x);
+    }
+};
+
+/// Squared distances to the nearest zero of a line of squared distances, by the lower envelope of
+/// parabolas (Felzenszwalb and Huttenlocher 2012). `step` apart, `n` of them.
+class DistanceLine {
+  public:
+    explicit DistanceLine(int most)
+        : values_(static_cast<size_t>(most)),
+          roots_(static_cast<size_t>(most)),
+          ends_(static_cast<size_t>(most) + 1) {}
+
+    void transform(float* line, size_t step, int n) {
+        for (int i = 0; i < n; ++i)
+            values_[static_cast<size_t>(i)] = line[static_cast<size_t>(i) * step];
+        const auto value = [&](int i) {
+            return static_cast<double>(values_[static_cast<size_t>(i)]);
+        };
+        constexpr double kInfinite = std::numeric_limits<double>::infinity();
+        size_t k = 0;
+        roots_[0] = 0;
+        ends_[0] = -kInfinite;
+        ends_[1] = kInfinite;
+        for (int q = 1; q < n; ++q) {
+            const auto meets = [&](int r) {
+                return (value(q) - value(r) + static_cast<double>(q) * q -
+                        static_cast<double>(r) * r) /
+                       (2.0 * (q - r));
+            };
+            double s = meets(roots_[k]);
+            while (s <= ends_[k]) s = meets(roots_[--k]);
+            ++k;
+            roots_[k] = q;
+            ends_[k] = s;
+            ends_[k + 1] = kInfinite;
+        }
+        k = 0;
+        for (int q = 0; q < n; ++q) {
+            while (ends_[k + 1] < q) ++k;
+            const double off = q - roots_[k];
+            line[static_cast<size_t>(q) * step] = static_cast<float>(off * off + value(roots_[k]));
+        }
+    }
+
+  private:
+    std::vector<float> values_;
+    std::vector<int> roots_;
+    std::vector<double> ends_;
+};
+
+/// The point furthest from all that is out; beyond the grid all is out.
+void find_sphere(const Grid& grid, Workspace& out) {
+    const Eigen::Vector3i n = grid.size;
+    // a margin of points that are out
+    const Grid padded(n + Eigen::Vector3i::Constant(2));
+    const Eigen::Vector3i m = padded.size;
+    constexpr float kFar = 1e9F;
+    std::vector<float> squared(padded.in.size(), 0);
+    for (int z = 0; z < n.z(); ++z)
+        for (int y = 0; y < n.y(); ++y)
+            for (int x = 0; x < n.x(); ++x)
+                if (grid.in[grid.at(x, y, z)]) squared[padded.at(x + 1, y + 1, z + 1)] = kFar;
+    DistanceLine line(m.maxCoeff());
+    for (int z = 0; z < m.z(); ++z)
+        for (int y = 0; y < m.y(); ++y) line.transform(&squared[padded.at(0, y, z)], 1, m.x());
+    for (int z = 0; z < m.z(); ++z)
+        for (int x = 0; x < m.x(); ++x)
+            line.transform(&squared[padded.at(x, 0, z)], static_cast<size_t>(m.x()), m.y());
+    for (int y = 0; y < m.y(); ++y)
+        for (int x = 0; x < m.x(); ++x)
+            line.transform(&squared[padded.at(x, y, 0)],
+                           static_cast<size_t>(m.x()) * static_cast<size_t>(m.y()), m.z());
+    float most = 0;
+    for (int z = 1; z <= n.z(); ++z)
+        for (int y = 1; y <= n.y(); ++y)
+            for (int x = 1; x <= n.x(); ++x) {
+                const float here = squared[padded.at(x, y, z)];
+                if (here <= most) continue;
+                most = here;
+                out.sphere_centre = out.first + out.spacing * Vec3(x - 1, y - 1, z - 1);
+            }
+    // the edge is nearer than the point beyond it, by a cell's diagonal at most
+    out.sphere_radius =
+        std::max(0.0, (std::sqrt(static_cast<double>(most)) - std::sqrt(3.0)) * out.spacing);
+}
+
+/// Largest rectangle under a row of heights: by left and right end and height.
+struct Rectangle {
+    int left = 0, right = 0, height = 0;
+    int area() const { return (right - left) * height; }
+};
+Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack) {
+    Rectangle best;
+    stack.clear();
+    const auto n = static_cast<int>(heights.size());
+    for (int i = 0; i <= n; ++i) {
+        const int height = i < n ? heights[static_cast<size_t>(i)] : 0;
+        while (!stack.empty() && heights[static_cast<size_t>(stack.back())] >= height) {
+            const int top = heights[static_cast<size_t>(stack.back())];
+            stack.pop_back();
+            const Rectangle here{stack.empty() ? 0 : stack.back() + 1, i, top};
+            if (here.area() > best.area()) best = here;
+        }
+        stack.push_back(i);
+    }
+    return best;
+}
+
+/// The largest box of cells that have all their points in: of every stack of layers, the largest
+/// rectangle of columns that are in throughout.
+void find_box(const Grid& grid, Workspace& out) {
+    const int side = std::max(1, (grid.size.maxCoeff() - 2) / kMostCells + 1);
+    // a cell is `side` steps wide, and neighbours share the points between them
+    Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
+    const Eigen::Vector3i n = cells.size;
+    for (int z = 0; z < n.z(); ++z)
+        for (int y = 0; y < n.y(); ++y)
+            for (int x = 0; x < n.x(); ++x) {
+                bool all = true;
+                for (int k = 0; k <= side && all; ++k)
+                    for (int j = 0; j <= side && all; ++j)
+                        for (int i = 0; i <= side && all; ++i)
+                            all = grid.in[grid.at(x * side + i, y * side + j, z * side + k)] != 0;
+                cells.in[cells.at(x, y, z)] = all;
+            }
+    int best = 0;
+    std::vector<int> heights(static_cast<size_t>(n.x()));
+    std::vector<int> stack;
+    for (int low = 0; low < n.z(); ++low) {
+        std::vector<uint8_t> through(static_cast<size_t>(n.x()) * static_cast<size_t>(n.y()), 1);
+        for (int high = low + 1; high <= n.z(); ++high) {
+            std::fill(heights.begin(), heights.end(), 0);
+            for (int y = 0; y < n.y(); ++y) {
+                for (int x = 0; x < n.x(); ++x) {
+                    uint8_t& column = through[static_cast<size_t>(y * n.x() + x)];
+                    column = column & cells.in[cells.at(x, y, high - 1)];
+                    int& height = heights[static_cast<size_t>(x)];
+                    height = column ? height + 1 : 0;
+                }
+                const Rectangle here = largest_under(heights, stack);
+                if (here.area() * (high - low) <= best) continue;
+                best = here.area() * (high - low);
+                const double cell = side * out.spacing;
+                out.box = {out.first + cell * Vec3(here.left, y + 1 - here.height, low),
+                           out.first + cell * Vec3(here.right, y + 1, high)};
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Reach::Reach(const Device& device, const devices::DeviceInfo& info)
+    : finger_(device.finger), X_DW_(device.X_WD().inverse()), scale_(info.scale), arm_(info.arm) {
+    if (arm_) {
+        // all around the shoulder
+        const double length = scale_ * (arm_->thigh + arm_->shin);
+        const Vec3 shoulder = device.X_WD() * (scale_ * Vec3(0, arm_->shin, -arm_->thigh));
+        bounds_ = {shoulder - Vec3::Constant(length), shoulder + Vec3::Constant(length)};
+        return;
+    }
+    if (!info.workspace) {
+        throw Error(device.place, "options",
+                    fmt::format("the {}'s device does not say where its reach ends", finger_),
+                    "Give it workspace_mm, the edges of the box that it reaches.");
+    }
+    half_ = *info.workspace / 2;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 sides(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        bounds_.extend(device.X_WD() * half_.cwiseProduct(sides));
+    }
+}
+
+bool Reach::contains(const Vec3& p_WH) const {
+    const Vec3 p_DH = X_DW_ * p_WH;
+    if (arm_) return model::phantom_reaches(*arm_, p_DH / scale_);
+    return (p_DH.array().abs() <= half_.array()).all();
+}
+
+std::vector<Reach> reaches(const Rig& rig) {
+    std::vector<std::string> fingers;
+    for (const Device& device : rig.devices) fingers.push_back(device.finger);
+    const StillDriver still;
+    devices::Context context;
+    context.driver = &still;
+    const auto group = make_devices(rig, fingers, context);
+    std::vector<Reach> out;
+    for (size_t i = 0; i < fingers.size(); ++i)
+        out.emplace_back(rig.devices[i], group->info(static_cast<int>(i)));
+    return out;
+}
+
+Workspace find_workspace(const std::vector<Reach>& reaches,
+                         const std::function<bool(double share)>& progress) {
+    Eigen::AlignedBox3d all;
+    for (const Reach& reach : reaches) all.extend(reach.bounds());
+    Workspace out;
+    out.spacing = std::max(kFinest, std::cbrt(all.volume() / kPoints));
+    out.size = (all.sizes() / out.spacing).array().floor().cast<int>() + 1;
+    // cells in the middle of the box
+    out.first = all.center() - out.spacing / 2 * (out.size.cast<double>() - Vec3::Ones());
+    const size_t columns = static_cast<size_t>(out.size.x()) * static_cast<size_t>(out.size.y());
+    out.volumes.resize(reaches.size());
+    out.shadows.assign(reaches.size(), {std::vector<uint8_t>(columns)});
+    out.shared_shadow.held.resize(columns);
+
+    Grid shared(out.size);
+    const double cell = out.spacing * out.spacing * out.spacing;
+    std::vector<int64_t> counts(reaches.size());
+    int64_t count = 0;
+    for (int z = 0; z < out.size.z(); ++z) {
+        // searching takes about a tenth as long as this
+        if (!progress(0.9 * z / out.size.z())) return {};
+        for (int y = 0; y < out.size.y(); ++y) {
+            for (int x = 0; x < out.size.x(); ++x) {
+                const Vec3 p_WH = out.first + out.spacing * Vec3(x, y, z);
+                const size_t column = shared.at(x, y, 0);
+                bool by_all = true;
+                for (size_t i = 0; i < reaches.size(); ++i) {
+                    const bool in = reaches[i].bounds().contains(p_WH) && reaches[i].contains(p_WH);
+                    by_all = by_all && in;
+                    if (!in) continue;
+                    ++counts[i];
+                    out.shadows[i].held[column] = 1;
+                }
+                if (!by_all) continue;
+                ++count;
+                shared.in[shared.at(x, y, z)] = 1;
+                out.shared_shadow.held[column] = 1;
+            }
+        }
+    }
+    for (size_t i = 0; i < reaches.size(); ++i)
+        out.volumes[i] = static_cast<double>(counts[i]) * cell;
+    out.shared = static_cast<double>(count) * cell;
+    if (count > 0) {
+        find_sphere(shared, out);
+        if (!progress(0.95)) return {};
+        find_box(shared, out);
+    }
+    progress(1);
+    return out;
+}
+
+}  // namespace dihaptic::rig
