@@ -5,7 +5,7 @@
 
 #include "devices/device_group.h"
 #include "devices/simulated/plant.h"
-#include "fake_hand.h"
+#include "devices/test/fake_hand.h"
 
 namespace dihaptic::devices {
 

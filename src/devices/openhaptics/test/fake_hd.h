@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../../test/fake_hand.h"
+#include "devices/test/fake_hand.h"
 
 namespace dihaptic::devices::openhaptics {
 
