@@ -256,6 +256,8 @@ void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
     const bool late = elapsed > settings_.safety.max_pause;
+    // a device has one position a period, however near to each other two ticks come
+    const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
     if (late || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
@@ -270,7 +272,7 @@ void Servo::measure(Time now) noexcept {
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
-        unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), elapsed, fault);
+        unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), moved_for, fault);
         device_faults_[i] = fault_status(fault.kind);
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);

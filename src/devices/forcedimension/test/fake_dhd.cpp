@@ -46,6 +46,7 @@ Device* find(char id) {
         return nullptr;
     }
     if (fake.devices[i].silent) {
+        fake.devices[i].acting.setZero();  // its firmware's watchdog
         fail("communication error");
         return nullptr;
     }

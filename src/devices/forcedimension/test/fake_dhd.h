@@ -50,12 +50,14 @@ struct FakeDhd {
 };
 
 #ifdef DIHAPTIC_FAKE_DHD
-/// The one in this program, made anew.
-inline FakeDhd& fake_dhd() {
+/// The one in this program, as it is; and made anew.
+inline FakeDhd& fake_dhd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_DHD, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
-    const auto get = reinterpret_cast<FakeDhd* (*)()>(dlsym(library, "dihaptic_fake_dhd"));
-    FakeDhd& fake = *get();
+    return *reinterpret_cast<FakeDhd* (*)()>(dlsym(library, "dihaptic_fake_dhd"))();
+}
+inline FakeDhd& fake_dhd() {
+    FakeDhd& fake = fake_dhd_as_it_is();
     fake.reset();
     return fake;
 }

@@ -34,6 +34,7 @@ unsigned long rate = 1000;
 std::vector<Scheduled> scheduled;
 unsigned long handles = 0;
 std::atomic<bool> running{false};
+std::chrono::steady_clock::time_point begun;
 std::thread scheduler;
 std::atomic<std::thread::id> scheduler_id;
 std::vector<int> frames_of_tick;  // by device
@@ -113,9 +114,11 @@ void run_scheduler() {
     auto next = Clock::now();
     bool silent = false;
     for (int tick = 0; running.load(); ++tick) {
-        silent = silent || (fake.before_tick && !fake.before_tick(tick));
+        silent = silent || fake.silent || (fake.before_tick && !fake.before_tick(tick));
         const bool called = !silent && call_all();
-        next += period;
+        do {
+            next += period;  // what was missed is left out
+        } while (next < Clock::now());
         if (fake.real_time) {
             std::this_thread::sleep_until(next);
         } else if (!called) {
@@ -132,7 +135,9 @@ Device* here() {
 
 Held held(Device& device) {
     const auto i = static_cast<size_t>(&device - fake.devices.data());
-    const double t = static_cast<double>(device.frames) / static_cast<double>(rate);
+    double t = static_cast<double>(device.frames) / static_cast<double>(rate);
+    if (fake.real_time)
+        t = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     Held out = fake.hand ? fake.hand(i, t, device.acting) : Held{};
     ++device.frames;
     return out;
@@ -367,6 +372,7 @@ void hdStartScheduler() {
         device.frames_of_force = 0;
     }
     running.store(true);
+    begun = std::chrono::steady_clock::now();
     scheduler = std::thread(run_scheduler);
 }
 

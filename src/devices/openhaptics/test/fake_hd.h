@@ -44,6 +44,7 @@ struct FakeHd {
     double ramp = 50;        ///< of force, when it comes on [N/s]
     std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that it runs at
     unsigned init_error = 0;                                  ///< of the next hdInitDevice()
+    bool silent = false;  ///< the scheduler calls no more callbacks
     /// Called by the scheduler before each tick, from 0; false: it calls no more callbacks.
     std::function<bool(int tick)> before_tick;
     /// Called in hdBeginFrame(): may block.
@@ -58,12 +59,14 @@ struct FakeHd {
 };
 
 #ifdef DIHAPTIC_FAKE_HD
-/// The one in this program, made anew.
-inline FakeHd& fake_hd() {
+/// The one in this program, as it is; and made anew.
+inline FakeHd& fake_hd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_HD, RTLD_LAZY | RTLD_GLOBAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
-    const auto get = reinterpret_cast<FakeHd* (*)()>(dlsym(library, "dihaptic_fake_hd"));
-    FakeHd& fake = *get();
+    return *reinterpret_cast<FakeHd* (*)()>(dlsym(library, "dihaptic_fake_hd"))();
+}
+inline FakeHd& fake_hd() {
+    FakeHd& fake = fake_hd_as_it_is();
     fake.reset();
     return fake;
 }
