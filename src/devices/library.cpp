@@ -7,6 +7,11 @@
 
 namespace dihaptic::devices {
 
+std::string in_words(const Error& error) {
+    const Problem& first = error.problems().front();
+    return first.what + ". " + first.remedy;
+}
+
 Library::Library(Spec spec, const std::string& path, Place place)
     : spec_(std::move(spec)), place_(std::move(place)) {
     if (!path.empty()) spec_.files = {path};

@@ -9,6 +9,9 @@
 
 namespace dihaptic::devices {
 
+/// What is wrong and what mends it, without a place in a file: for surveys.
+std::string in_words(const Error& error);
+
 class Library {
   public:
     struct Spec {

@@ -47,6 +47,9 @@ struct Rig {
 /// Reads a rig file; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
 
+/// Whether its devices are real: they keep real time, and move a person's hand.
+bool is_real(const Rig& rig);
+
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 

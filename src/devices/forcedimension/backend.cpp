@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/claims.h"
 #include "devices/forcedimension/group.h"
 
 namespace dihaptic::devices::forcedimension {
@@ -23,30 +24,6 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {
     read_options(config, diagnostics);
-}
-
-/// Mistakes that are seen without a device.
-void check_pairs(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options,
-                 Diagnostics& diagnostics) {
-    for (size_t i = 0; i < options.size(); ++i) {
-        if (options[i].serial == Options::kAny && options.size() > 1) {
-            diagnostics.error(configs[i].place, "serial",
-                              "is needed where there are several devices",
-                              "Give options: serial; dihaptic devices lists them.");
-        }
-        if (options[i].library != options.front().library) {
-            diagnostics.error(configs[i].place, "library", "differs from the first device's",
-                              "One SDK serves all devices.");
-        }
-        for (size_t j = 0; j < i; ++j) {
-            if (options[i].serial == Options::kAny || options[i].serial != options[j].serial)
-                continue;
-            diagnostics.error(configs[i].place, "serial",
-                              fmt::format("{} is that of the {}'s device too", options[i].serial,
-                                          configs[j].finger),
-                              "Each device has its own; dihaptic devices lists them.");
-        }
-    }
 }
 
 /// Every device that can be opened. Throws the last Error when none can.
@@ -118,7 +95,14 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, cons
     std::vector<Options> options;
     options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    check_pairs(configs, options, diagnostics);
+    std::vector<std::string> serials;
+    std::vector<std::string> libraries;
+    for (const Options& one : options) {
+        serials.push_back(one.serial == Options::kAny ? "" : std::to_string(one.serial));
+        libraries.push_back(one.library);
+    }
+    check_distinct(configs, "serial", serials, configs.size() > 1, diagnostics);
+    check_one_library(configs, libraries, diagnostics);
     diagnostics.throw_if_errors();
 
     const Dhd dhd = load_dhd(options.front().library, configs.front().place);
@@ -152,12 +136,11 @@ Survey survey() {
                                            ? "needs calibration: move it into all its end stops"
                                            : "ready"});
             } catch (const Error& e) {
-                out.devices.push_back(
-                    {"", fmt::format("device {}", n + 1), e.problems()[0].text()});
+                out.devices.push_back({"", fmt::format("device {}", n + 1), in_words(e)});
             }
         }
     } catch (const Error& e) {
-        out.missing = e.problems().front().text();
+        out.missing = in_words(e);
     }
     return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "devices/claims.h"
 #include "devices/openhaptics/group.h"
 
 namespace dihaptic::devices::openhaptics {
@@ -17,44 +18,20 @@ void check(const DeviceConfig& config, Diagnostics& diagnostics) {
     read_options(config, diagnostics);
 }
 
-/// Mistakes that are seen without a device.
-void check_pairs(const std::vector<DeviceConfig>& configs, const std::vector<Options>& options,
-                 Diagnostics& diagnostics) {
-    for (size_t i = 0; i < options.size(); ++i) {
-        const Options& a = options[i];
-        if (a.name.empty() && options.size() > 1) {
-            diagnostics.error(configs[i].place, "name", "is needed where there are several devices",
-                              "Give options: name, as in the driver's configuration.");
-        }
-        if (a.library != options.front().library) {
-            diagnostics.error(configs[i].place, "library", "differs from the first device's",
-                              "One OpenHaptics serves all devices.");
-        }
-        for (size_t j = 0; j < i; ++j) {
-            const Options& b = options[j];
-            if (!a.name.empty() && a.name == b.name) {
-                diagnostics.error(
-                    configs[i].place, "name",
-                    fmt::format("'{}' is the {}'s device too", a.name, configs[j].finger),
-                    "Give each device a name of its own.");
-            }
-            if (!a.serial.empty() && a.serial == b.serial) {
-                diagnostics.error(
-                    configs[i].place, "serial",
-                    fmt::format("{} is that of the {}'s device too", a.serial, configs[j].finger),
-                    "Each device has its own: look at its type plate.");
-            }
-        }
-    }
-}
-
 std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
                                   const Context& context) {
     Diagnostics diagnostics;
     std::vector<Options> options;
     options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    check_pairs(configs, options, diagnostics);
+    const auto all = [&](std::string Options::*option) {
+        std::vector<std::string> out;
+        for (const Options& one : options) out.push_back(one.*option);
+        return out;
+    };
+    check_distinct(configs, "name", all(&Options::name), configs.size() > 1, diagnostics);
+    check_distinct(configs, "serial", all(&Options::serial), false, diagnostics);
+    check_one_library(configs, all(&Options::library), diagnostics);
     diagnostics.throw_if_errors();
 
     const Hd hd = load_hd(options.front().library, configs.front().place);
@@ -82,12 +59,10 @@ Survey survey() {
         const Hd hd = load_hd("", {});
         // HD lists no devices: the first is all that can be found without a name
         const Connection connection(hd, {}, {});
-        Survey::Device device{connection.serial(), connection.info().model,
-                              "ready. Others are reached by their names in the driver's "
-                              "configuration"};
-        out.devices.push_back(device);
+        out.devices.push_back({connection.serial(), connection.model(),
+                               "the driver's first; others answer to their names there"});
     } catch (const Error& e) {
-        out.missing = e.problems().front().text();
+        out.missing = in_words(e);
     }
     return out;
 }

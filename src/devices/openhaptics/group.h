@@ -49,6 +49,7 @@ class Connection {
     const Options& options() const { return options_; }
     /// "the thumb's device 'PHANToM 1' (PHANToM Premium 1.0, serial 40123)".
     std::string who() const;
+    const std::string& model() const { return model_; }
     const std::string& serial() const { return serial_; }
     const Place& place() const { return place_; }
     const Vec3& centre() const { return centre_; }

@@ -1,14 +1,9 @@
 // bench grasp through the makers' libraries (our fakes of them): the same figures as on the
 // simulated devices themselves.
-#include <gtest/gtest.h>
-
-#include "devices/test/fakes.h"
-#include "measure/grasp.h"
+#include "measure/test/makers.h"
 
 namespace dihaptic::measure {
 namespace {
-
-constexpr double kAlike = 0.01;
 
 class Makers : public ::testing::TestWithParam<std::string> {
   protected:
@@ -16,17 +11,7 @@ class Makers : public ::testing::TestWithParam<std::string> {
     BenchSetup made;
     Makers() {
         simulated.row = Row::premium;  // the Premium's encoder steps and friction
-        made = simulated;
-        made.make_devices = [](const std::vector<devices::DeviceConfig>& configs,
-                               const devices::Context& context) {
-            std::vector<devices::simulated::Options> options;
-            for (const devices::DeviceConfig& config : configs) {
-                rig::Device device;
-                device.options = config.options;
-                options.push_back(simulated_options(device));
-            }
-            return devices::make_behind(GetParam(), options, configs, context);
-        };
+        made = by_maker(simulated, GetParam());
     }
     void set(double k, Fingering fingering) {
         simulated.settings.coupling.stiffness = made.settings.coupling.stiffness = k;
@@ -35,12 +20,6 @@ class Makers : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Makers, ::testing::Values("openhaptics", "forcedimension"),
                          [](const auto& instance) { return instance.param; });
-
-/// To 1 %; what is as good as nothing is that in both: `nothing` is a thousandth of what it takes
-/// to be seen or felt.
-void expect_alike(double a, double b, double nothing) {
-    EXPECT_NEAR(a, b, std::max(kAlike * std::abs(a), nothing));
-}
 
 TEST_P(Makers, HoldAndLiftAreTheSame) {
     for (const double k : {300.0, 1000.0, 2000.0}) {

@@ -1,11 +1,9 @@
 // The DHD backend on a fake libdhd: what it reads, how it fails, and what it says then.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "devices/forcedimension/backend.h"
 #include "devices/forcedimension/dhd.h"
+#include "devices/test/making.h"
 #include "fake_dhd.h"
 
 namespace dihaptic::devices::forcedimension {
@@ -15,32 +13,10 @@ using std::chrono::milliseconds;
 
 std::unique_ptr<DeviceGroup> make(const std::vector<std::string>& options,
                                   const std::string& library = DIHAPTIC_FAKE_DHD) {
-    std::vector<DeviceConfig> configs;
-    const char* const fingers[] = {"thumb", "index", "middle"};
-    for (size_t i = 0; i < options.size(); ++i) {
-        configs.push_back({fingers[i],
-                           {},
-                           parse_yaml(options[i] + "library: " + library + "\n", "rig.yaml"),
-                           {"rig.yaml", static_cast<int>(i + 1)}});
-    }
-    return backend().make(configs, {});
+    return make_devices(backend(), options, library);
 }
 std::unique_ptr<DeviceGroup> make_two() {
     return make({"serial: 101\n", "serial: 102\n"});
-}
-
-/// What is said when it fails.
-template <class Call>
-std::string told(const Call& call) {
-    try {
-        call();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "nothing";
-}
-void expect_in(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 /// Ticks of a servo that pushes along x.
@@ -159,7 +135,7 @@ TEST(ForceDimension, NothingStaysOpenAfterAFailure) {
 TEST(ForceDimension, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_dhd();
     expect_in("rig.yaml:2: error: serial: is needed", told([] { make({"serial: 101\n", ""}); }));
-    expect_in("101 is that of the thumb's device too", told([] {
+    expect_in("serial: '101' is that of the thumb's device too", told([] {
                   make({"serial: 101\n", "serial: 101\n"});
               }));
 }

@@ -39,9 +39,9 @@ struct FakeHd {
         int frames_of_force = 0;  ///< since its amplifiers came on
     };
     std::vector<Device> devices;
-    Hand hand;               ///< none: the handles stay where they are
-    bool real_time = false;  ///< or as fast as the machine goes
-    double ramp = 50;        ///< of force, when it comes on [N/s]
+    Hand hand;              ///< none: the handles stay where they are
+    bool real_time = true;  ///< or as fast as the machine goes
+    double ramp = 50;       ///< of force, when it comes on [N/s]
     std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that it runs at
     unsigned init_error = 0;                                  ///< of the next hdInitDevice()
     bool silent = false;  ///< the scheduler calls no more callbacks
@@ -68,6 +68,7 @@ inline FakeHd& fake_hd_as_it_is() {
 inline FakeHd& fake_hd() {
     FakeHd& fake = fake_hd_as_it_is();
     fake.reset();
+    fake.real_time = false;
     return fake;
 }
 #endif

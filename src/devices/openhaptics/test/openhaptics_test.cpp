@@ -1,11 +1,9 @@
 // The HD backend on a fake libHD: what it reads, how it fails, and what it says then.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <thread>
 
 #include "devices/openhaptics/backend.h"
 #include "devices/openhaptics/hd.h"
+#include "devices/test/making.h"
 #include "fake_hd.h"
 
 namespace dihaptic::devices::openhaptics {
@@ -17,34 +15,10 @@ const char* const kTwo[] = {"name: PHANToM 1\n", "name: PHANToM 2\n"};
 
 std::unique_ptr<DeviceGroup> make(const std::vector<std::string>& options, double tick = 1e-3,
                                   const std::string& library = DIHAPTIC_FAKE_HD) {
-    std::vector<DeviceConfig> configs;
-    const char* const fingers[] = {"thumb", "index", "middle"};
-    for (size_t i = 0; i < options.size(); ++i) {
-        configs.push_back({fingers[i],
-                           {},
-                           parse_yaml(options[i] + "library: " + library + "\n", "rig.yaml"),
-                           {"rig.yaml", static_cast<int>(i + 1)}});
-    }
-    Context context;
-    context.tick = tick;
-    return backend().make(configs, context);
+    return make_devices(backend(), options, library, tick);
 }
 std::unique_ptr<DeviceGroup> make_two() {
     return make({kTwo[0], kTwo[1]});
-}
-
-/// What is said when it fails.
-template <class Call>
-std::string told(const Call& call) {
-    try {
-        call();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "nothing";
-}
-void expect_in(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
 /// Runs `ticks` through pace(), as a servo that pushes with `force`; looks at each tick's readings.
@@ -204,8 +178,10 @@ TEST(OpenHaptics, SerialNumbersAreChecked) {
 TEST(OpenHaptics, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_hd();
     expect_in("rig.yaml:2: error: name: is needed", told([] { make({kTwo[0], ""}); }));
-    expect_in("'PHANToM 1' is the thumb's device too", told([] { make({kTwo[0], kTwo[0]}); }));
-    expect_in("serial: 7 is that of the thumb's device too", told([] {
+    expect_in("name: 'PHANToM 1' is that of the thumb's device too", told([] {
+                  make({kTwo[0], kTwo[0]});
+              }));
+    expect_in("serial: '7' is that of the thumb's device too", told([] {
                   make({"name: A\nserial: 7\n", "name: B\nserial: 7\n"});
               }));
 }
