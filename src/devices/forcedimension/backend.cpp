@@ -97,6 +97,8 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, cons
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
     std::vector<std::string> serials;
     std::vector<std::string> libraries;
+    serials.reserve(options.size());
+    libraries.reserve(options.size());
     for (const Options& one : options) {
         serials.push_back(one.serial == Options::kAny ? "" : std::to_string(one.serial));
         libraries.push_back(one.library);

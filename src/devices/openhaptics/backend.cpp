@@ -26,6 +26,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
     const auto all = [&](std::string Options::*option) {
         std::vector<std::string> out;
+        out.reserve(options.size());
         for (const Options& one : options) out.push_back(one.*option);
         return out;
     };

@@ -41,7 +41,7 @@ Connection::Connection(Connection&& other) noexcept
       handle_(std::exchange(other.handle_, kNoHandle)),
       model_(std::move(other.model_)),
       serial_(std::move(other.serial_)),
-      centre_(other.centre_),
+      centre_(std::move(other.centre_)),
       info_(std::move(other.info_)) {}
 
 std::string Connection::who() const {

@@ -16,6 +16,7 @@ inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
                                                 std::vector<DeviceConfig> configs,
                                                 const Context& context) {
     std::vector<Pose> X_WD;
+    X_WD.reserve(configs.size());
     for (const DeviceConfig& config : configs) X_WD.push_back(config.X_WD);
     const Hand hand = plant_hand(options, X_WD, context);
     constexpr double kLarge = 1e6;  // as good as no limit

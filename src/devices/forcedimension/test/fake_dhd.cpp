@@ -40,7 +40,7 @@ void reset() {
 }
 
 Device* find(char id) {
-    const auto i = static_cast<size_t>(id);
+    const auto i = static_cast<unsigned char>(id);
     if (id < 0 || i >= fake.devices.size() || !fake.devices[i].open) {
         fail("the device is not open");
         return nullptr;
@@ -57,6 +57,7 @@ Held state[8];  // by device, as last read
 
 }  // namespace
 
+// NOLINTBEGIN(readability-identifier-naming): the maker's names
 extern "C" {
 
 FakeDhd* dihaptic_fake_dhd() {
@@ -78,7 +79,7 @@ int dhdGetAvailableCount() {
 
 int dhdOpenID(char id) {
     const Lock lock(mutex);
-    const auto i = static_cast<size_t>(id);
+    const auto i = static_cast<unsigned char>(id);
     if (id < 0 || i >= fake.devices.size()) return fail("no device found");
     Device& device = fake.devices[i];
     if (device.in_use || device.open) return fail("the device is in use");
@@ -92,7 +93,7 @@ int dhdOpenID(char id) {
 
 int dhdClose(char id) {
     const Lock lock(mutex);
-    const auto i = static_cast<size_t>(id);
+    const auto i = static_cast<unsigned char>(id);
     if (id < 0 || i >= fake.devices.size() || !fake.devices[i].open) return fail("not open");
     fake.devices[i].open = false;
     fake.devices[i].acting.setZero();
@@ -118,7 +119,7 @@ int dhdEnableForce(unsigned char on, char id) {
     Device* const device = find(id);
     if (device == nullptr) return -1;
     if (on == 0) {
-        cut(static_cast<size_t>(id), kDhdBySoftware);
+        cut(static_cast<unsigned char>(id), kDhdBySoftware);
     } else {
         device->force_enabled = true;
         device->cause = 0;
@@ -127,7 +128,7 @@ int dhdEnableForce(unsigned char on, char id) {
 }
 
 int dhdGetPosition(double* x, double* y, double* z, char id) {
-    const auto i = static_cast<size_t>(id);
+    const auto i = static_cast<unsigned char>(id);
     if (fake.in_position) fake.in_position(i);
     const Lock lock(mutex);
     Device* const device = find(id);
@@ -145,7 +146,7 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
 int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
     const Lock lock(mutex);
     if (find(id) == nullptr) return -1;
-    const Vec3& v = state[static_cast<size_t>(id)].v;
+    const Vec3& v = state[static_cast<unsigned char>(id)].v;
     *x = v.x();
     *y = v.y();
     *z = v.z();
@@ -202,4 +203,5 @@ const char* dhdErrorGetLastStr() {
 }
 
 }  // extern "C"
+// NOLINTEND(readability-identifier-naming)
 }  // namespace dihaptic::devices::forcedimension

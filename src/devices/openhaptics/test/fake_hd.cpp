@@ -158,6 +158,7 @@ Vec3 ramped(Device& device, const Vec3& force) {
 
 }  // namespace
 
+// NOLINTBEGIN(readability-identifier-naming,clang-diagnostic-return-type-c-linkage): the maker's
 extern "C" {
 
 FakeHd* dihaptic_fake_hd() {
@@ -401,4 +402,5 @@ void hdUnschedule(unsigned long handle) {
 }
 
 }  // extern "C"
+// NOLINTEND(readability-identifier-naming,clang-diagnostic-return-type-c-linkage)
 }  // namespace dihaptic::devices::openhaptics
