@@ -43,7 +43,7 @@ function(dihaptic_room name)
     file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
     if(soaks)
         add_executable(${name}_soak ${soaks})
-        target_link_libraries(${name}_soak PRIVATE ${room} dihaptic_testing ${ROOM_TEST_USES})
+        target_link_libraries(${name}_soak PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
         gtest_discover_tests(${name}_soak DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
             PROPERTIES LABELS soak TIMEOUT 7200)
     endif()

@@ -41,7 +41,7 @@ class Commands(unittest.TestCase):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
                     ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"]]
+                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"], ["devices"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
@@ -415,6 +415,83 @@ hand: {centre_mm: [0, 0, 100], script: [{name: wait, duration_s: 0.1}, {name: re
 BLOCK = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 TICKS = 201
 MADE = ["session.nwb", "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", "events.csv"]
+
+
+class RealDevices(unittest.TestCase):
+    """On fakes of the makers' libraries, which stand where the machine seeks the real ones."""
+
+    HD = ["libHD.so", "libHD.so.3.4", "libHD.so.3.0"]
+    DHD = ["libdhd.so.3", "libdrd.so.3", "libdhd.so", "libdrd.so"]
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.env = {**os.environ, "LD_LIBRARY_PATH": self.folder.name}
+
+    def put(self, names, fake=None):
+        for name in names:
+            file = pathlib.Path(self.folder.name, name)
+            file.unlink(missing_ok=True)
+            if fake:
+                file.symlink_to(pathlib.Path(PROGRAM).resolve().parent / "src/devices" / fake)
+            else:
+                file.write_text("no library at all")
+
+    def test_devices_says_what_is_missing_and_what_mends_it(self):
+        self.put(self.HD + self.DHD)
+        result = dihaptic("devices", env=self.env)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"openhaptics\n    OpenHaptics cannot be loaded; tried libHD.so \(.*file too short\), "
+                                        r"libHD.so.3.4 \(.*\), libHD.so.3.0 \(.*\). Install OpenHaptics 3.4")
+        self.assertRegex(result.stdout, r"forcedimension\n    Force Dimension's SDK cannot be loaded; tried libdhd.so.3 \(.*"
+                                        r"Install the Force Dimension SDK 3")
+        self.put(self.HD, "libfake_dhd.so")
+        self.assertIn("has no hdInitDevice. It is of a version", dihaptic("devices", env=self.env).stdout)
+
+    def test_devices_lists_what_is_there(self):
+        self.put(self.HD, "libfake_hd.so")
+        self.put(self.DHD, "libfake_dhd.so")
+        told = dihaptic("devices", env=self.env).stdout
+        self.assertIn("openhaptics\n    PHANToM Premium 1.0, serial 40123: ", told)
+        self.assertIn("forcedimension\n    omega.3, serial 101: ready\n    omega.3, serial 102: ready\n", told)
+
+    def test_real_devices_keep_real_time(self):
+        for rig in ["rigs/omega-pair.yaml", "rigs/phantom-pair-openhaptics.yaml"]:
+            result = dihaptic("run", "scenes/block-on-table.yaml", "--rig", rig, "--clock", "virtual", env=self.env)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("--clock: error: real devices keep real time. Leave out --clock", result.stderr)
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig, env=self.env)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("has real devices, and tune shakes its own", result.stderr)
+
+    def test_a_session_on_devices_that_are_not_there_says_so_before_it_begins(self):
+        self.put(self.HD + self.DHD)
+        with tempfile.TemporaryDirectory() as out:
+            result = dihaptic("run", "scenes/block-on-table.yaml", "--rig", "rigs/omega-pair.yaml", "--out", out,
+                              env=self.env)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertRegex(result.stderr, r"omega-pair.yaml:\d+: error: library: Force Dimension's SDK cannot be loaded")
+            self.assertEqual(os.listdir(out), [])
+
+    def test_a_session_goes_on_until_it_is_ended(self):
+        self.put(self.HD, "libfake_hd.so")
+        self.put(self.DHD, "libfake_dhd.so")
+        for rig in ["rigs/omega-pair.yaml", "rigs/phantom-pair-openhaptics.yaml"]:
+            with tempfile.TemporaryDirectory() as out:
+                process = subprocess.Popen([PROGRAM, "run", "scenes/block-on-table.yaml", "--rig", rig, "--out", out,
+                                            "--set", "safety.max_pause_ms=1000"],
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline and not any(
+                        os.path.getsize(log) > 100000 for log in glob.glob(out + "/*/raw.log")):
+                    time.sleep(0.01)
+                process.send_signal(signal.SIGINT)
+                stdout, stderr = process.communicate(timeout=60)
+                self.assertIn("Escape or Ctrl-C switches force off", stdout, stderr)
+                session = pathlib.Path(session_of(out) + "session.yaml").read_text()
+                self.assertIn("clock: real", session)
+                self.assertRegex(session, r"serial (101|40123)")
+                self.assertEqual(dihaptic("replay", session_of(out)).returncode, 0)
 
 
 class Damage(unittest.TestCase):

@@ -26,6 +26,7 @@ void add_resume(CLI::App& app);
 void add_rehearse(CLI::App& app);
 void add_collect(CLI::App& app);
 void add_check(CLI::App& app);
+void add_devices(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_tune(CLI::App& app);
 void add_picture(CLI::App& app);

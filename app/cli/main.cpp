@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
     cli::add_rehearse(app);
     cli::add_collect(app);
     cli::add_check(app);
+    cli::add_devices(app);
     cli::add_bench(app);
     cli::add_tune(app);
     cli::add_picture(app);

@@ -27,7 +27,7 @@ struct Options {
     std::string coupling;
     std::string proxy;
     double rate = 0;
-    std::string clock = "virtual";
+    std::string clock;
     bool simulate = false;
     bool real_objects = false;
 };
@@ -254,10 +254,16 @@ void run(Options& options) {
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
     if (options.simulate && options.clock == "real")
         throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
-    options.run.clock =
-        options.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
-    options.run.command = command_line();
     options.request.simulate = options.simulate;
+    const bool real = experiment::on_real_devices(options.request);
+    if (real && options.clock == "virtual") {
+        throw Error({"--clock", 0}, "", "real devices keep real time",
+                    "Leave out --clock, or run on simulated devices: --simulate, or --rig "
+                    "rigs/premium-pair.yaml.");
+    }
+    options.run.clock = real || options.clock == "real" ? experiment::Clock::real
+                                                        : experiment::Clock::virtual_clock;
+    options.run.command = command_line();
     if (!options.simulate && options.run.clock == experiment::Clock::real &&
         has_task(options.request.file))
         ask(options.run.participant);
@@ -301,9 +307,9 @@ void add_run(CLI::App& app) {
     command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
     command
         ->add_option("--clock", options->clock,
-                     "virtual: as fast as the machine goes, the same every time; real: real time")
-        ->check(CLI::IsMember({"virtual", "real"}))
-        ->capture_default_str();
+                     "virtual: as fast as the machine goes, the same every time; real: real time; "
+                     "default: virtual, and real with real devices")
+        ->check(CLI::IsMember({"virtual", "real"}));
     command->add_option("--out", options->run.out, "folder for session folders")
         ->capture_default_str();
     command->add_option("--seed", options->request.seed, "of everything random")
@@ -317,6 +323,7 @@ void add_run(CLI::App& app) {
         "  dihaptic run experiments/visuomotor-rotation.yaml --simulate --participant S07 --seed "
         "7\n"
         "  dihaptic run scenes/frictionless-plane.yaml --clock real\n"
+        "  dihaptic run scenes/block-on-table.yaml --rig rigs/omega-pair.yaml\n"
         "  dihaptic run experiments/reach-to-grasp.yaml --movement trial01.csv --participant S07\n"
         "  dihaptic run experiments/lift-block.yaml --set coupling.stiffness_N_m=600 --set "
         "dynamics.every=10");

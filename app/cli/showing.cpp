@@ -53,12 +53,11 @@ Showing open_plan(const std::string& file) {
     auto run = std::make_shared<Run>();
     experiment::Request request;
     request.file = file;
-    run->plan = experiment::make_plan(request);
-    for (const rig::Device& device : run->plan.rig.devices) {
-        if (device.backend != "simulated")
-            throw Error(device.place, "backend", "a picture moves simulated devices only",
-                        "Record a session, and give its folder.");
+    if (experiment::on_real_devices(request)) {
+        throw Error({file, 0}, "rig", "a picture moves simulated devices only",
+                    "Record a session, and give its folder.");
     }
+    run->plan = experiment::make_plan(request);
     run->servo = experiment::make_servo(run->plan);
     std::vector<recording::PhaseInfo> phases;
     for (const hand::Driver::Phase& phase : run->plan.driver->phases())

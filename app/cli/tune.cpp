@@ -35,6 +35,10 @@ void check_writable(const std::string& file) {
 void run(Options options) {
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
+    if (experiment::on_real_devices(options.request)) {
+        throw Error({options.request.file, 0}, "rig", "has real devices, and tune shakes its own",
+                    "Add --rig with simulated devices like them, e.g. rigs/premium-pair.yaml.");
+    }
     const experiment::Plan plan = experiment::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);

@@ -31,6 +31,11 @@ enum DeviceStatus : uint32_t {
     kForceClamped = 1u << 1,  ///< asked for more than its peak force: soften the coupling
     kNoMoreData = 1u << 2,    ///< a recording has ended
     kNotAnswering = 1u << 3,  ///< no state came: the rest of the reading means nothing
+    /// It took its force away by itself, for a force, a speed or a heat beyond what it bears, and
+    /// can have it back: soften the coupling, move more slowly, let its motors cool.
+    kForceDropped = 1u << 4,
+    kNeedsCalibration = 1u << 5,  ///< its positions mean nothing until it is calibrated again
+    kDeviceFault = 1u << 6,       ///< something in it is broken: explain() may say what
 };
 
 /// State of one device, in its base frame D.
@@ -124,7 +129,9 @@ class DeviceGroup {
         assert(active_ && wrenches_D.size() == infos_.size());
         do_write(wrenches_D);
     }
-    /// Whether the devices say when a tick is due; on the real clock pace() is called then.
+    /// What the maker's library last said of a device, in words; "" if nothing. Not in the cycle.
+    virtual std::string explain(int /*device*/) const { return ""; }
+    /// Whether the devices say when a tick is due; then pace() is called.
     virtual bool paces() const { return false; }
     /// Calls `tick`, which does one read() and one write(), whenever the devices are ready for one,
     /// until it returns false; from this thread or one of the vendor's, but never two at a time.

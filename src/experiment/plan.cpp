@@ -73,7 +73,35 @@ void make_task_hand(Plan& plan) {
     plan.driver = plan.seeing;
 }
 
+/// The rig file; "": ideal simulated devices.
+std::string rig_file(const Request& request, const Experiment& experiment) {
+    if (!request.rig.empty()) return request.rig;
+    return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
+}
+
+/// Nobody simulated: one phase as long as a session may be.
+std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
+    hand::HandSpec hand;
+    hand.centre = plan.hand.centre;
+    hand.script = {{"person", hand::kLongestScript, {}, Vec3::Zero(), false}};
+    return std::make_shared<hand::ScriptDriver>(hand, scene::finger_names(plan.scene));
+}
+
 }  // namespace
+
+bool on_real_devices(const Request& request) {
+    if (request.simulate) return false;
+    Diagnostics ignored;
+    try {
+        Experiment experiment;
+        if (kind_of(request.file) == FileKind::experiment)
+            experiment = read_experiment(request.file, ignored);
+        const std::string file = rig_file(request, experiment);
+        return !file.empty() && rig::is_real(rig::read_rig(file, ignored));
+    } catch (const Error&) {
+        return false;
+    }
+}
 
 Plan make_plan(const Request& request) {
     Plan plan;
@@ -98,18 +126,20 @@ Plan make_plan(const Request& request) {
     diagnostics.throw_if_errors();
     plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
 
-    if (!request.rig.empty()) {
-        plan.rig = rig::read_rig(request.rig, diagnostics);
-    } else if (!experiment.rig.empty()) {
-        plan.rig = rig::read_rig(beside(request.file, experiment.rig), diagnostics);
+    if (const std::string file = rig_file(request, experiment); !file.empty()) {
+        plan.rig = rig::read_rig(file, diagnostics);
     } else {
         // a mouse can turn the hand, which is felt where orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     rig::check_age(plan.rig, recording::iso_now(), diagnostics);
-    const auto real = [](const rig::Device& device) { return device.backend != "simulated"; };
-    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), real))
+    const auto other = [](const rig::Device& device) { return device.backend != "simulated"; };
+    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), other)) {
+        diagnostics.warning(plan.rig.place, "devices", "are not simulated: ideal ones stand in",
+                            "Rehearse on devices like them by --rig, or rig: another file.");
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
+    }
+    const bool real = rig::is_real(plan.rig);
     overlay(plan, plan.scene.settings, diagnostics);
     overlay(plan, plan.rig.settings, diagnostics);
     overlay(plan, experiment.settings, diagnostics);
@@ -128,6 +158,11 @@ Plan make_plan(const Request& request) {
         throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
+    if (real && experiment.movement) {
+        diagnostics.error(experiment.movement->place, "movement",
+                          "moves simulated fingers, and this rig's devices are real",
+                          "Choose another rig: --rig rigs/premium-pair.yaml.");
+    }
     if (experiment.task) {
         if (experiment.movement) {
             diagnostics.error(experiment.movement->place, "movement",
@@ -136,7 +171,10 @@ Plan make_plan(const Request& request) {
         }
         plan_trials(plan, *experiment.task, request, diagnostics);
     }
-    if (request.mouse) {
+    diagnostics.throw_if_errors();
+    if (real) {
+        plan.driver = person_at_devices(plan);
+    } else if (request.mouse) {
         plan.mouse =
             std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
         plan.driver = plan.mouse;
@@ -197,7 +235,11 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
         throw Error({session, 0}, "", "is complete: every trial is done",
                     "Run the experiment again for another session.");
     }
-    make_task_hand(plan);
+    if (rig::is_real(plan.rig)) {
+        plan.driver = person_at_devices(plan);
+    } else {
+        make_task_hand(plan);
+    }
     check_with_devices(plan, diagnostics);
     return plan;
 }

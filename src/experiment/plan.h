@@ -38,8 +38,10 @@ struct Plan {
     servo::Settings settings;
     Origins origins;
     hand::HandSpec hand;
-    std::shared_ptr<const hand::Driver> driver;  ///< shared with the devices that it moves
-    std::shared_ptr<hand::MouseDriver> mouse;    ///< the driver, if it is one
+    /// Shared with the devices that it moves; the fingers of a person at real ones stay where it
+    /// is.
+    std::shared_ptr<const hand::Driver> driver;
+    std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if it is one
     std::optional<MovementReport> movement;
     std::shared_ptr<const TaskPlan> task;  ///< trials, if the experiment has some
     std::shared_ptr<SeeingDriver> seeing;  ///< the driver, if it sees
@@ -48,12 +50,21 @@ struct Plan {
     std::string resumes;                   ///< that session's folder
     std::vector<Problem> warnings;
     uint64_t seed = 1;
+
+    /// Whether it goes on until somebody ends it.
+    bool open_ended() const { return !task && (mouse || rig::is_real(rig)); }
 };
 
 /// Overlays a setting in words, such as "coupling.stiffness_N_m=600". Throws Error.
 void apply_setting(servo::Settings& settings, const std::string& text);
 
-/// Reads and checks. Throws Error with every problem found.
+/// Whether a session of it is on real devices, which keep real time. What is wrong with its files
+/// make_plan() says.
+bool on_real_devices(const Request& request);
+
+/// Reads and checks. On real devices nobody simulates a hand: what the files say of one is passed
+/// over, and without trials the session goes on until somebody ends it. Throws Error with every
+/// problem found.
 Plan make_plan(const Request& request);
 
 /// What is left of a session with trials, from its frozen inputs and its tables. Throws Error when

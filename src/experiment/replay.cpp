@@ -42,6 +42,16 @@ bool same(const servo::Frame& frame, const servo::Frame& recorded) {
     return out;
 }
 
+/// What a device had said that took its force away, from its finger's status.
+uint32_t reported(uint32_t status) {
+    uint32_t out = 0;
+    if (status & servo::kNotAnswering) out |= devices::kNotAnswering;
+    if (status & servo::kForceDropped) out |= devices::kForceDropped;
+    if (status & servo::kUncalibrated) out |= devices::kNeedsCalibration;
+    if (status & servo::kDeviceFault) out |= devices::kDeviceFault;
+    return out;
+}
+
 std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& setup,
                                                         const devices::Context& context) {
     std::vector<devices::DeviceConfig> configs;
@@ -87,9 +97,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         auto turn = recorded->turns.begin();
         for (size_t i = 0; i < readings.size(); ++i) {
             const servo::FingerFrame& finger = recorded->fingers[i];
-            const bool gone = (finger.status & servo::kNotAnswering) != 0;
-            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons,
-                           gone ? uint32_t{devices::kNotAnswering} : 0};
+            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, reported(finger.status)};
             if (!head.devices[i].orientation) continue;
             readings[i].R_DH = turn->R_DH;
             readings[i].w_DH = turn->w_DH;

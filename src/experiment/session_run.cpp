@@ -238,6 +238,10 @@ class Watcher {
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress) {
     const bool real = options.clock == Clock::real;
+    if (!real && rig::is_real(plan.rig)) {
+        throw Error(plan.rig.place, "devices", "are real, and keep real time",
+                    "Run them on the real clock, or choose a rig of simulated devices.");
+    }
     const std::string name = fs::path(plan.file).stem().string();
     const auto folder = recording::SessionFolder::create(
         options.out, options.participant.id.empty() ? name : name + "_" + options.participant.id);
@@ -298,7 +302,14 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     if (real && !plan.rig.outlets.empty())
         outward.emplace(plan, fs::path(folder.path()).filename().string());
     if (plan.seeing) plan.seeing->restart();
-    servo->activate();
+    try {
+        servo->activate();
+    } catch (const Error&) {
+        // real devices may refuse: there is no session then
+        std::error_code ignored;
+        fs::remove_all(folder.path(), ignored);
+        throw;
+    }
     const Time whole = plan.task ? kLongest : from_seconds(plan.driver->duration());
     result.timing.reserve(static_cast<size_t>(std::min(whole, kLongestTimed) / servo->period()) +
                           2);
@@ -397,14 +408,17 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     result.simulated = seconds(Time(reached.load()));
     result.ticks = recorder.frames();
     result.dropped = recorder.dropped();
-    // with a mouse there is no more to do than somebody wants to
-    const bool unfinished = task ? task->share() < 1 : plan.mouse == nullptr;
+    // with a mouse, or a person, there is no more to do than somebody wants to
+    const bool unfinished = task ? task->share() < 1 : !plan.open_ended();
     result.interrupted = stop.load() || (ended() && unfinished);
-    if (plan.mouse != nullptr && !plan.task) info.phases.back().end = result.simulated;
+    if (plan.open_ended()) info.phases.back().end = result.simulated;
     if (const haptics::Fault& fault = servo->fault()) {
         const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
         result.fault =
             haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
+        if (const std::string said = servo->devices().explain(static_cast<int>(device));
+            fault.device >= 0 && !said.empty())
+            result.fault += " Its driver says: " + said;
         if (fault.kind != haptics::FaultKind::stopped)
             result.fault += " The second before it is in fault.csv.";
         info.notes.push_back(result.fault);

@@ -17,10 +17,10 @@ bool is_sound(const Handle& read) noexcept {
 
 }  // namespace
 
-Handle HandleGuard::accept(const Handle& read, bool answers, double elapsed,
+Handle HandleGuard::accept(const Handle& read, FaultKind reported, double elapsed,
                            Fault& fault) noexcept {
-    if (trusted_ && !answers) {
-        fault.kind = FaultKind::not_answering;
+    if (trusted_ && reported != FaultKind::none) {
+        fault.kind = reported;
     } else if (trusted_ && !is_sound(read)) {
         fault.kind = FaultKind::bad_reading;
     } else if (trusted_) {
@@ -68,6 +68,14 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
         case FaultKind::not_answering:
             what = which + "does not answer";
             remedy = "Look at its power and its cables, then start the session again.";
+            break;
+        case FaultKind::uncalibrated:
+            what = which + "lost its calibration";
+            remedy = "Calibrate it as its maker says, then start the session again.";
+            break;
+        case FaultKind::device_fault:
+            what = which + "reports a fault of its own";
+            remedy = "Let it cool, switch it off and on, then start the session again.";
             break;
         case FaultKind::too_fast:
             what = which + fmt::format("moved at {:.3g} m/s, and {:g} m/s are allowed", fault.value,

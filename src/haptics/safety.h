@@ -15,6 +15,8 @@ enum class FaultKind {
     none,
     bad_reading,      ///< a position or velocity that is not a number
     not_answering,    ///< the device says nothing
+    uncalibrated,     ///< the device lost its calibration
+    device_fault,     ///< the device reports that something in it is broken
     too_fast,         ///< the handle moved faster than `max_speed`, or jumped
     turned_too_fast,  ///< or turned faster than kMostTurning
     late,             ///< no force was computed for longer than `max_pause`
@@ -65,9 +67,10 @@ class HandleGuard {
     /// Largest plausible speed of a hand [m/s].
     explicit HandleGuard(double max_speed) : max_speed_(max_speed) {}
 
-    /// The handle to work with. `read` is as measured, `elapsed` the time since the last call [s];
-    /// when the reading cannot be used, `fault` gets why.
-    Handle accept(const Handle& read, bool answers, double elapsed, Fault& fault) noexcept;
+    /// The handle to work with. `read` is as measured, `reported` what the device says is wrong with
+    /// it, `elapsed` the time since the last call [s]; when the reading cannot be used, `fault` gets
+    /// why.
+    Handle accept(const Handle& read, FaultKind reported, double elapsed, Fault& fault) noexcept;
 
   private:
     double max_speed_;

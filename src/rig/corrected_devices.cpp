@@ -29,6 +29,7 @@ class CorrectedGroup final : public devices::DeviceGroup {
           wrenches_(adjustments_.size()) {}
 
     bool paces() const override { return inner_->paces(); }
+    std::string explain(int device) const override { return inner_->explain(device); }
     bool can_stop() const override { return inner_->can_stop(); }
 
   private:

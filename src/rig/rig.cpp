@@ -151,6 +151,13 @@ Rig uncorrected(const Rig& rig) {
     return out;
 }
 
+bool is_real(const Rig& rig) {
+    return std::any_of(rig.devices.begin(), rig.devices.end(), [](const Device& device) {
+        const devices::Backend* const backend = devices::find_backend(device.backend);
+        return backend != nullptr && backend->real;
+    });
+}
+
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
     Rig rig;
     rig.title = "Ideal simulated devices";

@@ -72,6 +72,9 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics);
 /// read.
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
+/// Whether its devices are real: they keep real time, and move a person's hand.
+bool is_real(const Rig& rig);
+
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 

@@ -68,6 +68,15 @@ StatusText describe(Status bit) {
             return {"a damper took of that energy", "soften the coupling, or raise its damping"};
         case kResumed:
             return {"the session went on after a pause", "nothing"};
+        case kForceDropped:
+            return {
+                "a device took its force away for a moment: a force, a speed or a heat was beyond "
+                "what it bears",
+                "soften the coupling, move more slowly, or let its motors cool"};
+        case kUncalibrated:
+            return {"a device lost its calibration", "calibrate it as its maker says"};
+        case kDeviceFault:
+            return {"a device reported a fault of its own", "let it cool, switch it off and on"};
         case kStopped:
             return {"the operator switched force off", "start the session again to go on"};
         case kSolverMissed:

@@ -39,8 +39,11 @@ enum Status : uint32_t {
     kEnergyDamped = 1u << 20,
     kStopped = 1u << 21,
     kResumed = 1u << 22,
+    kForceDropped = 1u << 23,
+    kUncalibrated = 1u << 24,
+    kDeviceFault = 1u << 25,
 };
-constexpr int kStatusBits = 23;
+constexpr int kStatusBits = 26;
 
 struct StatusText {
     std::string what;

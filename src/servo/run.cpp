@@ -16,6 +16,9 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
+/// Until their first tick devices that pace start a thread, or a scheduler, of their own.
+constexpr Time kDevicesBegin = std::chrono::milliseconds(500);
+
 double elapsed(Steady::time_point since) {
     return std::chrono::duration<double>(Steady::now() - since).count();
 }
@@ -57,12 +60,21 @@ std::string describe(const Timing::Stall& stall) {
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times) {
     Time now{0};
-    for (; now <= most && !stop.load(std::memory_order_relaxed); now += servo.period()) {
+    const auto tick = [&] {
+        if (now > most || stop.load(std::memory_order_relaxed)) return false;
         const auto begin = Steady::now();
         const Frame& frame = servo.tick(now, director);
         if (sink) sink(frame);
         if (times != nullptr) times->add(elapsed(begin));
-        if (servo.stopped()) break;
+        if (servo.stopped()) return false;
+        now += servo.period();
+        return true;
+    };
+    if (servo.devices().paces()) {
+        servo.pace(tick);
+    } else {
+        while (tick()) {
+        }
     }
     return now;
 }
@@ -150,9 +162,11 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             });
         // only now: to start a thread may take longer than a tick
         start = Steady::now() + servo.period() - first;
-        watchdog->end_tick(Steady::now());
+        // what paces may take its time to begin
+        const bool paced = servo.devices().paces();
+        watchdog->end_tick(Steady::now() + (paced ? kDevicesBegin : Time(0)));
         RealLoop loop{servo, director, sink, stop, timing, *watchdog, start};
-        if (servo.devices().paces()) {
+        if (paced) {
             loop.run_by_devices(first, last);
         } else {
             loop.run_by_deadlines(first, last);

@@ -58,8 +58,8 @@ std::string describe(const Timing& timing);
 /// What the watchdog did, in a sentence.
 std::string describe(const Timing::Stall& stall);
 
-/// Ticks until the director stops, `stop` becomes true, or `most` time has passed. Returns the time
-/// reached.
+/// Ticks until the director stops, `stop` becomes true, or `most` time has passed; called by
+/// devices that pace, a period of virtual time each. Returns the time reached.
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times = nullptr);
 

@@ -14,6 +14,10 @@ uint32_t fault_status(haptics::FaultKind kind) {
             return kBadReading;
         case haptics::FaultKind::not_answering:
             return kNotAnswering;
+        case haptics::FaultKind::uncalibrated:
+            return kUncalibrated;
+        case haptics::FaultKind::device_fault:
+            return kDeviceFault;
         case haptics::FaultKind::too_fast:
         case haptics::FaultKind::turned_too_fast:
             return kTooFast;
@@ -27,12 +31,23 @@ uint32_t fault_status(haptics::FaultKind kind) {
     return 0;
 }
 
+/// What a device says is wrong with it.
+haptics::FaultKind reported_by(const devices::Reading& reading) {
+    if (reading.status & devices::kNotAnswering) return haptics::FaultKind::not_answering;
+    if (reading.status & devices::kNeedsCalibration) return haptics::FaultKind::uncalibrated;
+    if (reading.status & devices::kDeviceFault) return haptics::FaultKind::device_fault;
+    return haptics::FaultKind::none;
+}
+
 uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
     uint32_t status = 0;
     if (reading.status & devices::kOutsideWorkspace) status |= kOutsideWorkspace;
     if (reading.status & devices::kForceClamped) status |= kForceClamped;
     if (reading.status & devices::kNoMoreData) status |= kNoMoreData;
     if (reading.status & devices::kNotAnswering) status |= kNotAnswering;
+    if (reading.status & devices::kForceDropped) status |= kForceDropped;
+    if (reading.status & devices::kNeedsCalibration) status |= kUncalibrated;
+    if (reading.status & devices::kDeviceFault) status |= kDeviceFault;
     if (limits & haptics::kForceLimited) status |= kForceLimited;
     if (limits & haptics::kRateLimited) status |= kRateLimited;
     if (limits & haptics::kNotFinite) status |= kNotFinite;
@@ -240,10 +255,10 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
 void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
-    if (elapsed > settings_.safety.max_pause) {
-        faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
-    }
-    if (faults_.tripped()) turn_.stop();
+    const bool late = elapsed > settings_.safety.max_pause;
+    // a device has one position a period, however near to each other two ticks come
+    const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
+    if (late || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
         haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
@@ -257,13 +272,15 @@ void Servo::measure(Time now) noexcept {
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
-        const bool answers = (readings_[i].status & devices::kNotAnswering) == 0;
-        unturned_[i] = guards_[i].accept(read, answers, elapsed, fault);
+        unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), moved_for, fault);
         device_faults_[i] = fault_status(fault.kind);
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
         if (frame_.sequence < 0) fingers_[i].place(world_, handles_[i]);
     }
+    // last: a device that says what is wrong with it says more than the pause that it made
+    if (late)
+        faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
 }
 
 void Servo::turn_workspaces(double rate) noexcept {
@@ -293,11 +310,18 @@ void Servo::make_forces(Time now) noexcept {
         force.felt_0.force += force_guards_[i].push(unturned_[i], force.flags);
         asked = asked || !force.felt_0.is_zero();
     }
-    const bool allowed = switch_held();
+    // a device without force leaves half a grasp: the others wait with it, and all come on softly
+    const bool dropped =
+        std::any_of(readings_.begin(), readings_.end(), [](const devices::Reading& reading) {
+            return (reading.status & devices::kForceDropped) != 0;
+        });
+    const bool held = switch_held();
+    const bool allowed = held && !dropped;
     const double share = soft_start_.share(allowed, asked, settings_.tick());
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
         force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.flags);
+        if (held) force.flags &= ~static_cast<unsigned>(haptics::kSwitchedOff);
         if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }

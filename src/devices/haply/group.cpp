@@ -30,6 +30,7 @@ std::vector<DeviceInfo> infos(const std::vector<Wanted>& devices) {
     for (const Wanted& device : devices) {
         DeviceInfo info;
         info.model = "Haply Inverse3";
+        info.serial = device.options.device_id;
         info.peak_force = device.options.peak_force;
         info.measures_orientation = device.grip.has_value();
         out.push_back(info);

@@ -5,6 +5,7 @@
 
 #include "devices/device_group.h"
 #include "devices/haply/test/fake_service.h"
+#include "fakes.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::devices {
@@ -34,13 +35,17 @@ class Conformance : public ::testing::TestWithParam<std::string> {
         };
         const Pose X_WD{rotation_xyz({0.3, 0.1, -0.5}), {0.1, 0.2, 0.3}};
         std::vector<DeviceConfig> configs{{"thumb", {}, {}}, {"index", X_WD, {}}};
+        const Backend& backend = *find_backend(GetParam());
         if (GetParam() == "haply") {
             haply::FakeService::Setup setup;
             setup.devices = configs;
             haply_service_ = std::make_unique<haply::FakeService>(setup, context);
             configs = haply::rig_of(*haply_service_, configs, "time_out_ms: 1000, ");
+        } else if (backend.real) {
+            // our fake of the maker's library, with the simulated device behind
+            return make_behind(GetParam(), {{}, {}}, configs, context);
         }
-        return find_backend(GetParam())->make(configs, context);
+        return backend.make(configs, context);
     }
     StillDriver driver_;
     std::unique_ptr<haply::FakeService> haply_service_;
@@ -86,14 +91,18 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
     if (!group->can_stop()) return;
     std::vector<Reading> readings(2);
     const std::vector<Wrench> forces(2, {Vec3(2, 0, 0), Vec3::Zero()});
-    // how far two newtons push the still hand in 50 ms [m]
+    Time now{0};
+    const auto tick = [&](const std::vector<Wrench>& wrenches) {
+        group->read(now, readings);
+        group->write(wrenches);
+        now += std::chrono::milliseconds(1);
+    };
+    // how far two newtons push the hand in 50 ms, once it is still [m]
     const auto pushed = [&] {
-        group->read(Time(0), readings);
+        for (int i = 0; i < 2000; ++i) tick({2, Wrench{}});
         const Vec3 begin = readings[0].p_DH;
-        for (int i = 1; i <= 50; ++i) {
-            group->write(forces);
-            group->read(i * std::chrono::milliseconds(1), readings);
-        }
+        for (int i = 0; i < 50; ++i) tick(forces);
+        group->read(now, readings);
         return (readings[0].p_DH - begin).norm();
     };
     group->activate();
@@ -107,11 +116,28 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
     EXPECT_GT(pushed(), 1e-3);
     // while another thread is in the cycle (the thread sanitizer looks at this one)
     std::thread stopper([&] { group->stop(); });
-    for (int i = 51; i < 80; ++i) {
-        group->read(i * std::chrono::milliseconds(1), readings);
-        group->write(forces);
-    }
+    for (int i = 0; i < 30; ++i) tick(forces);
     stopper.join();
+}
+
+TEST_P(Conformance, PacesUntilItIsToldToEndAndThenAgain) {
+    const auto group = make();
+    if (!group->paces()) return;
+    std::vector<Reading> readings(2);
+    const std::vector<Wrench> none(2);
+    group->activate();
+    for (int run = 0; run < 2; ++run) {
+        int ticks = 0;
+        group->pace([&] {
+            group->read(ticks * std::chrono::milliseconds(1), readings);
+            group->write(none);
+            return ++ticks < 20;
+        });
+        EXPECT_EQ(ticks, 20);
+        EXPECT_EQ(readings[0].status, 0u);
+        group->write(none);  // between runs a servo says once more that nothing shall push
+    }
+    group->deactivate();
 }
 
 TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {
@@ -127,6 +153,14 @@ std::vector<std::string> names() {
     return out;
 }
 INSTANTIATE_TEST_SUITE_P(DeviceTable, Conformance, ::testing::ValuesIn(names()));
+
+TEST(DeviceTable, SaysWhichDevicesAreReal) {
+    for (const Backend& backend : backends()) {
+        const std::string name = backend.name;
+        EXPECT_EQ(backend.real, name != "simulated" && name != "replay") << name;
+        EXPECT_EQ(backend.survey != nullptr, backend.real) << name;
+    }
+}
 
 TEST(DeviceTable, HasSimulatedAndReplay) {
     EXPECT_NE(find_backend("simulated"), nullptr);

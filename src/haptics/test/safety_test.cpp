@@ -19,7 +19,7 @@ TEST(HandleGuard, LetsAHandMove) {
     Fault fault;
     for (int i = 0; i < 100; ++i) {
         const Handle read = moving(i);
-        const Handle handle = guard.accept(read, true, i == 0 ? 0 : kTick, fault);
+        const Handle handle = guard.accept(read, FaultKind::none, i == 0 ? 0 : kTick, fault);
         EXPECT_EQ(handle.p_WH, read.p_WH);
         EXPECT_EQ(handle.v_WH, read.v_WH);
     }
@@ -29,7 +29,7 @@ TEST(HandleGuard, LetsAHandMove) {
 struct Bad {
     const char* name;
     Handle read;
-    bool answers;
+    FaultKind reported;
     FaultKind kind;
 };
 void PrintTo(const Bad& bad, std::ostream* out) {
@@ -40,14 +40,16 @@ class BadReading : public ::testing::TestWithParam<Bad> {};
 TEST_P(BadReading, FaultsAndLeavesTheHandleWhereItWasForGood) {
     HandleGuard guard(2);
     Fault fault;
-    for (int i = 0; i < 10; ++i) guard.accept(moving(i), true, i == 0 ? 0 : kTick, fault);
+    for (int i = 0; i < 10; ++i)
+        guard.accept(moving(i), FaultKind::none, i == 0 ? 0 : kTick, fault);
     ASSERT_FALSE(fault);
-    Handle handle = guard.accept(GetParam().read, GetParam().answers, kTick, fault);
+    Handle handle = guard.accept(GetParam().read, GetParam().reported, kTick, fault);
     EXPECT_EQ(fault.kind, GetParam().kind);
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
     Fault again;
-    handle = guard.accept(moving(11), true, kTick, again);  // good once more, and too late
+    handle =
+        guard.accept(moving(11), FaultKind::none, kTick, again);  // good once more, and too late
     EXPECT_FALSE(again);
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
@@ -58,19 +60,36 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(
     HandleGuard, BadReading,
     ::testing::Values(
-        Bad{"position NaN", {{0.01, kNaN, 0}, Vec3::Zero()}, true, FaultKind::bad_reading},
-        Bad{"velocity infinite", {{0.01, 0, 0}, {0, 0, kInfinite}}, true, FaultKind::bad_reading},
-        Bad{"jump of 10 cm", {{0.11, 0, 0}, {1, 0, 0}}, true, FaultKind::too_fast},
-        Bad{"too fast", {{0.01, 0, 0}, {0, 2.1, 0}}, true, FaultKind::too_fast},
-        Bad{"overflows", {{0.01, 0, 0}, {1e300, 0, 0}}, true, FaultKind::too_fast},
-        Bad{"silent", {{0.01, 0, 0}, {1, 0, 0}}, false, FaultKind::not_answering}));
+        Bad{"position NaN",
+            {{0.01, kNaN, 0}, Vec3::Zero()},
+            FaultKind::none,
+            FaultKind::bad_reading},
+        Bad{"velocity infinite",
+            {{0.01, 0, 0}, {0, 0, kInfinite}},
+            FaultKind::none,
+            FaultKind::bad_reading},
+        Bad{"jump of 10 cm", {{0.11, 0, 0}, {1, 0, 0}}, FaultKind::none, FaultKind::too_fast},
+        Bad{"too fast", {{0.01, 0, 0}, {0, 2.1, 0}}, FaultKind::none, FaultKind::too_fast},
+        Bad{"overflows", {{0.01, 0, 0}, {1e300, 0, 0}}, FaultKind::none, FaultKind::too_fast},
+        Bad{"silent",
+            {{0.01, 0, 0}, {1, 0, 0}},
+            FaultKind::not_answering,
+            FaultKind::not_answering},
+        Bad{"uncalibrated",
+            {{0.01, 0, 0}, {1, 0, 0}},
+            FaultKind::uncalibrated,
+            FaultKind::uncalibrated},
+        Bad{"broken",
+            {{0.01, 0, 0}, {1, 0, 0}},
+            FaultKind::device_fault,
+            FaultKind::device_fault}));
 
 TEST(HandleGuard, AllowsTheDistanceOfTheTimeThatPassed) {
     // a pause is another rule's business: after 30 ms at 1 m/s the handle is 30 mm further
     HandleGuard guard(2);
     Fault fault;
-    guard.accept(moving(0), true, 0, fault);
-    guard.accept(moving(30), true, 30 * kTick, fault);
+    guard.accept(moving(0), FaultKind::none, 0, fault);
+    guard.accept(moving(30), FaultKind::none, 30 * kTick, fault);
     EXPECT_FALSE(fault);
 }
 

@@ -1,0 +1,30 @@
+// Devices cut their own force when too much is asked of them, and give it back. Once is an event;
+// again and again is a fault, and a person who is told nothing would take the world for broken.
+#pragma once
+
+#include <optional>
+
+#include "devices/device_group.h"
+
+namespace dihaptic::devices {
+
+class ForceDrops {
+  public:
+    static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart are single
+    static constexpr Time kLongest = std::chrono::seconds(2);  ///< of a row of them
+
+    /// The status of a tick at `now` in which force was cut, or not.
+    uint32_t status(Time now, bool dropped) noexcept {
+        if (!dropped) return 0;
+        if (!first_ || now - last_ > kApart) first_ = now;
+        last_ = now;
+        return now - *first_ > kLongest ? kDeviceFault : kForceDropped;
+    }
+    void reset() noexcept { first_.reset(); }
+
+  private:
+    std::optional<Time> first_;
+    Time last_{0};
+};
+
+}  // namespace dihaptic::devices

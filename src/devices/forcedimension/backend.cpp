@@ -1,0 +1,157 @@
+#include "devices/forcedimension/backend.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "devices/claims.h"
+#include "devices/forcedimension/group.h"
+
+namespace dihaptic::devices::forcedimension {
+namespace {
+
+const char* const kNobody =
+    "Look at its power and its USB cable; an ordinary user needs a udev rule for USB vendor 1451 "
+    "(Falcon: 0403), see src/devices/forcedimension.";
+
+Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
+    Options options;
+    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    return options;
+}
+
+void check(const DeviceConfig& config, Diagnostics& diagnostics) {
+    read_options(config, diagnostics);
+}
+
+/// Every device that can be opened. Throws the last Error when none can.
+std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
+    const int count = dhd.device_count();
+    if (count <= 0) throw Error(place, "serial", "no Force Dimension device is connected", kNobody);
+    std::vector<Connection> out;
+    for (int n = 0; n < count; ++n) {
+        try {
+            out.emplace_back(dhd, n, place);
+        } catch (const Error&) {
+            if (n + 1 == count && out.empty()) throw;
+        }
+    }
+    return out;
+}
+
+/// Takes the one that a rig's device is out of `there`.
+Connection take(std::vector<Connection>& there, const Options& options, const Place& place) {
+    const bool chosen = options.serial != Options::kAny;
+    std::vector<size_t> fits;
+    std::vector<std::string> all;
+    for (size_t i = 0; i < there.size(); ++i) {
+        if (!chosen || there[i].serial() == options.serial) fits.push_back(i);
+        all.push_back(fmt::format("{} {}", there[i].model(), there[i].serial()));
+    }
+    if (fits.empty()) {
+        throw Error(place, "serial", fmt::format("no device has serial number {}", options.serial),
+                    fmt::format("There are: {}. {}", fmt::join(all, ", "), kNobody));
+    }
+    if (fits.size() > 1 && chosen) {
+        throw Error(place, "serial",
+                    fmt::format("two devices have serial number {}: they cannot be told apart",
+                                options.serial),
+                    "Unplug one; its maker can give it another number.");
+    }
+    if (fits.size() > 1) {
+        throw Error(place, "serial", "is needed: several devices are connected",
+                    fmt::format("There are: {}.", fmt::join(all, ", ")));
+    }
+    Connection out = std::move(there[fits[0]]);
+    std::vector<Connection> rest;
+    for (size_t i = 0; i < there.size(); ++i) {
+        if (i != fits[0]) rest.push_back(std::move(there[i]));
+    }
+    there.swap(rest);
+    return out;
+}
+
+DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
+                   const Place& place) {
+    DeviceInfo info;
+    info.serial = std::to_string(connection.serial());
+    info.model = fmt::format("{}, serial {}", connection.model(), connection.serial());
+    const double most = dhd.max_force(connection.id());
+    if (std::isfinite(most) && most > 0) info.peak_force = most;
+    if (options.peak_force) info.peak_force = std::min(info.peak_force, *options.peak_force);
+    if (!std::isfinite(info.peak_force)) {
+        throw Error(place, "peak_force",
+                    fmt::format("{} does not state its largest force", info.model),
+                    "Give options: peak_force_N, from its data sheet.");
+    }
+    if (options.continuous_force) info.continuous_force = *options.continuous_force;
+    info.workspace = options.workspace;
+    return info;
+}
+
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, const Context&) {
+    Diagnostics diagnostics;
+    std::vector<Options> options;
+    options.reserve(configs.size());
+    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
+    std::vector<std::string> serials;
+    std::vector<std::string> libraries;
+    serials.reserve(options.size());
+    libraries.reserve(options.size());
+    for (const Options& one : options) {
+        serials.push_back(one.serial == Options::kAny ? "" : std::to_string(one.serial));
+        libraries.push_back(one.library);
+    }
+    check_distinct(configs, "serial", serials, configs.size() > 1, diagnostics);
+    check_one_library(configs, libraries, diagnostics);
+    diagnostics.throw_if_errors();
+
+    const Dhd dhd = load_dhd(options.front().library, configs.front().place);
+    std::vector<Connection> there = open_all(dhd, configs.front().place);
+    std::vector<Group::Device> devices;
+    for (size_t i = 0; i < configs.size(); ++i) {
+        const Place& place = configs[i].place;
+        Connection connection = take(there, options[i], place);
+        const DeviceInfo info = info_of(dhd, connection, options[i], place);
+        devices.push_back({std::move(connection), info,
+                           fmt::format("the {}'s device ({})", configs[i].finger, info.model),
+                           place});
+    }
+    return std::make_unique<Group>(dhd, std::move(devices));
+}
+
+Survey survey() {
+    Survey out;
+    try {
+        const Dhd dhd = load_dhd("", {});
+        const int count = dhd.device_count();
+        if (count <= 0) throw Error("no Force Dimension device is connected", kNobody);
+        for (int n = 0; n < count; ++n) {
+            try {
+                const Connection connection(dhd, n, {});
+                DhdStatus status{};
+                dhd.status(status.data(), connection.id());
+                out.devices.push_back({std::to_string(connection.serial()), connection.model(),
+                                       status[kDhdPower] == 0 ? "has no power: switch it on"
+                                       : status[kDhdReset] != 0
+                                           ? "needs calibration: move it into all its end stops"
+                                           : "ready"});
+            } catch (const Error& e) {
+                out.devices.push_back({"", fmt::format("device {}", n + 1), in_words(e)});
+            }
+        }
+    } catch (const Error& e) {
+        out.missing = in_words(e);
+    }
+    return out;
+}
+
+}  // namespace
+
+Backend backend() {
+    return {"forcedimension", check, make, true, survey};
+}
+
+}  // namespace dihaptic::devices::forcedimension

@@ -1,0 +1,11 @@
+// Force Dimension's devices (omega, delta, sigma) and the Novint Falcon, by the DHD API; see
+// README.md.
+#pragma once
+
+#include "devices/device_group.h"
+
+namespace dihaptic::devices::forcedimension {
+
+Backend backend();
+
+}  // namespace dihaptic::devices::forcedimension

@@ -1,0 +1,56 @@
+// Force Dimension's DHD API (libdhd, or libdrd which contains it), in declarations of our own: what
+// of it is used here. Units are SI; a device is named by a number of its own in every call.
+#pragma once
+
+#include <array>
+
+#include "devices/library.h"
+
+namespace dihaptic::devices::forcedimension {
+
+/// What dhdGetStatus() gives.
+using DhdStatus = std::array<int, 17>;
+enum DhdStatusIndex : unsigned {
+    kDhdPower = 0,
+    kDhdConnected = 1,
+    kDhdReset = 3,  // not calibrated
+    kDhdForce = 5,  // force is on
+    kDhdBrake = 6,
+    kDhdErrorIndex = 9,
+    kDhdForceOffCause = 14,
+};
+enum DhdForceOff : int {
+    kDhdByButton = 1,
+    kDhdByVelocity = 2,
+    kDhdByWatchdog = 3,
+    kDhdBySoftware = 4,
+    kDhdByUsb = 5,
+    kDhdByDeadMan = 6,
+};
+
+/// The library's functions. They return -1 for an error; 0 and more are none: 1 means that the time
+/// guard gave the last state again, 2 that a motor gives what it can.
+struct Dhd {
+    int (*device_count)() = nullptr;
+    int (*available_count)() = nullptr;
+    int (*open_id)(char id) = nullptr;
+    int (*close)(char id) = nullptr;
+    const char* (*system_name)(char id) = nullptr;
+    int (*serial_number)(unsigned short*, char id) = nullptr;
+    int (*enable_force)(unsigned char on, char id) = nullptr;
+    int (*position)(double*, double*, double*, char id) = nullptr;
+    int (*velocity)(double*, double*, double*, char id) = nullptr;
+    int (*set_force)(double, double, double, char id) = nullptr;
+    unsigned (*buttons)(char id) = nullptr;
+    int (*compensate_gravity)(int on, char id) = nullptr;
+    double (*max_force)(char id) = nullptr;
+    int (*status)(int*, char id) = nullptr;
+    const char* (*last_error)() = nullptr;
+
+    std::string file;  ///< that they are from
+};
+
+/// Loads it from `path`, or from where the machine has it. Throws Error.
+Dhd load_dhd(const std::string& path, const Place& place);
+
+}  // namespace dihaptic::devices::forcedimension

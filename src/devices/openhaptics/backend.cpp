@@ -1,0 +1,77 @@
+#include "devices/openhaptics/backend.h"
+
+#include <fmt/format.h>
+
+#include "devices/claims.h"
+#include "devices/openhaptics/group.h"
+
+namespace dihaptic::devices::openhaptics {
+namespace {
+
+Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
+    Options options;
+    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    return options;
+}
+
+void check(const DeviceConfig& config, Diagnostics& diagnostics) {
+    read_options(config, diagnostics);
+}
+
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
+                                  const Context& context) {
+    Diagnostics diagnostics;
+    std::vector<Options> options;
+    options.reserve(configs.size());
+    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
+    const auto all = [&](std::string Options::*option) {
+        std::vector<std::string> out;
+        out.reserve(options.size());
+        for (const Options& one : options) out.push_back(one.*option);
+        return out;
+    };
+    check_distinct(configs, "name", all(&Options::name), configs.size() > 1, diagnostics);
+    check_distinct(configs, "serial", all(&Options::serial), false, diagnostics);
+    check_one_library(configs, all(&Options::library), diagnostics);
+    diagnostics.throw_if_errors();
+
+    const Hd hd = load_hd(options.front().library, configs.front().place);
+    std::vector<Connection> connections;
+    connections.reserve(configs.size());
+    for (size_t i = 0; i < configs.size(); ++i) {
+        connections.emplace_back(hd, configs[i], options[i]);
+        for (size_t j = 0; j < i; ++j) {
+            if (connections[i].serial().empty() ||
+                connections[i].serial() != connections[j].serial())
+                continue;
+            throw Error(configs[i].place, "name",
+                        fmt::format("{} and {} have one serial number: they are one device, under "
+                                    "two names",
+                                    connections[i].who(), connections[j].who()),
+                        "Correct the ports in the driver's configuration.");
+        }
+    }
+    return std::make_unique<Group>(hd, std::move(connections), context.tick);
+}
+
+Survey survey() {
+    Survey out;
+    try {
+        const Hd hd = load_hd("", {});
+        // HD lists no devices: the first is all that can be found without a name
+        const Connection connection(hd, {}, {});
+        out.devices.push_back({connection.serial(), connection.model(),
+                               "the driver's first; others answer to their names there"});
+    } catch (const Error& e) {
+        out.missing = in_words(e);
+    }
+    return out;
+}
+
+}  // namespace
+
+Backend backend() {
+    return {"openhaptics", check, make, true, survey};
+}
+
+}  // namespace dihaptic::devices::openhaptics

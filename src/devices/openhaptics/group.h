@@ -1,0 +1,121 @@
+// A group of devices in one callback of HD's scheduler, which paces the tick: all frames begin, all
+// devices are read, the tick computes, all forces are set, all frames end.
+//
+// D has HD's axes (x right, y up, z toward the person) and its origin in the middle of the usable
+// workspace that the device states.
+#pragma once
+
+#include <array>
+#include <atomic>
+
+#include "devices/device_group.h"
+#include "devices/force_drops.h"
+#include "devices/openhaptics/hd.h"
+
+namespace dihaptic::devices::openhaptics {
+
+/// A device of the rig file.
+struct Options {
+    std::string name;            ///< in the driver's configuration; "": the first that is found
+    std::string serial;          ///< that the device has to have; "": any
+    std::string library;         ///< libHD.so, where it is not found by itself
+    bool encoder_reset = false;  ///< at each activation, held in its neutral pose
+    bool orientation = true;     ///< whether it is used, of devices that measure it
+    std::optional<double> max_stiffness;  ///< in place of what the device says [N/m]
+    std::optional<double> max_damping;    ///< the same [N*s/m]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name);
+        v("serial", serial);
+        v("library", library);
+        v("encoder_reset", encoder_reset);
+        v("orientation", orientation);
+        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
+        v("max_damping", max_damping, Field::of(Quantity::damping).positive());
+    }
+};
+
+/// A device that was initialised, until this ends.
+class Connection {
+  public:
+    /// Throws Error, for the device's place in the rig file.
+    Connection(const Hd& hd, const DeviceConfig& config, const Options& options);
+    ~Connection();
+    Connection(Connection&& other) noexcept;
+    Connection(const Connection&) = delete;
+
+    HdHandle handle() const { return handle_; }
+    const Options& options() const { return options_; }
+    /// "the thumb's device 'PHANToM 1' (PHANToM Premium 1.0, serial 40123)".
+    std::string who() const;
+    const std::string& model() const { return model_; }
+    const std::string& serial() const { return serial_; }
+    const Place& place() const { return place_; }
+    const Vec3& centre() const { return centre_; }
+    const DeviceInfo& info() const { return info_; }
+
+    /// Throws Error when the device's positions mean nothing, and it cannot mend that by itself.
+    void calibrate() const;
+    /// Empties the stack of errors; throws Error for the newest of them.
+    void check(const std::string& doing, const char* key) const;
+
+  private:
+    void forget_errors() const;
+    double number(HdValue value) const;
+    std::string text(HdValue value) const;
+    void read_info();
+
+    Hd hd_;
+    Options options_;
+    std::string finger_;
+    Place place_;
+    HdHandle handle_ = kNoHandle;
+    std::string model_;
+    std::string serial_;
+    Vec3 centre_ = Vec3::Zero();  // of the usable workspace, in HD's frame [m]
+    DeviceInfo info_;
+};
+
+class Group final : public DeviceGroup {
+  public:
+    Group(const Hd& hd, std::vector<Connection> connections, double tick);
+
+    bool paces() const override { return true; }
+    std::string explain(int device) const override;
+
+  private:
+    struct Device {
+        Connection connection;
+        bool framed = false;   // its frame has begun
+        uint32_t trouble = 0;  // DeviceStatus, for good
+        bool dropped = false;  // it cut its force in this tick
+        ForceDrops drops;
+        unsigned said = kHdSuccess;  // the last error that it was named in
+    };
+
+    void do_activate() override;
+    void do_deactivate() override;
+    void do_read(Time now, std::span<Reading> readings) noexcept override;
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override;
+    void do_pace(const std::function<bool()>& tick) override;
+
+    void read(Device& device, Reading& reading) noexcept;
+    void take_errors() noexcept;
+    static unsigned on_tick(void* group) noexcept;
+    bool wait_for_end();
+
+    Hd hd_;
+    std::vector<Device> devices_;
+    double tick_;  // [s]
+
+    // of pace(): the scheduler's thread is in a tick, or none, or may not begin one any more
+    enum class Turn : int { free, inside, closed };
+    const std::function<bool()>* paced_ = nullptr;
+    std::atomic<Turn> turn_{Turn::closed};
+    std::atomic<uint64_t> ticks_{0};
+    std::atomic<bool> ended_{false};
+    bool silent_ = false;
+};
+
+}  // namespace dihaptic::devices::openhaptics

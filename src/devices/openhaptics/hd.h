@@ -1,0 +1,117 @@
+// OpenHaptics' HD API (libHD), in declarations of our own: what of it is used here. Units are mm,
+// mm/s, N, mN*m and rad; axes are x right, y up, z toward the person.
+#pragma once
+
+#include "devices/library.h"
+
+namespace dihaptic::devices::openhaptics {
+
+using HdHandle = unsigned;
+constexpr HdHandle kNoHandle = 0xFFFFFFFF;
+
+/// The newest of the errors that all threads share. A stack that never empties must not hold the
+/// program up: nobody asks for more than kMostErrors at a time.
+struct HdErrorInfo {
+    unsigned code = 0;  ///< HdError
+    int internal = 0;
+    HdHandle device = 0;
+};
+
+constexpr int kMostErrors = 64;
+
+using HdCallback = unsigned (*)(void* data);
+enum HdCallbackCode : unsigned { kHdDone = 0, kHdContinue = 1 };
+constexpr unsigned short kHdHighestPriority = 65535;
+
+enum HdValue : unsigned {
+    kHdButtons = 0x2000,          // int, a bit each
+    kHdPosition = 0x2050,         // 3 doubles
+    kHdVelocity = 0x2051,         // 3 doubles
+    kHdTransform = 0x2052,        // 16 doubles, column after column
+    kHdAngularVelocity = 0x2053,  // 3 doubles
+    kHdVersion = 0x2500,          // string, as are the next
+    kHdModel = 0x2501,
+    kHdSerial = 0x2504,
+    kHdUsableWorkspace = 0x2551,   // 6 doubles: minima, maxima
+    kHdInputDof = 0x2553,          // int
+    kHdCalibrationStyle = 0x2555,  // int: HdCalibrationStyle, added
+    kHdMaxStiffness = 0x2602,      // double [N/mm]
+    kHdMaxForce = 0x2603,          // double
+    kHdMaxContinuousForce = 0x2604,
+    kHdMaxDamping = 0x2609,  // double [N*s/mm]
+    kHdForce = 0x2700,       // 3 doubles
+};
+
+enum HdCapability : unsigned { kHdForceOutput = 0x4000, kHdForceRamping = 0x4002 };
+
+enum HdCalibration : unsigned { kHdOk = 0x5000, kHdNeedsUpdate = 0x5001, kHdNeedsHand = 0x5002 };
+enum HdCalibrationStyle : unsigned { kHdEncoderReset = 1, kHdAuto = 2, kHdInkwell = 4 };
+
+enum HdError : unsigned {
+    kHdSuccess = 0,
+    kHdInvalidValue = 0x101,
+    kHdInvalidOperation = 0x102,
+    kHdBadHandle = 0x104,
+    kHdWarmMotors = 0x200,
+    kHdExceededMaxForce = 0x201,
+    kHdExceededMaxImpulse = 0x202,
+    kHdExceededMaxVelocity = 0x203,
+    kHdForceError = 0x204,
+    kHdDeviceFault = 0x300,
+    kHdAlreadyInitiated = 0x301,
+    kHdCommError = 0x302,
+    kHdCommConfigError = 0x303,
+    kHdTimerError = 0x304,
+    kHdIllegalBegin = 0x400,
+    kHdIllegalEnd = 0x401,
+    kHdFrameError = 0x402,
+    kHdInvalidPriority = 0x500,
+    kHdSchedulerFull = 0x501,
+    kHdInvalidLicence = 0x600,
+};
+
+/// What an error means for a session.
+enum class HdErrorClass {
+    none,
+    force,      ///< the device cut its force: zero, and on again
+    scheduler,  ///< the device, or the loop, is lost
+    device,     ///< anything else
+};
+HdErrorClass error_class(unsigned code);
+/// Its name, and what to do.
+struct HdErrorText {
+    std::string what;
+    std::string remedy;
+};
+HdErrorText describe_error(unsigned code);
+
+/// The library's functions.
+struct Hd {
+    HdHandle (*init_device)(const char* name) = nullptr;
+    void (*disable_device)(HdHandle) = nullptr;
+    void (*make_current)(HdHandle) = nullptr;
+    void (*begin_frame)(HdHandle) = nullptr;
+    void (*end_frame)(HdHandle) = nullptr;
+    HdErrorInfo (*get_error)() = nullptr;
+    void (*enable)(unsigned capability) = nullptr;
+    void (*disable)(unsigned capability) = nullptr;
+    unsigned char (*is_enabled)(unsigned capability) = nullptr;
+    void (*get_integers)(unsigned value, int*) = nullptr;
+    void (*get_doubles)(unsigned value, double*) = nullptr;
+    void (*set_doubles)(unsigned value, const double*) = nullptr;
+    const char* (*get_string)(unsigned value) = nullptr;
+    unsigned (*check_calibration)() = nullptr;
+    void (*update_calibration)(unsigned style) = nullptr;
+    void (*start_scheduler)() = nullptr;
+    void (*stop_scheduler)() = nullptr;
+    void (*set_scheduler_rate)(unsigned long hz) = nullptr;
+    unsigned long (*schedule)(HdCallback, void* data, unsigned short priority) = nullptr;
+    void (*unschedule)(unsigned long) = nullptr;
+
+    std::string file;  ///< that they are from
+};
+
+/// Loads it from `path`, or from where the machine has it. Throws Error.
+Hd load_hd(const std::string& path, const Place& place);
+
+}  // namespace dihaptic::devices::openhaptics

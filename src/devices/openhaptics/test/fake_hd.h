@@ -1,0 +1,76 @@
+// A libHD of our own: it behaves as OpenHaptics' manuals say, its faults included, and moves its
+// handles by a test's hand. As the real one it exists once in a program; fake_hd() finds it.
+#pragma once
+
+#include <dlfcn.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "devices/test/fake_hand.h"
+
+namespace dihaptic::devices::openhaptics {
+
+struct FakeHd {
+    struct Device {
+        std::string name;
+        std::string model = "PHANToM Premium 1.0";
+        std::string serial;
+        unsigned style = 1;             ///< of calibration: HdCalibrationStyle, added
+        unsigned calibration = 0x5000;  ///< HdCalibration
+        unsigned updated = 0x5000;      ///< what that is after an update
+        int input_dof = 3;
+        double max_force = 8.5;                                ///< [N]
+        double continuous_force = 1.4;                         ///< [N]
+        double max_stiffness = 1;                              ///< [N/mm]
+        double max_damping = 0.005;                            ///< [N*s/mm]
+        double workspace[6] = {-127, -60, -40, 127, 118, 87};  ///< minima, maxima [mm]
+        bool nonsense = false;                                 ///< its position is not a number
+
+        // what became of it
+        bool initialised = false;
+        bool late = false;  ///< initialised while the scheduler ran: takes no part
+        bool force_enabled = false;
+        bool ramping = false;
+        int resets = 0;              ///< of its encoders
+        Vec3 acting = Vec3::Zero();  ///< what pushes the hand [N]
+        int frames = 0;
+        int frames_of_force = 0;  ///< since its amplifiers came on
+    };
+    std::vector<Device> devices;
+    Hand hand;              ///< none: the handles stay where they are
+    bool real_time = true;  ///< or as fast as the machine goes
+    double ramp = 50;       ///< of force, when it comes on [N/s]
+    std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that it runs at
+    unsigned init_error = 0;                                  ///< of the next hdInitDevice()
+    bool silent = false;  ///< the scheduler calls no more callbacks
+    /// Called by the scheduler before each tick, from 0; false: it calls no more callbacks.
+    std::function<bool(int tick)> before_tick;
+    /// Called in hdBeginFrame(): may block.
+    std::function<void(size_t device)> in_frame;
+    int violations = 0;      ///< calls that the manuals forbid
+    int callbacks_left = 0;  ///< that were scheduled and neither done nor unscheduled
+
+    /// An error of a device comes onto the stack; those of force take its force away at once.
+    std::function<void(unsigned code, size_t device)> raise;
+    /// Anew, with the two devices of the rig of 2012.
+    std::function<void()> reset;
+};
+
+#ifdef DIHAPTIC_FAKE_HD
+/// The one in this program, as it is; and made anew.
+inline FakeHd& fake_hd_as_it_is() {
+    void* const library = dlopen(DIHAPTIC_FAKE_HD, RTLD_LAZY | RTLD_GLOBAL);
+    if (library == nullptr) throw std::runtime_error(dlerror());
+    return *reinterpret_cast<FakeHd* (*)()>(dlsym(library, "dihaptic_fake_hd"))();
+}
+inline FakeHd& fake_hd() {
+    FakeHd& fake = fake_hd_as_it_is();
+    fake.reset();
+    fake.real_time = false;
+    return fake;
+}
+#endif
+
+}  // namespace dihaptic::devices::openhaptics

@@ -1,0 +1,159 @@
+// Sessions on real devices: our fakes of them, in real time.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "analysis/session_report.h"
+#include "devices/forcedimension/dhd.h"
+#include "devices/openhaptics/hd.h"
+#include "devices/test/fakes.h"
+#include "experiment/replay.h"
+#include "experiment/session_run.h"
+#include "testing/files.h"
+
+namespace dihaptic::experiment {
+namespace {
+
+std::string rig_text(const std::string& backend) {
+    const bool hd = backend == "openhaptics";
+    const std::string library = hd ? DIHAPTIC_FAKE_HD : DIHAPTIC_FAKE_DHD;
+    std::string out = "devices:\n";
+    for (const int i : {1, 2}) {
+        const std::string which =
+            hd ? fmt::format("name: PHANToM {}", i) : fmt::format("serial: {}", 100 + i);
+        out += fmt::format("  - {{finger: {}, backend: {}, options: {{library: {}, {}}}}}\n",
+                           i == 1 ? "thumb" : "index", backend, library, which);
+    }
+    return out;
+}
+
+class RealDevices : public ::testing::TestWithParam<const char*> {
+  protected:
+    testing::TemporaryFolder folder;
+    Request request;
+    RealDevices() {
+        if (hd()) devices::openhaptics::fake_hd().real_time = true;
+        if (!hd()) devices::forcedimension::fake_dhd();
+        request.file = "scenes/block-on-table.yaml";
+        request.rig = folder.write("rig.yaml", rig_text(GetParam()));
+        // a busy machine is another test's
+        request.set = {"safety.max_pause_ms=1000"};
+    }
+    bool hd() const { return std::string(GetParam()) == "openhaptics"; }
+};
+INSTANTIATE_TEST_SUITE_P(Backends, RealDevices, ::testing::Values("openhaptics", "forcedimension"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST_P(RealDevices, NeedNoSimulatedHand) {
+    EXPECT_TRUE(on_real_devices(request));
+    const Plan plan = make_plan(request);
+    EXPECT_TRUE(plan.open_ended());
+    EXPECT_EQ(plan.seeing, nullptr);
+    ASSERT_EQ(plan.driver->phases().size(), 1u);
+    EXPECT_EQ(plan.driver->duration(), hand::kLongestScript);
+    request.file = "experiments/visuomotor-rotation.yaml";
+    request.participant = "S07";
+    if (hd()) request.set.emplace_back("rate_Hz=1000");
+    const Plan trials = make_plan(request);
+    EXPECT_FALSE(trials.open_ended());
+    EXPECT_EQ(trials.seeing, nullptr);
+    EXPECT_NE(trials.task, nullptr);
+}
+
+TEST_P(RealDevices, StandInsAreToldOf) {
+    request.simulate = true;
+    EXPECT_FALSE(on_real_devices(request));
+    const Plan plan = make_plan(request);
+    ASSERT_FALSE(plan.warnings.empty());
+    EXPECT_NE(plan.warnings[0].text().find("are not simulated: ideal ones stand in"),
+              std::string::npos);
+}
+
+TEST_P(RealDevices, KeepRealTimeAndNobodyMovesThemByARecording) {
+    RunOptions options;
+    options.out = folder.path();
+    const std::atomic<bool> stop{false};
+    EXPECT_THROW(run_session(make_plan(request), options, stop, {}), Error);
+    request.file = "experiments/reach-to-grasp.yaml";
+    try {
+        make_plan(request);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("moves simulated fingers, and this rig's devices are "
+                                             "real. Choose another rig"),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
+TEST_P(RealDevices, ThatRefuseToStartLeaveNoSession) {
+    const Plan plan = make_plan(request);
+    if (hd())
+        devices::openhaptics::fake_hd_as_it_is().devices[1].calibration =
+            devices::openhaptics::kHdNeedsUpdate;
+    if (!hd()) devices::forcedimension::fake_dhd_as_it_is().devices[1].calibrated = false;
+    RunOptions options;
+    options.out = folder.path() + "/sessions";
+    options.clock = Clock::real;
+    const std::atomic<bool> stop{false};
+    try {
+        run_session(plan, options, stop, {});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("needs calibration"), std::string::npos) << e.what();
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(options.out));
+}
+
+TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
+    // the thumb pushes into the block from the left, the index waits; the thumb's device cuts its
+    // force once, and later the index's is lost
+    constexpr int kDrop = 300;
+    constexpr int kLost = 600;
+    devices::openhaptics::FakeHd* const fake_hd =
+        hd() ? &devices::openhaptics::fake_hd_as_it_is() : nullptr;
+    devices::forcedimension::FakeDhd* const fake_dhd =
+        hd() ? nullptr : &devices::forcedimension::fake_dhd_as_it_is();
+    const devices::Hand hand = [](size_t i, double t, const Vec3&) {
+        const double x = i == 0 ? -0.03 + std::min(0.015, 0.05 * t) : 0.06;
+        return devices::Held{{x, 0, 0.02}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()};
+    };
+    if (fake_hd != nullptr) fake_hd->hand = hand;
+    if (fake_dhd != nullptr) fake_dhd->hand = hand;
+    auto ticks = std::make_shared<int>(0);
+    const auto happen = [=](size_t device) {
+        if (device != 0) return;
+        const int tick = ++*ticks;
+        if (tick == kDrop && fake_hd != nullptr)
+            fake_hd->raise(devices::openhaptics::kHdExceededMaxForce, 0);
+        if (tick == kDrop && fake_dhd != nullptr)
+            fake_dhd->cut(0, devices::forcedimension::kDhdByVelocity);
+        if (tick == kLost && fake_hd != nullptr)
+            fake_hd->raise(devices::openhaptics::kHdCommError, 1);
+        if (tick == kLost && fake_dhd != nullptr) fake_dhd->devices[1].silent = true;
+    };
+    if (fake_hd != nullptr) fake_hd->in_frame = happen;
+    if (fake_dhd != nullptr) fake_dhd->in_position = happen;
+
+    const Plan plan = make_plan(request);
+    *ticks = 0;
+    RunOptions options;
+    options.out = folder.path();
+    options.clock = Clock::real;
+    const std::atomic<bool> stop{false};
+    const RunResult result = run_session(plan, options, stop, {});
+    EXPECT_NE(result.fault.find("the index's device ("), std::string::npos) << result.fault;
+    EXPECT_NE(result.fault.find("does not answer"), std::string::npos) << result.fault;
+    EXPECT_NE(result.fault.find("Its driver says: "), std::string::npos) << result.fault;
+    EXPECT_EQ(result.info.clock, "real");
+    const analysis::SessionFigures figures =
+        analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    EXPECT_GE(figures.ticks_with(servo::kForceDropped), 1);
+    EXPECT_GE(figures.ticks_with(servo::kNotAnswering), 1);
+    const ReplayResult replay = replay_session(result.folder, stop, {});
+    EXPECT_GT(replay.ticks, kLost);
+    EXPECT_EQ(replay.different_ticks, 0);
+}
+
+}  // namespace
+}  // namespace dihaptic::experiment
