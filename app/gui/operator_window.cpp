@@ -57,6 +57,7 @@ OperatorWindow::OperatorWindow(QString out)
     connect(session_, &SessionPanel::pause_requested, this, [this](bool paused) {
         if (!runner_.running()) return;
         runner_.set_paused(paused);
+        complaint_.clear();
         log(paused ? "paused: force is off" : "goes on");
         update_state();
     });
@@ -360,6 +361,7 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     scene_->set_hand(nullptr);
     scene_->set_help("");
     message_ = -1;
+    complaint_.clear();
     session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
     if (!end.folder.isEmpty()) log("recorded in " + end.folder);
@@ -370,6 +372,11 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
 void OperatorWindow::refresh() {
     const double h = static_cast<double>(since_refresh_.restart()) * 1e-3;
     if (!runner_.running()) return;
+    if (const QString told = runner_.take_told(); !told.isEmpty()) {
+        complaint_ = told;
+        log(told, true);
+        update_state();
+    }
     while (const auto sample = runner_.take_sample()) plots_->add(*sample);
     const servo::Frame& frame = runner_.frame();
     if (frame.sequence >= 0) {
@@ -466,7 +473,9 @@ SessionPanel::State OperatorWindow::state() const {
 }
 
 QString OperatorWindow::banner() const {
-    if (runner_.running()) return runner_.paused() ? "Paused: press F6 to go on" : message();
+    if (runner_.running() && !runner_.paused()) return message();
+    if (runner_.running())
+        return complaint_ + (complaint_.isEmpty() ? "" : "\n") + "Paused: press F6 to go on";
     if (loader_.loading()) return "Opening " + file_ + " ...";
     if (!complaint_.isEmpty()) return complaint_;
     return plan_ ? "Press F5 to start" : "Open a scene or an experiment: Ctrl+O";

@@ -37,6 +37,8 @@ class SessionRunner : public QObject {
     const servo::Frame& frame() { return session_->live.frame.read(); }
     std::optional<experiment::CurveSample> take_sample() { return session_->live.take_sample(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
+    /// Why the session has just paused by itself; "": it has not.
+    QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
     void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
     void set_friction_scale(double scale) { session_->live.friction_scale.publish(scale); }

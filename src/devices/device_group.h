@@ -173,6 +173,9 @@ struct Survey {
     std::string missing;  ///< what keeps the backend from working, and what mends it; "" if nothing
 };
 
+/// What is wrong and what mends it, without a place in a file: for Survey::missing.
+std::string in_words(const Error& error);
+
 /// An entry of the device table, one for each subfolder of this room.
 struct Backend {
     const char* name;

@@ -78,6 +78,17 @@ std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) 
     return next;
 }
 
+void Live::tell(const std::string& why) {
+    const std::lock_guard lock(told_guard_);
+    told_ = why;
+    paused = true;
+}
+
+std::string Live::take_told() {
+    const std::lock_guard lock(told_guard_);
+    return std::exchange(told_, "");
+}
+
 std::optional<CurveSample> Live::take_sample() {
     if (!samples_.pop(taken_)) return std::nullopt;
     CurveSample sample;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -68,6 +69,12 @@ struct Live {
     /// The oldest sample that was not taken yet.
     std::optional<CurveSample> take_sample();
 
+    /// From the session's thread: why it paused by itself, and what to do. `paused` is set then;
+    /// whoever takes it back lets the session go on.
+    void tell(const std::string& why);
+    /// What was told since the last call; "": nothing.
+    std::string take_told();
+
     using Clock = std::chrono::steady_clock;
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
@@ -76,6 +83,9 @@ struct Live {
 
   private:
     void note_zero(Time now) noexcept;
+
+    std::mutex told_guard_;
+    std::string told_;
 
     std::atomic<Clock::rep> zero_{std::numeric_limits<Clock::rep>::max()};  // of session time
     Ring showings_{65536};                                                  // a minute

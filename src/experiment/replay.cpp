@@ -112,7 +112,6 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
                                          servo::Commands& commands) {
         commands.force_off = (recorded->status & servo::kStopped) != 0;
-        commands.resume = (recorded->status & servo::kResumed) != 0;
         commands.tuning = {
             static_cast<haptics::CouplingKind>(recorded->coupling), recorded->stiffness,
             std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
@@ -127,6 +126,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
+        if (recorded->status & servo::kResumed) servo.resume();
         if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)
             result.first_difference = seconds(recorded->time);
         ++result.ticks;

@@ -233,6 +233,22 @@ class Watcher {
     std::thread thread_;
 };
 
+/// Waits in a pause, and wakes the servo after it: when its devices cannot be, says why and waits
+/// again. False: the session ends.
+bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
+    while (true) {
+        while (live.paused && !stop && !live.ended)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (stop || live.ended) return false;
+        try {
+            servo.resume();
+            return true;
+        } catch (const Error& e) {
+            live.tell(e.what());
+        }
+    }
+}
+
 }  // namespace
 
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
@@ -316,7 +332,6 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     std::atomic<int64_t> reached{0};
     Live* const live = options.live;
     if (live != nullptr) live->prepare(*servo, plan.scene);
-    bool resumed = false;
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
         recorder.record(frame);
         if (outward) outward->send(frame);
@@ -331,7 +346,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const servo::Director director = [&](const servo::Frame& last,
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
-        if (task) {
+        if (task && servo->fault()) {
+            // without force there are no trials: this one is over
+            commands.trial = last.trial;
+            commands.phase = last.phase;
+            commands.task.attempt = last.task.attempt;
+        } else if (task) {
             if (options.keys != nullptr) task->press(options.keys->exchange(0));
             if (const char key = plan.seeing ? plan.seeing->take_key() : '\0'; key != 0)
                 task->press(key);
@@ -359,7 +379,6 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             live->done.store(task->share(), std::memory_order_relaxed);
         }
         commands.workspace_rate = live->turn(last, plan.settings.tick());
-        commands.resume = std::exchange(resumed, false);
     };
     const auto stuck = [&](const servo::Timing::Stall& stall) {
         if (!options.stuck) return;
@@ -367,6 +386,18 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             fmt::format("{}. The call has not returned since, so the session ends here. Switch the "
                         "devices off and on; dihaptic recover {} makes the session's files.",
                         servo::describe(stall), folder.path()));
+    };
+    const auto describe_fault = [&] {
+        const haptics::Fault& fault = servo->fault();
+        const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
+        std::string out =
+            haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
+        if (const std::string said = servo->devices().explain(static_cast<int>(device));
+            fault.device >= 0 && !said.empty())
+            out += " Its driver says: " + said;
+        if (fault.kind != haptics::FaultKind::stopped)
+            out += " The second before it is in fault.csv.";
+        return out;
     };
     const auto share = [&] {
         return task ? task->share()
@@ -387,14 +418,20 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             const std::atomic<bool> never{false};  // the director stops it, by a fault
             const std::atomic<bool>& paused = live != nullptr ? live->paused : never;
             Time first{0};
-            do {
+            while (true) {
                 servo::run_real(*servo, director, sink, first, whole, paused, result.timing, stuck);
                 servo->rest();
-                while (paused && !stop && !live->ended)
-                    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                if (live == nullptr) break;
+                if (servo->fault()) {
+                    info.notes.push_back(describe_fault());
+                    if (task) task->interrupt();
+                    live->tell(info.notes.back());
+                } else if (servo->stopped()) {
+                    break;
+                }
                 first = result.timing.reached + servo->period();
-                resumed = true;
-            } while (!servo->stopped() && !stop && !ended() && first <= whole);
+                if (first > whole || !wait_to_go_on(*servo, *live, stop)) break;
+            }
         } else {
             servo::run_virtual(*servo, director, sink, whole, stop, &result.timing.ticks);
         }
@@ -412,16 +449,11 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const bool unfinished = task ? task->share() < 1 : !plan.open_ended();
     result.interrupted = stop.load() || (ended() && unfinished);
     if (plan.open_ended()) info.phases.back().end = result.simulated;
-    if (const haptics::Fault& fault = servo->fault()) {
-        const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
-        result.fault =
-            haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
-        if (const std::string said = servo->devices().explain(static_cast<int>(device));
-            fault.device >= 0 && !said.empty())
-            result.fault += " Its driver says: " + said;
-        if (fault.kind != haptics::FaultKind::stopped)
-            result.fault += " The second before it is in fault.csv.";
-        info.notes.push_back(result.fault);
+    if (servo->fault()) {
+        result.fault = describe_fault();
+        // a session that waited for a remedy has told of it
+        if (info.notes.empty() || info.notes.back() != result.fault)
+            info.notes.push_back(result.fault);
     }
     if (wait.over) {
         result.interrupted = true;

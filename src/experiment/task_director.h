@@ -26,6 +26,11 @@ class TaskDirector {
     static constexpr int kAnyTrigger = -1;  ///< whatever is waited for
     /// The trial ends in the next tick, as skipped, and is not done again; from any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
+    /// Between two ticks: the trial that runs, if one does, begins anew.
+    void interrupt() noexcept {
+        if (!queue_.empty() && state_ >= 0) queue_.again();
+        state_ = -1;
+    }
     /// Share of the trials that are done, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 

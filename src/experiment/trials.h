@@ -52,6 +52,9 @@ class TrialQueue {
     /// often enough.
     void finish(bool redo) noexcept;
 
+    /// The trial begins anew: something that is none of its business interrupted it.
+    void again() noexcept { ++attempts_[static_cast<size_t>(trial())]; }
+
     int done() const { return static_cast<int>(at_); }
     int all() const { return static_cast<int>(queue_.size()); }
 

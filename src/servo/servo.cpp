@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dihaptic::servo {
 namespace {
@@ -30,6 +31,8 @@ uint32_t fault_status(haptics::FaultKind kind) {
     }
     return 0;
 }
+
+constexpr double kElsewhere = 5e-3;  // of a handle after a pause [m]
 
 /// What a device says is wrong with it.
 haptics::FaultKind reported_by(const devices::Reading& reading) {
@@ -182,6 +185,23 @@ void Servo::rest() noexcept {
     devices_->write(sent_D_);
 }
 
+void Servo::resume() {
+    if (faults_.tripped()) {
+        devices_->deactivate();
+        active_ = false;
+        devices_->activate();
+        active_ = true;
+        faults_ = {};
+    }
+    for (size_t i = 0; i < guards_.size(); ++i) {
+        guards_[i] = haptics::HandleGuard(settings_.safety.max_speed *
+                                          devices_->info(static_cast<int>(i)).scale);
+    }
+    soft_start_.restart();
+    stopped_ = false;
+    resumed_ = true;
+}
+
 void Servo::deactivate() {
     if (!active_) return;
     rest();
@@ -206,7 +226,6 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.task.clear();
     commands_.stop = false;
     commands_.force_off = false;
-    commands_.resume = false;
     commands_.tuning.reset();
     commands_.proxy.reset();
     commands_.friction_scale.reset();
@@ -224,7 +243,6 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
             finger.set_friction_scale(*commands_.friction_scale);
     }
     turn_workspaces(commands_.workspace_rate);
-    if (commands_.resume) soft_start_.restart();
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
 
     order_bodies();
@@ -276,7 +294,10 @@ void Servo::measure(Time now) noexcept {
         device_faults_[i] = fault_status(fault.kind);
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
-        if (frame_.sequence < 0) fingers_[i].place(world_, handles_[i]);
+        // a hand that moved in a pause does not throw about what lies between
+        const bool elsewhere =
+            resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
+        if (frame_.sequence < 0 || elsewhere) fingers_[i].place(world_, handles_[i]);
     }
     // last: a device that says what is wrong with it says more than the pause that it made
     if (late)
@@ -374,7 +395,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.task = commands.task;
     frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
     if (overrun_) frame_.status |= kOverrun;
-    if (commands.resume) frame_.status |= kResumed;
+    if (std::exchange(resumed_, false)) frame_.status |= kResumed;
     if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
     if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
     if (faults_.tripped()) frame_.status |= kForceOff;

@@ -29,7 +29,6 @@ struct Commands {
     int32_t phase = 0;
     bool stop = false;                       ///< this tick is the last
     bool force_off = false;                  ///< from this tick on, for good: the operator's wish
-    bool resume = false;                     ///< the first tick after rest()
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
     /// What fingers are that may change, and that the scene gives no proxy of their own, from this
@@ -63,6 +62,10 @@ class Servo {
     /// Zero force between two ticks, for a pause; time goes on where it was, and force comes on
     /// softly.
     void rest() noexcept;
+    /// After rest(), before the next tick: hands may be elsewhere by now, and force comes on
+    /// softly. After a fault the devices are activated anew, and it is forgotten. Throws Error when
+    /// they cannot be.
+    void resume();
     /// Memory for every Frame that this servo makes; only copies into it allocate nothing.
     void reserve(Frame& frame) const;
 
@@ -146,6 +149,7 @@ class Servo {
     double lateness_ = kUnmeasured;
     double last_tick_ = kUnmeasured;
     bool overrun_ = false;
+    bool resumed_ = false;  // the next tick is the first after resume()
     bool active_ = false;
     bool stopped_ = false;
 };

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "devices/library.h"
+#include "base/library.h"
 
 namespace dihaptic::devices::forcedimension {
 

@@ -2,7 +2,7 @@
 // mm/s, N, mN*m and rad; axes are x right, y up, z toward the person.
 #pragma once
 
-#include "devices/library.h"
+#include "base/library.h"
 
 namespace dihaptic::devices::openhaptics {
 

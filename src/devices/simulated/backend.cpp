@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <utility>
 
 #include "devices/simulated/plant.h"
 
@@ -111,11 +112,14 @@ class SimulatedGroup final : public DeviceGroup {
 
   private:
     void do_activate() override {
-        for (Device& device : devices_) device.plant.reset();
+        begins_ = true;
         stopped_.store(false);
     }
     void do_deactivate() override {}
     void do_read(Time now, std::span<Reading> readings) noexcept override {
+        if (std::exchange(begins_, false)) {
+            for (Device& device : devices_) device.plant.begin(now);
+        }
         for (size_t i = 0; i < devices_.size(); ++i) {
             Device& device = devices_[i];
             if (stopped_.load(std::memory_order_relaxed)) device.plant.release();
@@ -162,6 +166,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
+    bool begins_ = true;  // with the next reading: whenever that is, after a fault
 };
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {

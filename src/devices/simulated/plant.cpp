@@ -69,10 +69,10 @@ bool Plant::holds(const Options& options, const hand::Impedance& impedance) {
     return turns && k * h * h + 2 * impedance.damping * h < 4 * mass;
 }
 
-void Plant::reset() {
-    time_ = Time(0);
-    hand::FingerTarget target = driver_.target(index_, 0);
-    tremor_.add(target, 0);
+void Plant::begin(Time now) noexcept {
+    time_ = now;
+    hand::FingerTarget target = driver_.target(index_, seconds(now));
+    tremor_.add(target, seconds(now));
     p_ = target.p_WT;
     v_.setZero();
     R_ = target.R_WT;

@@ -31,8 +31,8 @@ class Plant {
     /// for a + 2 b < 4. k is the stiffness at the device's peak force. The same for turning.
     static bool holds(const Options& options, const hand::Impedance& impedance);
 
-    /// Puts the endpoint at the finger's target, at rest.
-    void reset();
+    /// Puts the endpoint at the finger's target of that time, at rest.
+    void begin(Time now) noexcept;
     /// Moves on to `now`.
     void advance(Time now) noexcept;
     /// What to hold from now on, in world axes; true when it had to be clamped.

@@ -22,7 +22,7 @@ inline Hand plant_hand(const std::vector<simulated::Options>& options,
         devices->push_back({simulated::Plant(options[i], context.impedance, context.tremor,
                                              context.seed, static_cast<int>(i), *context.driver),
                             simulated::Encoder(options[i]), X_WD[i]});
-        devices->back().plant.reset();
+        devices->back().plant.begin(Time(0));
     }
     return [devices](size_t i, double t, const Vec3& force) {
         Device& device = (*devices)[i];

@@ -179,6 +179,45 @@ TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
     EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
 }
 
+TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
+    Files files;
+    files.replace("hand: { centre_mm: [0, 0, 120] }",
+                  "hand: { centre_mm: [0, 0, 120] }\nsettings: { safety: { max_speed_m_s: 0.2 } }");
+    // a reach of 50 mm in 0.2 s is faster than that; in 0.8 s it is not
+    Desk desk(files.request());
+    std::string told;
+    for (int i = 0; i < 10000 && told.empty(); ++i) {
+        told = desk.live.take_told();
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_NE(told.find("moved at"), std::string::npos) << told;
+    EXPECT_TRUE(desk.live.paused);
+    const double at = desk.now();
+    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_EQ(desk.now(), at);  // it waits
+    desk.live.paused = false;
+    desk.at(at + 0.3);
+    desk.end();
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    int resumed = 0;
+    bool off = false;
+    int attempt = 0;
+    for (const servo::Frame& frame : frames) {
+        if ((frame.status & servo::kResumed) == 0) {
+            off = off || (frame.status & servo::kForceOff) != 0;
+            continue;
+        }
+        ++resumed;
+        EXPECT_TRUE(off);
+        EXPECT_EQ(frame.status & servo::kForceOff, 0u);
+        EXPECT_EQ(frame.trial, 1);
+        attempt = frame.task.attempt;
+    }
+    EXPECT_EQ(resumed, 1);
+    EXPECT_EQ(attempt, 2);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
 TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
     Files files;
     Desk desk(files.request());

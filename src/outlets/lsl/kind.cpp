@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/shared_library.h"
+#include "base/library.h"
 
 namespace dihaptic::outlets::lsl {
 namespace {
@@ -25,8 +25,8 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
 }
 
 /// The part of liblsl's C interface that is needed; pointers are opaque there too.
-struct Library {
-    SharedLibrary file;
+struct Interface {
+    Library file;
     void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
                                int format, const char* source) = nullptr;
     void (*destroy_streaminfo)(void* info) = nullptr;
@@ -39,20 +39,24 @@ struct Library {
     int32_t (*push_sample_strt)(void* outlet, const char** values, double time) = nullptr;
     double (*local_clock)() = nullptr;
 
-    explicit Library(const std::vector<std::string>& names)
-        : file(names,
-               "Install liblsl, from github.com/sccn/liblsl/releases, or name its file: options: "
-               "{ library: /usr/lib/liblsl.so }.") {
-        file.find(create_streaminfo, "lsl_create_streaminfo");
-        file.find(destroy_streaminfo, "lsl_destroy_streaminfo");
-        file.find(get_desc, "lsl_get_desc");
-        file.find(append_child, "lsl_append_child");
-        file.find(append_child_value, "lsl_append_child_value");
-        file.find(create_outlet, "lsl_create_outlet");
-        file.find(destroy_outlet, "lsl_destroy_outlet");
-        file.find(push_sample_ft, "lsl_push_sample_ft");
-        file.find(push_sample_strt, "lsl_push_sample_strt");
-        file.find(local_clock, "lsl_local_clock");
+    Interface(const std::string& path, const Place& place)
+        : file({"liblsl",
+                {"liblsl.so.2", "liblsl.so"},
+                false,
+                "Install it from github.com/sccn/liblsl/releases, or name its file: options: "
+                "{ library: /usr/lib/liblsl.so }.",
+                {}},
+               path, place) {
+        file.find("lsl_create_streaminfo", create_streaminfo);
+        file.find("lsl_destroy_streaminfo", destroy_streaminfo);
+        file.find("lsl_get_desc", get_desc);
+        file.find("lsl_append_child", append_child);
+        file.find("lsl_append_child_value", append_child_value);
+        file.find("lsl_create_outlet", create_outlet);
+        file.find("lsl_destroy_outlet", destroy_outlet);
+        file.find("lsl_push_sample_ft", push_sample_ft);
+        file.find("lsl_push_sample_strt", push_sample_strt);
+        file.find("lsl_local_clock", local_clock);
     }
 };
 
@@ -62,9 +66,8 @@ constexpr int32_t kBuffer = 360;  // [s] that a reader may be away, liblsl's def
 
 class Lsl final : public Outlet {
   public:
-    Lsl(const Options& options, const About& about)
-        : library_(options.library.empty() ? std::vector<std::string>{"liblsl.so.2", "liblsl.so"}
-                                           : std::vector<std::string>{options.library}) {
+    Lsl(const Options& options, const About& about, const Place& place)
+        : library_(options.library, place) {
         // Both clocks are monotonic, and may have another zero.
         const auto now = Clock::now().time_since_epoch();
         offset_ = library_.local_clock() - std::chrono::duration<double>(now).count();
@@ -112,7 +115,7 @@ class Lsl final : public Outlet {
         return outlet;
     }
 
-    Library library_;
+    Interface library_;
     double offset_ = 0;
     void* markers_ = nullptr;
     void* handles_ = nullptr;
@@ -126,7 +129,7 @@ std::unique_ptr<Outlet> make(const OutletConfig& config, const About& about) {
     Diagnostics diagnostics;
     const Options options = read_options(config, diagnostics);
     diagnostics.throw_if_errors();
-    return std::make_unique<Lsl>(options, about);
+    return std::make_unique<Lsl>(options, about, config.place);
 }
 
 }  // namespace

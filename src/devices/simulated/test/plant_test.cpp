@@ -28,7 +28,7 @@ class StepDriver final : public hand::Driver {
 
 Plant plant(const Options& options, const hand::Impedance& impedance, const hand::Driver& driver) {
     Plant out(options, impedance, {}, 1, 0, driver);
-    out.reset();
+    out.begin(Time(0));
     return out;
 }
 

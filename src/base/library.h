@@ -1,5 +1,5 @@
-// A maker's shared library, loaded when a rig asks for it: the program runs without, and says what
-// is missing, where it was sought and what mends it.
+// A library of somebody else's, loaded when a rig asks for it: the program runs without, and says
+// what is missing, where it was sought and what mends it.
 #pragma once
 
 #include <string>
@@ -7,10 +7,7 @@
 
 #include "base/diagnostics.h"
 
-namespace dihaptic::devices {
-
-/// What is wrong and what mends it, without a place in a file: for surveys.
-std::string in_words(const Error& error);
+namespace dihaptic {
 
 class Library {
   public:
@@ -50,4 +47,4 @@ class Library {
     std::string file_;
 };
 
-}  // namespace dihaptic::devices
+}  // namespace dihaptic

@@ -1,16 +1,11 @@
-#include "devices/library.h"
+#include "base/library.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <link.h>
 
-namespace dihaptic::devices {
-
-std::string in_words(const Error& error) {
-    const Problem& first = error.problems().front();
-    return first.what + ". " + first.remedy;
-}
+namespace dihaptic {
 
 Library::Library(Spec spec, const std::string& path, Place place)
     : spec_(std::move(spec)), place_(std::move(place)) {
@@ -44,4 +39,4 @@ void* Library::address(const char* symbol) const {
                 "It is of a version that this program does not know. " + spec_.remedy);
 }
 
-}  // namespace dihaptic::devices
+}  // namespace dihaptic

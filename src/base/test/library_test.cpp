@@ -1,12 +1,12 @@
 // What is said when a maker's library cannot be used.
-#include "devices/library.h"
+#include "base/library.h"
 
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
 #include "base/text_file.h"
 
-namespace dihaptic::devices {
+namespace dihaptic {
 namespace {
 
 Library::Spec spec() {
@@ -51,13 +51,14 @@ TEST(Library, OfAnotherKindIsToldAsTheLoaderSaysIt) {
 }
 
 TEST(Library, OfAnotherVersionIsToldWithTheSymbolThatItLacks) {
-    const Library library(spec(), DIHAPTIC_FAKE_DHD, {});
-    EXPECT_EQ(library.file(), DIHAPTIC_FAKE_DHD);
-    int (*count)() = nullptr;
-    library.find("dhdGetDeviceCount", count);
-    EXPECT_NE(count, nullptr);
+    const Library library(spec(), "libm.so.6", {});
+    EXPECT_TRUE(library.file().ends_with("/libm.so.6")) << library.file();
+    double (*cosine)(double) = nullptr;
+    library.find("cos", cosine);
+    ASSERT_NE(cosine, nullptr);
+    EXPECT_EQ(cosine(0), 1);
     try {
-        library.find("acmeGetDeviceCount", count);
+        library.find("acmeGetDeviceCount", cosine);
         FAIL();
     } catch (const Error& e) {
         const std::string told = e.what();
@@ -68,4 +69,4 @@ TEST(Library, OfAnotherVersionIsToldWithTheSymbolThatItLacks) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices
+}  // namespace dihaptic
