@@ -67,9 +67,9 @@ class HandleGuard {
     /// Largest plausible speed of a hand [m/s].
     explicit HandleGuard(double max_speed) : max_speed_(max_speed) {}
 
-    /// The handle to work with. `read` is as measured, `reported` what the device says is wrong with
-    /// it, `elapsed` the time since the last call [s]; when the reading cannot be used, `fault` gets
-    /// why.
+    /// The handle to work with. `read` is as measured, `reported` what the device says is wrong
+    /// with it, `elapsed` the time since the last call [s]; when the reading cannot be used,
+    /// `fault` gets why.
     Handle accept(const Handle& read, FaultKind reported, double elapsed, Fault& fault) noexcept;
 
   private:

@@ -112,12 +112,14 @@ class SimulatedGroup final : public DeviceGroup {
 
   private:
     void do_activate() override {
+        for (Device& device : devices_) device.plant.begin(Time(0));
         begins_ = true;
         stopped_.store(false);
     }
     void do_deactivate() override {}
     void do_read(Time now, std::span<Reading> readings) noexcept override {
-        if (std::exchange(begins_, false)) {
+        // activated anew after a fault, at whatever time that was
+        if (std::exchange(begins_, false) && now > std::chrono::seconds(1)) {
             for (Device& device : devices_) device.plant.begin(now);
         }
         for (size_t i = 0; i < devices_.size(); ++i) {
@@ -166,7 +168,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = true;  // with the next reading: whenever that is, after a fault
+    bool begins_ = false;  // with the next reading
 };
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {

@@ -157,8 +157,7 @@ TEST(Lsl, ALibraryThatIsAnotherOneIsRefused) {
         Station station({config("lsl", "{ library: libm.so.6 }")}, {});
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("has no lsl_create_streaminfo"),
-                  std::string::npos)
+        EXPECT_NE(std::string(e.what()).find("has no lsl_create_streaminfo"), std::string::npos)
             << e.what();
     }
 }
