@@ -58,7 +58,7 @@ std::vector<Row> population(Objects objects) {
         {"fast_retention", &Traits::fast_retention, Law::logit, 0.62, 0.2},
         {"fast_learning", &Traits::fast_learning, Law::logit, 0.26, 0.4},
         {"slow_retention", &Traits::slow_retention, Law::forgetting, 0.999, 0.7},
-        {"slow_learning", &Traits::slow_learning, Law::log_normal, 0.029, 0.2},
+        {"slow_learning", &Traits::slow_learning, Law::log_normal, 0.031, 0.2},
         // 30 to 40 degrees: textbook
         {"generalisation", &Traits::generalisation, Law::log_normal, 35 * kDegree, 0.1},
 
