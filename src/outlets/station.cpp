@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace dihaptic::outlets {
@@ -40,7 +41,8 @@ void Station::send(int code, std::span<const float> values) noexcept {
     const Head head{Clock::now().time_since_epoch().count(), code};
     const size_t count = samples_ ? std::min(values.size(), channels_) : 0;
     std::memcpy(sent_.data(), &head, sizeof head);
-    std::memcpy(sent_.data() + sizeof head, values.data(), count * sizeof(float));
+    const auto raw = std::as_bytes(values.first(count));
+    std::copy(raw.begin(), raw.end(), sent_.begin() + sizeof head);
     const std::span<const std::byte> bytes(sent_.data(), sizeof head + count * sizeof(float));
     if (!ring_.push(bytes)) lost_.fetch_add(1, std::memory_order_relaxed);
     if (code != 0) marked_.release();
@@ -67,7 +69,8 @@ void Station::drain() {
         std::memcpy(&head, received_.data(), sizeof head);
         const Clock::time_point at{Clock::duration(head.at)};
         values.resize((received_.size() - sizeof head) / sizeof(float));
-        std::memcpy(values.data(), received_.data() + sizeof head, values.size() * sizeof(float));
+        std::copy(received_.begin() + sizeof head, received_.end(),
+                  std::as_writable_bytes(std::span(values)).begin());
         for (Line& line : lines_) {
             call(line, [&](Outlet& outlet) {
                 if (head.code != 0) outlet.mark(head.code, at);
