@@ -211,8 +211,8 @@ void print_result(const rig::Rig& rig, const rig::CalibrationResult& result) {
 void calibrate(const Options& options) {
     Diagnostics diagnostics;
     const rig::Rig rig = rig::read_rig_to_calibrate(options.rig, diagnostics);
-    print(diagnostics.problems());
     diagnostics.throw_if_errors();
+    print(diagnostics.problems());
     rig::CalibrationInput input;
     if (rig.devices.front().backend == "simulated") {
         ProgressLine line("calibrate");

@@ -120,6 +120,14 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
+/// What a person's process had to say. A disk that is full takes no messages either.
+std::string messages_of(const Options& options, const std::string& id) {
+    const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
+    if (!messages.empty() || stop_requested) return messages;
+    return fmt::format("It left no message: look whether the disk is full (df -h {}).",
+                       options.out);
+}
+
 void rehearse(Options& options) {
     const Shard shard = parse_shard(options.shard);
     options.request.simulate = true;
@@ -169,10 +177,8 @@ void rehearse(Options& options) {
             const auto ended = running.find(child);
             if (ended == running.end()) continue;
             if (status != 0) {
-                const std::string messages =
-                    read_text_file(unfinished(options, ended->second) + "/messages.txt");
-                failed.push_back(
-                    fmt::format("{}: {}. {}", ended->second, what_became(status), messages));
+                failed.push_back(fmt::format("{}: {}. {}", ended->second, what_became(status),
+                                             messages_of(options, ended->second)));
             } else {
                 ++done;
             }

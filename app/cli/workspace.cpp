@@ -11,8 +11,8 @@ namespace {
 void show_workspace(const std::string& file, const std::string& out) {
     Diagnostics diagnostics;
     const rig::Rig rig = rig::read_rig(file, diagnostics);
-    print(diagnostics.problems());
     diagnostics.throw_if_errors();
+    print(diagnostics.problems());
     const std::vector<rig::Reach> reaches = rig::reaches(rig);
     rig::Workspace found;
     {

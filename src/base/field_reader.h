@@ -143,4 +143,11 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
     reader.finish();
 }
 
+/// The same of a mapping that may be left out: then everything keeps its default.
+template <class Struct>
+void read_given_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
+                       Origins* origins = nullptr) {
+    if (mapping.kind != Node::Kind::null) read_fields(value, mapping, diagnostics, origins);
+}
+
 }  // namespace dihaptic

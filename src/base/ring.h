@@ -7,7 +7,10 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 namespace dihaptic {
 
@@ -67,6 +70,33 @@ class Ring {
     uint64_t mask_ = 0;
     alignas(64) std::atomic<uint64_t> head_{0};
     alignas(64) std::atomic<uint64_t> tail_{0};
+};
+
+/// The same of values of one type.
+template <class Value>
+class ValueRing {
+    static_assert(std::is_trivially_copyable_v<Value>);
+
+  public:
+    /// Holds at least `count` values.
+    explicit ValueRing(size_t count) : ring_(count * (sizeof(Value) + sizeof(uint32_t))) {}
+
+    /// Producer: false when it is full. Does not allocate or wait.
+    bool push(const Value& value) noexcept {
+        return ring_.push(std::as_bytes(std::span(&value, 1)));
+    }
+
+    /// Consumer: the oldest value; nothing when the ring is empty.
+    std::optional<Value> pop() {
+        if (!ring_.pop(taken_)) return std::nullopt;
+        Value value;
+        std::memcpy(&value, taken_.data(), sizeof value);
+        return value;
+    }
+
+  private:
+    Ring ring_;
+    std::vector<std::byte> taken_;
 };
 
 }  // namespace dihaptic

@@ -1,7 +1,5 @@
 #include "experiment/live.h"
 
-#include <cstring>
-
 namespace dihaptic::experiment {
 
 void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
@@ -29,15 +27,7 @@ void Live::note_zero(Time now) noexcept {
 void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
     const Clock::rep zero = zero_.load(std::memory_order_relaxed);
     const Time since = at.time_since_epoch() - Clock::duration(zero);
-    const recording::Showing showing{tick, seconds(since)};
-    showings_.push(std::as_bytes(std::span(&showing, 1)));
-}
-
-std::optional<recording::Showing> Live::take_showing() {
-    if (!showings_.pop(showing_)) return std::nullopt;
-    recording::Showing showing;
-    std::memcpy(&showing, showing_.data(), sizeof showing);
-    return showing;
+    showings_.push({tick, seconds(since)});
 }
 
 void Live::show(const servo::Frame& now) noexcept {
@@ -57,7 +47,7 @@ void Live::show(const servo::Frame& now) noexcept {
         sample.heights[i] = now.fingers[i].p_WH.z();
     }
     if (object_ >= 0) sample.object_height = now.bodies[static_cast<size_t>(object_)].X_WB.p.z();
-    samples_.push(std::as_bytes(std::span(&sample, 1)));
+    samples_.push(sample);
 }
 
 std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) noexcept {
@@ -87,13 +77,6 @@ void Live::tell(const std::string& why) {
 std::string Live::take_told() {
     const std::lock_guard lock(told_guard_);
     return std::exchange(told_, "");
-}
-
-std::optional<CurveSample> Live::take_sample() {
-    if (!samples_.pop(taken_)) return std::nullopt;
-    CurveSample sample;
-    std::memcpy(&sample, taken_.data(), sizeof sample);
-    return sample;
 }
 
 }  // namespace dihaptic::experiment

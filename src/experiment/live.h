@@ -67,7 +67,7 @@ struct Live {
                                                  last.workspace_turn + h * last.workspace_rate);
     }
     /// The oldest sample that was not taken yet.
-    std::optional<CurveSample> take_sample();
+    std::optional<CurveSample> take_sample() { return samples_.pop(); }
 
     /// From the session's thread: why it paused by itself, and what to do. `paused` is set then;
     /// whoever takes it back lets the session go on.
@@ -79,7 +79,7 @@ struct Live {
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
     /// From one other thread: the oldest showing that was not taken yet.
-    std::optional<recording::Showing> take_showing();
+    std::optional<recording::Showing> take_showing() { return showings_.pop(); }
 
   private:
     void note_zero(Time now) noexcept;
@@ -88,10 +88,8 @@ struct Live {
     std::string told_;
 
     std::atomic<Clock::rep> zero_{std::numeric_limits<Clock::rep>::max()};  // of session time
-    Ring showings_{65536};                                                  // a minute
-    std::vector<std::byte> showing_;
-    Ring samples_{65536};  // several seconds: a window that hangs longer has a gap in its curves
-    std::vector<std::byte> taken_;
+    ValueRing<recording::Showing> showings_{4000};                          // a minute
+    ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
     int object_ = -1;
     Clearance clearance_;
     haptics::Tuning tuning_goal_;

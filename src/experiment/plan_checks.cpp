@@ -291,23 +291,18 @@ void check_liftings(const Plan& plan, const devices::DeviceGroup& devices,
         if (force <= std::min(peak, continuous)) continue;
         list += fmt::format("{}{} ({:.1f} N)", list.empty() ? "" : ", ", lifting.what, force);
     }
-    const char* remedy = "Make it lighter or less slippery, or use a rig with stronger devices.";
-    if (!beyond.empty()) {
+    const auto warn = [&](double limit, const char* gives, const char* then,
+                          const std::string& which) {
+        if (which.empty()) return;
         diagnostics.warning(
             plan.task->task.place, "task",
-            fmt::format("takes more of each finger than the {:.1f} N that {} gives at most, so "
-                        "that it slips however hard it is pinched: {}",
-                        peak, devices.info(0).model, beyond),
-            remedy);
-    }
-    if (!for_long.empty()) {
-        diagnostics.warning(
-            plan.task->task.place, "task",
-            fmt::format("takes more of each finger than the {:.1f} N that {} can hold for long, so "
-                        "that it slips after some seconds: {}",
-                        continuous, devices.info(0).model, for_long),
-            remedy);
-    }
+            fmt::format("takes more of each finger than the {:.1f} N that {} {}, so that it slips "
+                        "{}: {}",
+                        limit, devices.info(0).model, gives, then, which),
+            "Make it lighter or less slippery, or use a rig with stronger devices.");
+    };
+    warn(peak, "gives at most", "however hard it is pinched", beyond);
+    warn(continuous, "can hold for long", "after some seconds", for_long);
 }
 
 /// A trial that waits for what cannot come.

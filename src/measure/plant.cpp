@@ -55,7 +55,7 @@ rig::Rig devices_of(const BenchSetup& setup, const std::vector<std::string>& fin
 devices::simulated::Options simulated_options(const rig::Device& device) {
     devices::simulated::Options options;
     Diagnostics diagnostics;
-    if (device.options.kind != Node::Kind::null) read_fields(options, device.options, diagnostics);
+    read_given_fields(options, device.options, diagnostics);
     diagnostics.throw_if_errors();
     return options;
 }

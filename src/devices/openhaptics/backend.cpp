@@ -10,7 +10,7 @@ namespace {
 
 Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     Options options;
-    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    read_given_fields(options, config.options, diagnostics);
     return options;
 }
 

@@ -30,8 +30,7 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
     Diagnostics diagnostics;
     for (const DeviceConfig& config : configs) {
         Options options;
-        if (config.options.kind != Node::Kind::null)
-            read_fields(options, config.options, diagnostics);
+        read_given_fields(options, config.options, diagnostics);
         DeviceInfo info;
         info.model = "recording";
         info.peak_force = options.peak_force;

@@ -12,7 +12,7 @@ namespace {
 
 Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     Options options;
-    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    read_given_fields(options, config.options, diagnostics);
     if (options.peak_torque > 0 && !options.orientation) {
         diagnostics.error(config.place, "peak_torque",
                           "a device that renders torque measures orientation",
@@ -112,14 +112,12 @@ class SimulatedGroup final : public DeviceGroup {
 
   private:
     void do_activate() override {
-        for (Device& device : devices_) device.plant.begin(Time(0));
         begins_ = true;
         stopped_.store(false);
     }
     void do_deactivate() override {}
     void do_read(Time now, std::span<Reading> readings) noexcept override {
-        // activated anew after a fault, at whatever time that was
-        if (std::exchange(begins_, false) && now > std::chrono::seconds(1)) {
+        if (std::exchange(begins_, false)) {
             for (Device& device : devices_) device.plant.begin(now);
         }
         for (size_t i = 0; i < devices_.size(); ++i) {
@@ -168,7 +166,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = false;  // with the next reading
+    bool begins_ = false;  // with the next reading, at whatever time that is
 };
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {

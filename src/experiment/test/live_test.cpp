@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <numbers>
 #include <thread>
 
@@ -259,6 +260,20 @@ TEST(Live, TriggersComeInAndEventCodesGoOutOnTheRigsSerialLine) {
     for (const std::string& note : desk.result.info.notes)
         EXPECT_EQ(note.find("serial"), std::string::npos) << note;
     EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, ASerialLineThatIsNotThereLeavesNoHalfSession) {
+    Files files;
+    files.experiment = "rig: rig.yaml\n" + files.experiment;
+    files.folder.write("rig.yaml",
+                       "devices: [{ finger: index, backend: simulated }]\n"
+                       "outlets: [{ kind: serial, options: { port: /dev/no-such-line } }]\n");
+    RunOptions options;
+    options.clock = Clock::real;
+    options.out = files.folder.path() + "/sessions";
+    const std::atomic<bool> stop{false};
+    EXPECT_THROW(run_session(make_plan(files.request()), options, stop, {}), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(options.out));
 }
 
 TEST(Live, AScriptThatIsEndedEarlyIsInterruptedWithoutAFault) {

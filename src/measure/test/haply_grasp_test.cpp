@@ -1,5 +1,6 @@
 // The grasp bench on Inverse3 devices. Messages carry numbers to the last bit and cost no tick, so
-// the figures are those of the devices behind the service, but for rounding on the way.
+// the figures are those of the devices behind the service; but a run begins with a message of its
+// own, so that the hand, its tremor and all, is a tick further.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,6 @@
 namespace dihaptic::measure {
 namespace {
 
-/// Rounding may take an encoder over a step sooner.
 void expect_near(double a, double b) {
     EXPECT_NEAR(a, b, 1e-3 * std::abs(b) + 1e-6);
 }

@@ -20,7 +20,7 @@ struct Options {
 
 Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     Options options;
-    if (config.options.kind != Node::Kind::null) read_fields(options, config.options, diagnostics);
+    read_given_fields(options, config.options, diagnostics);
     return options;
 }
 
