@@ -107,8 +107,10 @@ struct SceneView::Parts {
 
     Parts(const scene::Scene& scene, Shadows shadows)
         : kind(shadows),
+          // known to the compiler: a renderer in software runs both sides of a branch
           surface(shaders::kSurfaceVertex,
-                  std::string(shaders::kBackground) + shaders::kSurfaceFragment),
+                  std::string(shadows == Shadows::plain ? "#define PLAIN\n" : "") +
+                      shaders::kBackground + shaders::kSurfaceFragment),
           background(shaders::kBlurVertex,
                      std::string(shaders::kBackground) + shaders::kBackgroundFragment) {
         GLuint name = 0;
@@ -275,7 +277,6 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     p.surface.set("light", light());
     p.surface.set("light_from_world", light_from_world);
     p.surface.set("texel", texel);
-    p.surface.set("plain", p.kind == Shadows::plain ? 1 : 0);
     p.surface.set("shadowed", 1);
     p.surface.set("moments", 0);
     p.surface.set("alpha", 1.0);

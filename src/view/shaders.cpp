@@ -99,7 +99,6 @@ uniform float grid;        // how dark the lines on its upper side are
 uniform float fade;        // beyond this distance from the middle it is the background; 0: never [m]
 uniform vec3 middle;
 uniform bool shadowed;
-uniform bool plain;        // a plain shadow map
 uniform vec3 light;        // toward it
 uniform mat4 light_from_world;
 uniform sampler2D moments;
@@ -126,15 +125,18 @@ vec2 visibility(vec3 n) {
     vec2 uv = 0.5 * q.xy + 0.5;
     float t = q.z;
     float inside = 1.0 - smoothstep(0.9, 1.0, max(abs(q.x), abs(q.y)));
-    if (plain) return mix(vec2(1), vec2(t <= textureLod(moments, uv, 0.0).x ? 1 : 0, 1), inside);
+#ifdef PLAIN
+    return mix(vec2(1), vec2(t <= textureLod(moments, uv, 0.0).x ? 1 : 0, 1), inside);
+#else
     // how far above lies what throws the shadow: the mean of the depths is p of them at t, the
     // others at the occluder's; where there is hardly any, the estimate fades out
-    vec2 wide = textureLod(moments, uv, level(kSearch)).rg;
+    vec2 wide = textureLod(moments, uv, round(level(kSearch))).rg;  // one level: half the work
     float around = chebyshev(wide, t);
     float above = (t - wide.x) / max(1.0 - around, 0.01) * smoothstep(0.0, 0.08, 1.0 - around);
     vec2 near = textureLod(moments, uv, level(kLightSize * max(above, 0.0))).rg;
     vec2 seen = max((vec2(chebyshev(near, t), around) - kBleeding) / (1.0 - kBleeding), 0.0);
     return mix(vec2(1), seen, inside);
+#endif
 }
 
 float line(vec2 p, float spacing, float width) {
