@@ -71,6 +71,19 @@ class Commands(unittest.TestCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stdout, r"shared +\d+\.\d\d litres")
             self.assertIn("largest sphere in it", pathlib.Path(picture).read_text())
+            # what it proposes is what a rig file may say, and then says so
+            rig = folder + "/rig.yaml"
+            proposed = "".join(re.findall(r"^(?:origin_mm|wall): .*\n", result.stdout, re.MULTILINE))
+            pathlib.Path(rig).write_text(pathlib.Path("rigs/premium-arms.yaml").read_text() + proposed)
+            again = dihaptic("workspace", rig, "-o", picture)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertIn("keeps hands where all devices reach", again.stdout)
+            self.assertIn(proposed, again.stdout.replace(" }\n\n", " }\n"))
+            pathlib.Path(rig).write_text(pathlib.Path("rigs/premium-arms.yaml").read_text()
+                                         + "wall: { centre_mm: [0, 0, 70], size_mm: [600, 600, 600] }\n")
+            result = dihaptic("workspace", rig, "-o", picture)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertRegex(result.stdout, r"not all devices reach: \d\d\.\d % of it")
             result = dihaptic("workspace", "rigs/ideal-pair.yaml", "-o", picture)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not say where its reach ends."

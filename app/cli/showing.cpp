@@ -21,8 +21,13 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kLayers{"path",      "forces",  "contacts",
                                        "grip-axis", "handles", "workspace"};
 
-void add_workspace(Showing& showing, const std::optional<Vec3>& size, const Pose& X_WD) {
-    if (size) showing.workspaces.push_back({X_WD, *size});
+/// What hands are kept in: the rig's wall, or else what the finger's device is said to reach.
+void add_workspace(Showing& showing, const rig::Rig& rig, const std::string& finger,
+                   const std::optional<Vec3>& reach) {
+    if (rig.wall && showing.workspaces.empty())
+        showing.workspaces.push_back({{Quat::Identity(), rig.wall->centre}, rig.wall->size});
+    if (!rig.wall && reach)
+        showing.workspaces.push_back({rig::device_of(rig, finger).X_WD(), *reach});
 }
 
 Showing open_session(const std::string& file) {
@@ -38,7 +43,7 @@ Showing open_session(const std::string& file) {
     const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
     diagnostics.throw_if_errors();
     for (const recording::DeviceRecord& device : head.devices)
-        add_workspace(out, device.workspace, rig::device_of(rig, device.finger).X_WD());
+        add_workspace(out, rig, device.finger, device.workspace);
     out.next = [log] { return log->next(); };
     return out;
 }
@@ -69,8 +74,8 @@ Showing open_plan(const std::string& file) {
     out.duration = phases.empty() ? 0 : phases.back().end;
     const devices::DeviceGroup& devices = run->servo->devices();
     for (size_t i = 0; i < out.scene.fingers.size(); ++i)
-        add_workspace(out, devices.info(static_cast<int>(i)).workspace,
-                      rig::device_of(run->plan.rig, out.scene.fingers[i].name).X_WD());
+        add_workspace(out, run->plan.rig, out.scene.fingers[i].name,
+                      devices.info(static_cast<int>(i)).workspace);
     run->servo->activate();
     out.next = [run, end = out.duration]() -> const servo::Frame* {
         const Time now = run->ticks++ * run->servo->period();

@@ -8,6 +8,35 @@
 namespace dihaptic::cli {
 namespace {
 
+std::string in_mm(const Vec3& v) {
+    return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v.x() * 1e3, v.y() * 1e3, v.z() * 1e3);
+}
+
+/// In the frame of the rig file.
+void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
+    const rig::Placement proposed = rig::propose_placement(found);
+    fmt::print(
+        "\nfor the rig file, to put the world's origin {:.0f} mm over the middle of the box's "
+        "floor, and a wall\naround the box, in place of those around what each device reaches:\n\n"
+        "origin_mm: {}\nwall: {{ centre_mm: {}, size_mm: {} }}\n\n",
+        rig::kUnderTable * 1e3, in_mm(proposed.origin + rig.moved_by),
+        in_mm(proposed.wall.centre + rig.moved_by), in_mm(proposed.wall.size));
+}
+
+/// What a wall is worth where devices were moved since.
+void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
+    if (!rig.wall) return;
+    const double out = rig::out_of_reach(rig.wall->box(), reaches);
+    fmt::print("  its wall, {} mm around {}, keeps hands where ", in_mm(rig.wall->size),
+               in_mm(rig.wall->centre));
+    if (out == 0) {
+        fmt::print("all devices reach\n");
+        return;
+    }
+    fmt::print("not all devices reach: {:.1f} % of it\n", out * 100);
+    exit_code = kFailed;
+}
+
 void show_workspace(const std::string& file, const std::string& out) {
     Diagnostics diagnostics;
     const rig::Rig rig = rig::read_rig(file, diagnostics);
@@ -41,6 +70,8 @@ void show_workspace(const std::string& file, const std::string& out) {
         const Vec3 centre = found.sphere_centre * 1e3;
         fmt::print("  largest sphere in it  radius {:.0f} mm around [{:.0f}, {:.0f}, {:.0f}]\n",
                    found.sphere_radius * 1e3, centre.x(), centre.y(), centre.z());
+        check_wall(rig, reaches);
+        print_placement(rig, found);
     } else {
         fmt::print("  The devices reach no place together: move them in the rig file.\n");
         exit_code = kFailed;

@@ -16,9 +16,11 @@ Opened open(const experiment::Request& request) {
         out.devices.push_back({QString::fromStdString(fingers[static_cast<size_t>(i)]),
                                QString::fromStdString(info.model),
                                out.plan.settings.safety.largest_force(info.peak_force)});
-        if (info.workspace)
+        if (info.workspace && !out.plan.rig.wall)
             out.workspaces.push_back({X_WD[static_cast<size_t>(i)], *info.workspace});
     }
+    if (const auto& wall = out.plan.rig.wall)
+        out.workspaces.push_back({{Quat::Identity(), wall->centre}, wall->size});
     out.turn = servo::WorkspaceTurn(X_WD);
     // on simulated devices: real ones are left alone
     experiment::Plan still = out.plan;

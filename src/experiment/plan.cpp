@@ -265,7 +265,7 @@ std::unique_ptr<servo::Servo> make_servo(const Plan& plan) {
     context.seed = plan.seed;
     return std::make_unique<servo::Servo>(plan.scene, plan.settings,
                                           rig::make_devices(plan.rig, fingers, context),
-                                          rig::poses(plan.rig, fingers));
+                                          rig::poses(plan.rig, fingers), rig::wall_box(plan.rig));
 }
 
 }  // namespace dihaptic::experiment

@@ -106,7 +106,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         return true;
     };
     servo::Servo servo(scene, settings, replaying_devices(head, context),
-                       rig::poses(rig, scene::finger_names(scene)));
+                       rig::poses(rig, scene::finger_names(scene)), rig::wall_box(rig));
     servo.activate();
 
     const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,

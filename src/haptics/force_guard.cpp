@@ -2,11 +2,8 @@
 
 namespace dihaptic::haptics {
 
-ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick,
-                       const Pose& X_WD)
+ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick)
     : tick_(tick),
-      X_WD_(X_WD),
-      X_DW_(X_WD.inverse()),
       energy_(settings.energy_guard, limits.scale * limits.scale * kEnergyBudget),
       wall_(limits.workspace, settings.workspace_stiffness, tick),
       limiter_(settings.largest_force(limits.peak_force, limits.scale),
@@ -27,9 +24,9 @@ Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose
 }
 
 Vec3 ForceGuard::push(const Handle& handle, unsigned& flags) const noexcept {
-    const Vec3 push_D = wall_.force(X_DW_ * handle.p_WH, X_DW_.R * handle.v_WH);
-    if (push_D != Vec3::Zero()) flags |= kPushedInward;
-    return X_WD_.R * push_D;
+    const Vec3 push_W = wall_.force(handle.p_WH, handle.v_WH);
+    if (push_W != Vec3::Zero()) flags |= kPushedInward;
+    return push_W;
 }
 
 Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept {

@@ -16,10 +16,10 @@ namespace dihaptic::haptics {
 
 /// What a device can do, for its limits: in the world's measure where its movement is scaled.
 struct DeviceLimits {
-    double peak_force;              ///< [N]
-    double continuous_force;        ///< that it can hold for ever; infinite: not known [N]
-    std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
-    double peak_torque = 0;         ///< 0: it renders none [N*m]
+    double peak_force;                      ///< [N]
+    double continuous_force;                ///< that it can hold for ever; infinite: not known [N]
+    std::optional<WorkspaceBox> workspace;  ///< that the handle is kept in
+    double peak_torque = 0;                 ///< 0: it renders none [N*m]
     double continuous_torque = std::numeric_limits<double>::infinity();  ///< [N*m]
     double scale = 1;  ///< forces and lengths here over those of the hand
 };
@@ -34,8 +34,7 @@ enum GuardFlags : unsigned {
 class ForceGuard {
   public:
     /// `tick` [s].
-    ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick,
-               const Pose& X_WD);
+    ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick);
 
     /// What the handle is to feel of its coupling, for what that wants. `X_WP`: its proxy after the
     /// tick's step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in
@@ -52,8 +51,6 @@ class ForceGuard {
 
   private:
     double tick_;
-    Pose X_WD_;
-    Pose X_DW_;
     EnergyGuard energy_;
     WorkspaceWall wall_;
     Limiter limiter_;

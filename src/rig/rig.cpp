@@ -72,6 +72,15 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
     rig.calibrated = calibration;
 }
 
+/// Moves everything so that the world's origin is where the file says.
+void place_world(Rig& rig) {
+    for (Device& device : rig.devices) device.position -= rig.origin;
+    for (JigPoint& point : rig.jig) point.position -= rig.origin;
+    if (rig.wall) rig.wall->centre -= rig.origin;
+    rig.moved_by = rig.origin;
+    rig.origin = Vec3::Zero();
+}
+
 /// What is done to a device's readings; nothing, when they are as they come.
 std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
                                      const devices::DeviceInfo& info) {
@@ -121,6 +130,7 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
         diagnostics.add(e.problems());
         return rig;
     }
+    place_world(rig);
     if (!diagnostics.has_errors()) check(rig, diagnostics);
     return rig;
 }
@@ -198,6 +208,11 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     }
     if (adjusted) return make_corrected(std::move(group), std::move(adjustments));
     return group;
+}
+
+std::optional<Eigen::AlignedBox3d> wall_box(const Rig& rig) {
+    if (!rig.wall) return std::nullopt;
+    return rig.wall->box();
 }
 
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers) {

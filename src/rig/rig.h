@@ -44,20 +44,41 @@ struct JigPoint {
     }
 };
 
+/// The box that hands are kept in, where the rig file gives one: along the world's axes, in place
+/// of each device's own.
+struct Wall {
+    Vec3 centre = Vec3::Zero();  ///< [m]
+    Vec3 size = Vec3::Zero();    ///< [m]
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("centre", centre, Field::length().within(-100, 100).required());
+        v("size", size, Field::length().positive().required());
+    }
+    Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
+};
+
+/// Of positions in the file all are in one frame; `origin` puts the world into it. read_rig() has
+/// done that already: what it returns is in the world.
 struct Rig {
     std::string title;
+    Vec3 origin = Vec3::Zero();  ///< of the world, in the file's frame [m]
     std::vector<Device> devices;
+    std::optional<Wall> wall;
     std::vector<outlets::OutletConfig> outlets;
     std::string calibration;  ///< its file, beside the rig's; empty: none
     std::vector<JigPoint> jig;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< what `calibration` says
+    Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title);
+        v("origin", origin, Field::length().within(-100, 100));
         v("devices", devices, Field::text().required());
+        v("wall", wall);
         v("outlets", outlets);
         v("calibration", calibration);
         v("jig", jig);
@@ -94,5 +115,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
 const Device& device_of(const Rig& rig, const std::string& finger);
 /// X_WD by finger.
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers);
+/// The wall's box in the world, if there is one.
+std::optional<Eigen::AlignedBox3d> wall_box(const Rig& rig);
 
 }  // namespace dihaptic::rig

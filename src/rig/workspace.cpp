@@ -231,6 +231,28 @@ std::vector<Reach> reaches(const Rig& rig) {
     return out;
 }
 
+Placement propose_placement(const Workspace& workspace) {
+    Placement out;
+    out.wall.centre = workspace.box.center();
+    out.wall.size = workspace.box.sizes();
+    out.origin = out.wall.centre;
+    out.origin.z() = workspace.box.min().z() + kUnderTable;
+    return out;
+}
+
+double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches) {
+    constexpr int kSide = 40;  // points, corners among them
+    int out = 0;
+    for (int i = 0; i < kSide * kSide * kSide; ++i) {
+        const Vec3 share = Vec3(i % kSide, i / kSide % kSide, i / (kSide * kSide)) / (kSide - 1);
+        const Vec3 p_W = box.min() + share.cwiseProduct(box.sizes());
+        if (!std::all_of(reaches.begin(), reaches.end(),
+                         [&](const Reach& reach) { return reach.contains(p_W); }))
+            ++out;
+    }
+    return static_cast<double>(out) / (kSide * kSide * kSide);
+}
+
 Workspace find_workspace(const std::vector<Reach>& reaches,
                          const std::function<bool(double share)>& progress) {
     Eigen::AlignedBox3d all;

@@ -61,6 +61,18 @@ struct Workspace {
 Workspace find_workspace(const std::vector<Reach>& reaches,
                          const std::function<bool(double share)>& progress);
 
+/// Where a world fits into a workspace that is not empty, and a wall around it.
+struct Placement {
+    Vec3 origin;  ///< of the world: over the middle of the box's floor, by kUnderTable [m]
+    Wall wall;    ///< the largest box
+};
+Placement propose_placement(const Workspace& workspace);
+/// Hands may press a table's top, and reach an object's lower edge.
+constexpr double kUnderTable = 0.01;  // [m]
+
+/// Share of a box that not every device reaches.
+double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches);
+
 /// SVG text: the reaches and what they share, from above.
 std::string workspace_picture(const Workspace& workspace, const std::vector<Reach>& reaches,
                               const std::string& title);

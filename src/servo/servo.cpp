@@ -66,7 +66,8 @@ uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
 }  // namespace
 
 Servo::Servo(const scene::Scene& scene, const Settings& settings,
-             std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD)
+             std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
+             const std::optional<Eigen::AlignedBox3d>& wall)
     : settings_(settings),
       period_(from_seconds(settings.tick())),
       world_(scene, settings.dynamics),
@@ -76,11 +77,17 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
       soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
         const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        std::optional<haptics::WorkspaceBox> box;
+        if (wall) {
+            box = {{Quat::Identity(), wall->center()}, wall->sizes()};
+        } else if (info.workspace) {
+            box = {X_0D_[i], *info.workspace};
+        }
         force_guards_.emplace_back(
             settings.safety,
-            haptics::DeviceLimits{info.peak_force, info.continuous_force, info.workspace,
-                                  info.peak_torque, info.continuous_torque, info.scale},
-            settings.tick(), X_0D_[i]);
+            haptics::DeviceLimits{info.peak_force, info.continuous_force, box, info.peak_torque,
+                                  info.continuous_torque, info.scale},
+            settings.tick());
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const scene::Finger& finger = scene.fingers[i];

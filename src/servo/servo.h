@@ -50,9 +50,11 @@ constexpr Time kGrace = std::chrono::seconds(1);
 
 class Servo {
   public:
-    /// `X_WD` by device; devices, in the order of the scene's fingers.
+    /// `X_WD` by device; devices, in the order of the scene's fingers. `wall`: what hands are kept
+    /// in; otherwise the box that each device reaches, if it says so.
     Servo(const scene::Scene& scene, const Settings& settings,
-          std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD);
+          std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
+          const std::optional<Eigen::AlignedBox3d>& wall = {});
     ~Servo();
 
     /// Reserves all memory and switches the devices on.

@@ -261,16 +261,17 @@ TEST(Session, TheOperatorsStopOnTheRealClockIsRecordedAndReplayed) {
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 
-/// Runs a scene on devices with these options, and replays it.
-std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector<std::string> set) {
+/// Runs a scene on devices with these options, and replays it. `more`: of the rig.
+std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector<std::string> set,
+                                         const std::string& more = "") {
     const testing::TemporaryFolder folder;
     Request request;
     request.file = "scenes/block-on-table.yaml";
     request.rig = folder.write(
         "rig.yaml",
         fmt::format("devices:\n  - {{finger: thumb, backend: simulated, options: {0}}}\n"
-                    "  - {{finger: index, backend: simulated, options: {0}}}\n",
-                    options));
+                    "  - {{finger: index, backend: simulated, options: {0}}}\n{1}",
+                    options, more));
     request.set = std::move(set);
     RunOptions run;
     run.out = folder.file("out");
@@ -303,6 +304,24 @@ TEST(Session, ReplaysWhatTheDevicesLimitsAndTheSwitchDid) {
         force = std::max(force, frame.fingers[0].f_sent_W.norm());
     }
     EXPECT_EQ(force, 0);
+}
+
+TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
+    const auto highest = [](const std::vector<servo::Frame>& frames) {
+        double height = 0;
+        for (const servo::Frame& frame : frames)
+            height = std::max(height, frame.fingers[0].p_WH.z());
+        return height;
+    };
+    const auto wide = run_and_replay("{workspace_mm: [600, 600, 600]}", {});
+    EXPECT_EQ(status_of(wide) & servo::kPushedInward, 0u);
+    // in place of the box that the devices say they reach
+    const auto low =
+        run_and_replay("{workspace_mm: [600, 600, 600]}", {"safety.workspace_stiffness_N_m=2000"},
+                       "wall: {centre_mm: [0, 0, 10], size_mm: [600, 600, 80]}\n");
+    EXPECT_NE(status_of(low) & servo::kPushedInward, 0u);
+    EXPECT_GT(highest(wide), 0.065);
+    EXPECT_LT(highest(low), 0.055);
 }
 
 TEST(Session, ReplaysWhatTheEnergyGuardDid) {

@@ -62,7 +62,7 @@ TEST(Heating, LimitsNothingWhereNothingIsKnown) {
 }
 
 TEST(WorkspaceWall, PushesInwardInProportionToTheDepth) {
-    const WorkspaceWall wall(Vec3(0.2, 0.1, 0.1), 500, kTick);
+    const WorkspaceWall wall({{{}, Vec3(0.2, 0.1, 0.1)}}, 500, kTick);
     EXPECT_EQ(wall.force({0.1, -0.05, 0.05}, {1, 1, 1}), Vec3::Zero());
     EXPECT_LT((wall.force({0.102, -0.051, 0}, Vec3::Zero()) - Vec3(-1, 0.5, 0)).norm(), 1e-12);
     // damping k h / 2
@@ -74,7 +74,7 @@ TEST(WorkspaceWall, PushesInwardInProportionToTheDepth) {
 
 TEST(WorkspaceWall, IsNoneWithoutABoxOrStiffness) {
     EXPECT_EQ(WorkspaceWall({}, 500, kTick).force({9, 9, 9}, Vec3::Zero()), Vec3::Zero());
-    EXPECT_EQ(WorkspaceWall(Vec3(0.1, 0.1, 0.1), 0, kTick).force({9, 9, 9}, Vec3::Zero()),
+    EXPECT_EQ(WorkspaceWall({{{}, Vec3(0.1, 0.1, 0.1)}}, 0, kTick).force({9, 9, 9}, Vec3::Zero()),
               Vec3::Zero());
 }
 
@@ -105,7 +105,7 @@ TEST(SoftStart, CanBeNone) {
 TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
     SafetySettings settings;
     settings.max_force_rate = 100;  // 0.1 N a tick
-    ForceGuard guard(settings, {8.5, kInfinite, {}}, kTick, {});
+    ForceGuard guard(settings, {8.5, kInfinite, {}}, kTick);
     unsigned flags = 0;
     for (int i = 0; i < 50; ++i) guard.limit({Vec3(2, 0, 0)}, true, 1, flags);
     EXPECT_EQ(guard.limit({Vec3(2, 0, 0)}, true, 1, flags).force.x(), 2);
@@ -118,7 +118,7 @@ TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
 }
 
 TEST(ForceGuard, SeesWhatIsNoNumberWithoutTheSwitchToo) {
-    ForceGuard guard({}, {8.5, kInfinite, {}}, kTick, {});
+    ForceGuard guard({}, {8.5, kInfinite, {}}, kTick);
     unsigned flags = 0;
     guard.limit({Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0)}, false, 0, flags);
     EXPECT_NE(flags & kNotFinite, 0u);
@@ -126,7 +126,7 @@ TEST(ForceGuard, SeesWhatIsNoNumberWithoutTheSwitchToo) {
 
 TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
     const Pose X_WD{rotation_xyz({0, 0, std::numbers::pi / 2}), {1, 0, 0}};
-    ForceGuard guard({}, {8.5, kInfinite, Vec3(0.2, 0.1, 0.1)}, kTick, X_WD);
+    ForceGuard guard({}, {8.5, kInfinite, {{X_WD, Vec3(0.2, 0.1, 0.1)}}}, kTick);
     unsigned flags = 0;
     // 2 mm beyond D's x, which is the world's y
     const Vec3 p_WH(1, 0.102, 0);
@@ -137,7 +137,7 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
 TEST(ForceGuard, CutsToWhatTheMotorsBear) {
     SafetySettings settings;
     settings.heating_time = 1;
-    ForceGuard guard(settings, {8.5, 1.4, {}}, kTick, {});
+    ForceGuard guard(settings, {8.5, 1.4, {}}, kTick);
     unsigned flags = 0;
     Wrench limited;
     for (int i = 0; i < 3000; ++i) limited = guard.limit({Vec3(0, 3, 0)}, true, 1, flags);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/field_writer.h"
 #include "testing/files.h"
 
 namespace dihaptic::rig {
@@ -31,6 +32,27 @@ TEST(RigFile, PlacesDevices) {
     EXPECT_LT((X_WD[1] * Vec3(0, 1, 0) - Vec3(0, 1, 0)).norm(), 1e-15);
 }
 
+TEST(RigFile, OriginPutsTheWorldIntoItsFrame) {
+    Diagnostics diagnostics;
+    testing::TemporaryFolder folder;
+    const Rig rig =
+        read_rig(folder.write("rig.yaml",
+                              "origin_mm: [0, 20, -30]\ndevices:\n"
+                              "  - {finger: thumb, backend: simulated, position_mm: [10, 20, 70]}\n"
+                              "wall: {centre_mm: [0, 20, 30], size_mm: [200, 160, 120]}\n"
+                              "jig: [{name: post, position_mm: [0, 0, 0]}]\n"),
+                 diagnostics);
+    diagnostics.throw_if_errors();
+    EXPECT_EQ(rig.devices[0].position, Vec3(0.01, 0, 0.1));
+    EXPECT_EQ(rig.jig[0].position, Vec3(0, -0.02, 0.03));
+    EXPECT_EQ(wall_box(rig)->center(), Vec3(0, 0, 0.06));
+    EXPECT_EQ(rig.moved_by, Vec3(0, 0.02, -0.03));
+    // what a session keeps is the same in the world
+    const Rig again = read_rig(folder.write("again.yaml", to_yaml(write_fields(rig))), diagnostics);
+    EXPECT_EQ(again.devices[0].position, rig.devices[0].position);
+    EXPECT_EQ(wall_box(again)->sizes(), Vec3(0.2, 0.16, 0.12));
+}
+
 struct Bad {
     const char* yaml;
     const char* says;
@@ -55,6 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
             "'premium' is not known. Use plant, premium_1_0, touch or sigma_7."},
         Bad{"devices:\n  - {finger: a, backend: simulated, options: {mass_g: 0}}\n",
             "mass_g: must be positive"},
+        Bad{"devices:\n  - {finger: a, backend: simulated}\nwall: {size_mm: [1, 0, 1]}\n",
+            "rig.yaml:3: error: size_mm: "},
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: b, backend: replay}\n",
             "All devices of a rig are of one backend"}));
 

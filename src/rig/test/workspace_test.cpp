@@ -60,6 +60,17 @@ TEST(Workspace, OfDevicesApartIsEmpty) {
     EXPECT_EQ(found.sphere_radius, 0);
 }
 
+TEST(Workspace, ProposesAWorldOverItsFloorAndAWallThatItHolds) {
+    const auto all = reaches(boxes({{0, 0, 0}, {0.05, 0.02, 0.01}}, "[200, 160, 120]"));
+    const auto found = find_workspace(all, kGoOn);
+    const Placement proposed = propose_placement(found);
+    EXPECT_LT((proposed.origin - Vec3(0.025, 0.01, -0.04)).norm(), 0.005);
+    EXPECT_EQ(out_of_reach(proposed.wall.box(), all), 0);
+    Wall wide = proposed.wall;
+    wide.size.x() *= 2;
+    EXPECT_NEAR(out_of_reach(wide.box(), all), 0.5, 0.05);
+}
+
 class Premiums : public ::testing::TestWithParam<int> {};
 
 TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
