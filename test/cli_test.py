@@ -486,6 +486,46 @@ class RealDevices(unittest.TestCase):
             self.assertRegex(result.stderr, r"omega-pair.yaml:\d+: error: library: Force Dimension's SDK cannot be loaded")
             self.assertEqual(os.listdir(out), [])
 
+    def test_calibrate_leads_a_person_who_may_give_up(self):
+        self.put(self.HD, "libfake_hd.so")
+        rig = self.folder.name + "/rig.yaml"
+        pathlib.Path(rig).write_text(pathlib.Path("rigs/phantom-pair-openhaptics.yaml").read_text())
+        result = dihaptic("calibrate", rig, input="\n\n", env=self.env)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertRegex(result.stdout, r"1 of 4\. Hold each arm in the standard configuration: .*\n   Then press Enter\.\n"
+                                        r"2 of 4\. Join the endpoints of thumb and index by the link")
+        self.assertIn("3 of 4. Move the link through all of the workspace", result.stdout)
+        self.assertIn("interrupted: nothing was stored", result.stderr)
+        self.assertEqual(os.listdir(self.folder.name).count("rig-calibration.yaml"), 0)
+
+    def test_a_session_asks_for_endpoints_held_together_and_tells_when_they_disagree(self):
+        self.put(self.HD, "libfake_hd.so")
+        rig = self.folder.name + "/rig.yaml"
+        text = pathlib.Path("rigs/phantom-pair-openhaptics.yaml").read_text()
+        pathlib.Path(rig).write_text("calibration: mine.yaml\n" + text)
+        pathlib.Path(self.folder.name + "/mine.yaml").write_text(
+            f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: 12}}]\n")
+        for answer, notes in [(b"\n", True), (b"s\n", False)]:
+            with tempfile.TemporaryDirectory() as out:
+                master, slave = pty.openpty()
+                process = subprocess.Popen([PROGRAM, "run", "scenes/block-on-table.yaml", "--rig", rig, "--out", out,
+                                            "--set", "safety.max_pause_ms=1000"], stdin=slave,
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
+                self.assertIn("1 of 1. Hold the endpoints of thumb and index together", process.stdout.readline())
+                os.write(master, answer)
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline and not any(
+                        os.path.getsize(log) > 100000 for log in glob.glob(out + "/*/raw.log")):
+                    time.sleep(0.01)
+                process.send_signal(signal.SIGINT)
+                stdout, stderr = process.communicate(timeout=60)
+                os.close(master)
+                os.close(slave)
+                told = "held together, are 0.0 mm apart, and were 12.0 mm apart when the rig was calibrated"
+                self.assertEqual(told in stdout, notes, stdout + stderr)
+                session = pathlib.Path(session_of(out) + "session.yaml").read_text()
+                self.assertEqual(told in session, notes, session)
+
     def test_a_session_goes_on_until_it_is_ended(self):
         self.put(self.HD, "libfake_hd.so")
         self.put(self.DHD, "libfake_dhd.so")

@@ -14,6 +14,7 @@
 #include "escape_key.h"
 #include "person/person.h"
 #include "summary.h"
+#include "terminal_guide.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -81,12 +82,28 @@ void ask(recording::Participant& participant) {
     question("handedness (right, left, both)", participant.handedness);
 }
 
+/// Real devices that were calibrated: a calibration that holds no more is told of before somebody's
+/// hour, and in the session's notes.
+void check_together(experiment::Plan& plan) {
+    if (!rig::can_check_together(plan.rig) || isatty(STDIN_FILENO) == 0) return;
+    try {
+        TerminalGuide guide("endpoints", "s");
+        for (const rig::Together& pair : rig::check_together(plan.rig, guide.guide())) {
+            fmt::print("{}\n", pair.describe());
+            if (!pair.agrees) plan.warnings.push_back(pair.warning(plan.rig));
+        }
+    } catch (const rig::GivenUp&) {
+        fmt::print("not checked\n");
+    }
+}
+
 void run_one(const Options& options) {
     experiment::Plan plan = experiment::make_plan(options.request);
     if (options.simulate && plan.task) {
         const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
         person::sit_down(plan, person::draw_person(objects, plan.seed, options.run.participant.id));
     }
+    check_together(plan);
     run_plan(plan, options.run);
 }
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "rig/calibration_solver.h"
 
@@ -125,6 +126,22 @@ DeviceCalibration part_of(const CalibrationInput::Device& device, const Correcti
     out.stretch = S.diagonal();
     out.skew = {S(1, 2), S(0, 2), S(0, 1)};
     return out;
+}
+
+/// Mean distance of a device's endpoint from the first one's, held together [m].
+std::optional<double> together(const CalibrationInput& input, const CalibrationSolver& solver,
+                               const CalibrationSolution& solution, size_t device) {
+    double sum = 0;
+    int count = 0;
+    for (const CalibrationInput::LinkSample& sample : input.together_samples) {
+        if (sample.b != device) continue;
+        sum += (solver.endpoint(solution, sample.a, sample.at_a) -
+                solver.endpoint(solution, sample.b, sample.at_b))
+                   .norm();
+        ++count;
+    }
+    if (count == 0) return std::nullopt;
+    return sum / count;
 }
 
 Vec3 middle(const CalibrationSolver& solver, const CalibrationSolution& solution,
@@ -248,8 +265,55 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         calibration.jig_rms = rms(off_jig);
         calibration.jig_worst = worst(off_jig);
     }
-    for (size_t i = 0; i < input.devices.size(); ++i)
+    for (size_t i = 0; i < input.devices.size(); ++i) {
         calibration.devices.push_back(part_of(input.devices[i], all.corrections[i]));
+        calibration.devices.back().together = together(input, solver, all, i);
+    }
+    return out;
+}
+
+std::string describe(const CalibrationResult& result) {
+    const Calibration& c = result.calibration;
+    const auto mm = [](double metres) { return metres * 1e3; };
+    std::string out;
+    if (!result.before.empty()) {
+        std::vector<double> before;
+        for (const LinkResidual& r : result.before) {
+            if (!r.slip) before.push_back(r.misfit);
+        }
+        out += fmt::format(
+            "link of {:.2f} mm, misfit along it, by samples held out:\n"
+            "  before  {:7.3f} mm rms\n"
+            "  after   {:7.3f} mm rms, {:.3f} mm at worst; {:.1f} % of the samples were slips\n"
+            "endpoints agree to {:.3f} mm rms in space\n",
+            mm(c.link_length), mm(rms(before)), mm(c.link_rms), mm(c.link_worst), c.slips * 100,
+            mm(c.agreement_rms));
+    }
+    if (c.jig_rms) {
+        out += fmt::format("jig: {:.3f} mm rms, {:.3f} mm at worst\n", mm(*c.jig_rms),
+                           mm(*c.jig_worst));
+    } else {
+        out += "no jig: the world stays as the rig file has it\n";
+    }
+    constexpr double kDegree = 180 / std::numbers::pi;
+    for (const DeviceCalibration& d : c.devices) {
+        out +=
+            fmt::format("{:8} shift [{:.2f}, {:.2f}, {:.2f}] mm, turn [{:.2f}, {:.2f}, {:.2f}] deg",
+                        d.finger, mm(d.shift.x()), mm(d.shift.y()), mm(d.shift.z()),
+                        d.turn.x() * kDegree, d.turn.y() * kDegree, d.turn.z() * kDegree);
+        if (d.joint_offset) {
+            out += fmt::format(", joints {:.2f} and {:.2f} deg", d.joint_offset->y() * kDegree,
+                               d.joint_offset->z() * kDegree);
+        } else {
+            out += fmt::format(
+                ", stretch [{:.4f}, {:.4f}, {:.4f}]; without joint angles, bends of its space "
+                "remain",
+                d.stretch.x(), d.stretch.y(), d.stretch.z());
+        }
+        if (d.together)
+            out += fmt::format("; {:.1f} mm from the first, held together", mm(*d.together));
+        out += "\n";
+    }
     return out;
 }
 

@@ -20,6 +20,9 @@ struct DeviceCalibration {
         joint_offset;             ///< true less reported; unset: stretch and skew instead [rad]
     Vec3 stretch = Vec3::Zero();  ///< along x, y, z
     Vec3 skew = Vec3::Zero();     ///< in yz, xz, xy
+    /// How far its endpoint was from the first device's, held together; unset: that was not tried,
+    /// or it is the first one's [m].
+    std::optional<double> together;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -30,6 +33,7 @@ struct DeviceCalibration {
         v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.5, 0.5));
         v("stretch", stretch, Field::number().within(-0.5, 0.5));
         v("skew", skew, Field::number().within(-0.5, 0.5));
+        v("together", together, Field::length().within(0, 1));
     }
 
     /// `arm`: of the device; its joints are used when `joint_offset` is set.
@@ -99,6 +103,7 @@ struct CalibrationInput {
     std::vector<Vec3> jig;  ///< its points, in the world [m]
     std::vector<LinkSample> link_samples;
     std::vector<JigSample> jig_samples;
+    std::vector<LinkSample> together_samples;  ///< endpoints held together, without the link
 };
 
 /// How far apart the calibrated distance and the link's length are, where the link's middle was.
@@ -125,6 +130,9 @@ constexpr size_t kLeastSamples = 300;
 /// How deep a cloud of points is: extents along its principal axes but for the outermost
 /// hundredths, the smallest first [m].
 Vec3 cloud_extents(const std::vector<Vec3>& points);
+
+/// What was found, in lines for a person.
+std::string describe(const CalibrationResult& result);
 
 /// SVG text: misfits over the workspace from above, before and after.
 std::string residual_picture(const CalibrationResult& result, const std::string& title);

@@ -17,6 +17,7 @@ constexpr double kCarry = 60;       // for so long [s]
 constexpr double kRaise = 1.5;      // from rest, and back to it [s]
 constexpr double kMove = 0.6;       // from one point of the jig to the next [s]
 constexpr double kTouch = 0.4;      // on it [s]
+constexpr double kHold = 1;         // the endpoints together [s]
 constexpr double kSlipping = 0.2;   // [s]
 constexpr double kSlips = 0.05;     // share of the time
 constexpr double kSlipSize = 5e-3;  // [m]
@@ -41,22 +42,27 @@ class CalibrationHand final : public hand::Driver {
         double start = 0;
         double end = 0;
         size_t device = 0;  // that is joined to the first, or touches
-        int point = -1;     // of the jig; -1: the link
+        int point = -1;     // of the jig
+        enum { link, jig, together } what = link;
     };
 
     CalibrationHand(size_t devices, const Ball& ball, const std::vector<Vec3>& jig, uint64_t seed)
         : ball_(ball), jig_(jig) {
         double t = 0;
-        const auto add = [&](double duration, size_t device, int point) {
-            stretches_.push_back({t, t + duration, device, point});
+        const auto add = [&](double duration, size_t device, int point, auto what) {
+            stretches_.push_back({t, t + duration, device, point, what});
             t += duration;
         };
-        for (size_t device = 1; device < devices; ++device) add(kCarry, device, -1);
+        for (size_t device = 1; device < devices; ++device) add(kCarry, device, -1, Stretch::link);
         for (size_t device = 0; device < devices; ++device) {
             for (size_t point = 0; point < jig.size(); ++point)
-                add(kMove + kTouch, device, static_cast<int>(point));
-            if (!jig.empty()) add(kMove, device, static_cast<int>(jig.size()));  // and back
+                add(kMove + kTouch, device, static_cast<int>(point), Stretch::jig);
+            if (!jig.empty())
+                add(kMove, device, static_cast<int>(jig.size()), Stretch::jig);  // and back
         }
+        // in the middle, where both fingers wait
+        for (size_t device = 1; device < devices; ++device)
+            add(kMove + kHold, device, -1, Stretch::together);
         duration_ = t;
         Random random(seed, "slips");
         for (double from = 0; from < t; from += kSlipping) {
@@ -75,7 +81,8 @@ class CalibrationHand final : public hand::Driver {
     }
     bool samples(double t) const noexcept {
         const Stretch& stretch = at(t);
-        if (stretch.point < 0) return t - stretch.start > kRaise && stretch.end - t > kRaise;
+        if (stretch.what == Stretch::link)
+            return t - stretch.start > kRaise && stretch.end - t > kRaise;
         return t - stretch.start > kMove + 0.1;  // at rest
     }
 
@@ -94,7 +101,7 @@ class CalibrationHand final : public hand::Driver {
             const Vec3 to = point == jig_.size() ? ball_.centre : jig_[point];
             return from + model::minimum_jerk((t - now.start) / kMove).share * (to - from);
         }
-        const bool carries = now.point < 0 && (device == 0 || device == now.device);
+        const bool carries = now.what == Stretch::link && (device == 0 || device == now.device);
         if (!carries) return ball_.centre;
         // from the middle, where both fingers wait, and back
         const double raised = model::minimum_jerk((t - now.start) / kRaise).share *
@@ -128,6 +135,13 @@ std::vector<Vec3> jig_of(const Rig& rig) {
     return out;
 }
 
+std::unique_ptr<devices::DeviceGroup> devices_of(const Rig& rig, const hand::Driver* driver) {
+    devices::Context context;
+    context.driver = driver;
+    context.impedance = firm();
+    return make_devices(uncorrected(rig), held_fingers(rig), context);
+}
+
 /// Where the middle of the link can be carried, whichever way it points.
 Ball common_ball(const Rig& rig) {
     const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
@@ -141,39 +155,36 @@ Ball common_ball(const Rig& rig) {
 
 }  // namespace
 
-CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* driver) {
-    std::vector<std::string> fingers;
-    for (const Device& device : rig.devices) fingers.push_back(device.finger);
-    devices::Context context;
-    context.driver = driver;
-    context.impedance = firm();
-    devices_ = make_devices(uncorrected(rig), fingers, context);
-    for (size_t i = 0; i < fingers.size(); ++i) {
-        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
-        input_.devices.push_back({fingers[i], info.serial, rig.devices[i].X_WD(), info.arm});
+CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* driver)
+    : reader_(devices_of(rig, driver), held_fingers(rig)) {
+    for (size_t i = 0; i < rig.devices.size(); ++i) {
+        const devices::DeviceInfo& info = reader_.devices().info(static_cast<int>(i));
+        input_.devices.push_back(
+            {rig.devices[i].finger, info.serial, rig.devices[i].X_WD(), info.arm});
     }
     input_.jig = jig_of(rig);
-    readings_.resize(fingers.size());
-    none_.resize(fingers.size());
-}
-
-void CalibrationSampler::tick(Time now) noexcept {
-    devices_->read(now, readings_);
-    devices_->write(none_);
-}
-
-std::string CalibrationSampler::trouble() const {
-    for (size_t i = 0; i < readings_.size(); ++i) {
-        const bool silent = (readings_[i].status & devices::kNotAnswering) != 0;
-        if (!silent && readings_[i].p_DH.allFinite() && readings_[i].joints.allFinite()) continue;
-        return fmt::format("the {}'s device does not answer: look at its power and its cables",
-                           input_.devices[i].finger);
-    }
-    return "";
 }
 
 void CalibrationSampler::add_link(size_t other) {
     input_.link_samples.push_back({0, other, reading(0), reading(other)});
+}
+
+void CalibrationSampler::add_together(size_t other) {
+    input_.together_samples.push_back({0, other, reading(0), reading(other)});
+}
+
+double CalibrationSampler::moved_apart(size_t from) const {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (size_t k = from; k < input_.together_samples.size(); ++k) {
+        const CalibrationInput::LinkSample& sample = input_.together_samples[k];
+        const double apart = (input_.devices[sample.a].X_WD * sample.at_a.p_DH -
+                              input_.devices[sample.b].X_WD * sample.at_b.p_DH)
+                                 .norm();
+        least = std::min(least, apart);
+        most = std::max(most, apart);
+    }
+    return std::max(0.0, most - least);
 }
 
 void CalibrationSampler::add_touch(size_t device, size_t point) {
@@ -205,16 +216,21 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
     CalibrationSampler sampler(rig, &hand);
     sampler.activate();
     const auto end = from_seconds(hand.duration());
-    for (Time now{0}; now < end; now += std::chrono::milliseconds(1)) {
-        sampler.tick(now);
+    for (Time now{0}; now < end; now += DeviceReader::kTick) {
+        sampler.reader().tick(now);
         if (now % CalibrationSampler::kEvery != Time(0)) continue;
         if (!progress(seconds(now) / hand.duration())) break;
         if (!hand.samples(seconds(now))) continue;
         const CalibrationHand::Stretch& stretch = hand.at(seconds(now));
-        if (stretch.point < 0) {
-            sampler.add_link(stretch.device);
-        } else {
-            sampler.add_touch(stretch.device, static_cast<size_t>(stretch.point));
+        switch (stretch.what) {
+            case CalibrationHand::Stretch::link:
+                sampler.add_link(stretch.device);
+                break;
+            case CalibrationHand::Stretch::together:
+                sampler.add_together(stretch.device);
+                break;
+            case CalibrationHand::Stretch::jig:
+                sampler.add_touch(stretch.device, static_cast<size_t>(stretch.point));
         }
     }
     sampler.deactivate();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "rig/device_reader.h"
 #include "rig/rig.h"
 
 namespace dihaptic::rig {
@@ -18,16 +19,18 @@ class CalibrationSampler {
     /// Throws Error as make_devices() does. `driver`: of simulated devices.
     CalibrationSampler(const Rig& rig, const hand::Driver* driver);
 
-    void activate() { devices_->activate(); }
-    void deactivate() { devices_->deactivate(); }
-    devices::DeviceGroup& devices() { return *devices_; }
-    /// One tick: reads, and writes no force.
-    void tick(Time now) noexcept;
-    /// Why the last tick's reading of a device cannot be used; "" when it can.
-    std::string trouble() const;
+    void activate() { reader_.activate(); }
+    void deactivate() { reader_.deactivate(); }
+    DeviceReader& reader() { return reader_; }
 
     /// The last tick's endpoints of the first device and another, joined.
     void add_link(size_t other);
+    /// The same, held together.
+    void add_together(size_t other);
+    /// How much further apart some were than others, of those held together since sample `from`
+    /// [m].
+    double moved_apart(size_t from) const;
+    void forget_together(size_t from) { input_.together_samples.resize(from); }
     /// The last tick's endpoint of a device on a point of the jig.
     void add_touch(size_t device, size_t point);
     /// Extents of the cloud of a device's endpoint, as far as it goes, the smallest first [m].
@@ -36,13 +39,12 @@ class CalibrationSampler {
 
   private:
     CalibrationReading reading(size_t device) const {
-        return {readings_[device].p_DH, readings_[device].joints};
+        const devices::Reading& last = reader_.readings()[device];
+        return {last.p_DH, last.joints};
     }
 
-    std::unique_ptr<devices::DeviceGroup> devices_;
+    DeviceReader reader_;
     CalibrationInput input_;
-    std::vector<devices::Reading> readings_;
-    std::vector<Wrench> none_;
 };
 
 /// On simulated devices a firm hand carries a link of 50 mm through what all devices reach, letting

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/field_writer.h"
+#include "base/text_file.h"
 #include "rig/corrected_devices.h"
 
 namespace dihaptic::rig {
@@ -110,16 +111,20 @@ std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
 
 }  // namespace
 
+std::vector<std::string> held_fingers(const Rig& rig) {
+    std::vector<std::string> out;
+    for (const Device& device : rig.devices) out.push_back(device.finger);
+    return out;
+}
+
 const Device& device_of(const Rig& rig, const std::string& finger) {
     const auto found = std::find_if(rig.devices.begin(), rig.devices.end(),
                                     [&](const Device& d) { return d.finger == finger; });
     if (found != rig.devices.end()) return *found;
-    std::vector<std::string> held;
-    for (const Device& device : rig.devices) held.push_back(device.finger);
     throw Error(rig.place, "devices",
                 fmt::format("no device is held by the scene's finger '{}'", finger),
                 fmt::format("The rig has devices for {}: add one, or choose another rig.",
-                            fmt::join(held, ", ")));
+                            fmt::join(held_fingers(rig), ", ")));
 }
 
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
@@ -142,6 +147,20 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
         read_calibration(rig, (folder / rig.calibration).string(), diagnostics);
     }
     return rig;
+}
+
+std::string calibration_file(const Rig& rig, const std::string& rig_file) {
+    const std::filesystem::path file(rig_file);
+    if (!rig.calibration.empty()) return (file.parent_path() / rig.calibration).string();
+    return (file.parent_path() / fmt::format("{}-calibration.yaml", file.stem().string())).string();
+}
+
+std::string store_calibration(const Rig& rig, const CalibrationResult& result,
+                              const std::string& file) {
+    const std::string picture = std::filesystem::path(file).replace_extension(".svg").string();
+    write_file(to_yaml(write_fields(result.calibration)), file);
+    write_file(residual_picture(result, rig.title), picture);
+    return picture;
 }
 
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {

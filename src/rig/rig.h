@@ -93,6 +93,13 @@ Rig read_rig(const std::string& file, Diagnostics& diagnostics);
 /// read.
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
+/// Where a rig's calibration goes: to the file that it names, or to one beside it.
+std::string calibration_file(const Rig& rig, const std::string& rig_file);
+/// Writes a calibration, and beside it the picture of what remains; returns the picture's name.
+/// Throws Error when they cannot be written.
+std::string store_calibration(const Rig& rig, const CalibrationResult& result,
+                              const std::string& file);
+
 /// Whether its devices are real: they keep real time, and move a person's hand.
 bool is_real(const Rig& rig);
 
@@ -111,6 +118,8 @@ Rig uncorrected(const Rig& rig);
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context);
+/// The fingers that hold a device, in the file's order.
+std::vector<std::string> held_fingers(const Rig& rig);
 /// The device that a finger holds. Throws Error when it holds none.
 const Device& device_of(const Rig& rig, const std::string& finger);
 /// X_WD by finger.

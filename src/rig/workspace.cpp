@@ -219,8 +219,7 @@ bool Reach::contains(const Vec3& p_WH) const {
 }
 
 std::vector<Reach> reaches(const Rig& rig) {
-    std::vector<std::string> fingers;
-    for (const Device& device : rig.devices) fingers.push_back(device.finger);
+    const std::vector<std::string> fingers = held_fingers(rig);
     const StillDriver still;
     devices::Context context;
     context.driver = &still;

@@ -1,0 +1,211 @@
+#include "rig/calibration_guide.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr uint64_t kSeed = 1;        // of the simulated hand's slips
+constexpr int kTouches = 25;         // samples of a point of the jig
+constexpr int kHeld = 50;            // samples of endpoints held together: a second
+constexpr double kMostMoved = 2e-3;  // by endpoints held together, in that second [m]
+
+/// One person's way through steps, on devices that are only read.
+class Way {
+  public:
+    Way(DeviceReader& reader, const Guide& guide, int steps) : reader_(reader), guide_(guide) {
+        now_.steps = steps;
+    }
+
+    void begin_step(const std::string& text) {
+        ++now_.step;
+        now_.text = text;
+        tell(0, "");
+    }
+    void tell(double share, const std::string& measured) {
+        now_.share = share;
+        now_.measured = measured;
+        guide_.show(now_);
+    }
+    /// Until the person says so.
+    void wait() {
+        reader_.repeat([&] { return !guide_.done(); });
+    }
+    /// Calls `each` for every sample, until it returns false; `said`: the person has said that it
+    /// is done, since the last sample.
+    void sample(const std::function<bool(bool said)>& each) {
+        bool said = false;
+        int64_t ticks = 0;
+        constexpr int64_t kTicks = CalibrationSampler::kEvery / DeviceReader::kTick;
+        reader_.repeat([&] {
+            said = guide_.done() || said;
+            if (++ticks % kTicks != 0) return true;
+            return each(std::exchange(said, false));
+        });
+    }
+
+  private:
+    DeviceReader& reader_;
+    const Guide& guide_;
+    Guidance now_;
+};
+
+class CalibrationWay {
+  public:
+    CalibrationWay(const Rig& rig, const Guide& guide)
+        : rig_(rig), sampler_(rig, nullptr), way_(sampler_.reader(), guide, count(rig)) {}
+
+    CalibrationInput lead() {
+        way_.begin_step(
+            "Hold each arm in the standard configuration: both links at right angles, the thigh "
+            "level, the shin hanging. Let it rest on a block that keeps it there: what is off here "
+            "is felt everywhere. Devices without an arm: leave them where they rest.");
+        way_.wait();
+        sampler_.activate();
+        for (size_t other = 1; other < rig_.devices.size(); ++other) carry(other);
+        for (size_t device = 0; device < rig_.devices.size(); ++device) touch(device);
+        for (size_t other = 1; other < rig_.devices.size(); ++other) hold(other);
+        sampler_.deactivate();
+        return sampler_.input();
+    }
+
+  private:
+    static int count(const Rig& rig) {
+        const auto devices = static_cast<int>(rig.devices.size());
+        return 1 + 3 * (devices - 1) + devices * static_cast<int>(rig.jig.size());
+    }
+    std::string pair(size_t other) const {
+        return fmt::format("{} and {}", rig_.devices[0].finger, rig_.devices[other].finger);
+    }
+    void carry(size_t other) {
+        way_.begin_step(
+            fmt::format("Join the endpoints of {} by the link, until it is fast.", pair(other)));
+        way_.wait();
+        way_.begin_step(
+            "Move the link through all of the workspace, turning it to all sides, for a minute.");
+        size_t taken = 0;
+        way_.sample([&](bool said) {
+            sampler_.add_link(other);
+            if (++taken % 25 != 0 && !said) return true;
+            const double depth = std::min(sampler_.cloud(0)[0], sampler_.cloud(other)[0]);
+            const double share =
+                std::min({1.0, depth / kLeastDepth, static_cast<double>(taken) / kLeastSamples});
+            way_.tell(share, fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
+                                         kLeastDepth * 1e3, taken,
+                                         said && share < 1 ? ": go on, that is too little" : ""));
+            return !said || share < 1;
+        });
+    }
+    void touch(size_t device) {
+        for (size_t point = 0; point < rig_.jig.size(); ++point) {
+            way_.begin_step(
+                fmt::format("Touch '{}' of the jig with the {}'s endpoint, and keep it "
+                            "there.",
+                            rig_.jig[point].name, rig_.devices[device].finger));
+            way_.wait();
+            int taken = 0;
+            way_.sample([&](bool) {
+                sampler_.add_touch(device, point);
+                return ++taken < kTouches;
+            });
+        }
+    }
+    void hold(size_t other) {
+        way_.begin_step(fmt::format(
+            "Take the link away. Hold the endpoints of {} together, as at each session's start.",
+            pair(other)));
+        while (true) {
+            way_.wait();
+            const size_t from = sampler_.input().together_samples.size();
+            int taken = 0;
+            way_.sample([&](bool) {
+                sampler_.add_together(other);
+                return ++taken < kHeld;
+            });
+            const double moved = sampler_.moved_apart(from);
+            if (moved <= kMostMoved) return;
+            sampler_.forget_together(from);
+            way_.tell(0, fmt::format("They moved by {:.1f} mm: hold them still, once more.",
+                                     moved * 1e3));
+        }
+    }
+
+    const Rig& rig_;
+    CalibrationSampler sampler_;
+    Way way_;
+};
+
+}  // namespace
+
+CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
+    if (is_real(rig)) return CalibrationWay(rig, guide).lead();
+    Guidance now;
+    now.text = "A simulated hand carries the link, and touches the jig.";
+    return simulate_calibration(rig, kSeed, [&](double share) {
+        now.share = share;
+        guide.show(now);
+        guide.done();  // may give up
+        return true;
+    });
+}
+
+bool can_check_together(const Rig& rig) {
+    if (!is_real(rig) || !rig.calibrated) return false;
+    return std::any_of(rig.devices.begin(), rig.devices.end(), [&](const Device& device) {
+        const DeviceCalibration* const part = rig.calibrated->find(device.finger);
+        return part != nullptr && part->together;
+    });
+}
+
+std::string Together::describe() const {
+    return fmt::format(
+        "the endpoints of {} and {}, held together, are {:.1f} mm apart, and were {:.1f} mm apart "
+        "when the rig was calibrated",
+        first, second, apart * 1e3, before * 1e3);
+}
+
+Problem Together::warning(const Rig& rig) const {
+    Diagnostics diagnostics;
+    diagnostics.warning(rig.calibrated->place, "together", describe(),
+                        "Calibrate the rig again: dihaptic calibrate.");
+    return diagnostics.problems().front();
+}
+
+std::vector<Together> check_together(const Rig& rig, const Guide& guide) {
+    // a scale moves endpoints apart that are together
+    Rig unscaled = rig;
+    for (Device& device : unscaled.devices) device.scale = 1;
+    const std::vector<std::string> fingers = held_fingers(rig);
+    DeviceReader reader(make_devices(unscaled, fingers, {}), fingers);
+    const std::vector<Pose> X_WD = poses(unscaled, fingers);
+    std::vector<Together> out;
+    std::vector<size_t> others;
+    for (size_t other = 1; other < fingers.size(); ++other) {
+        const DeviceCalibration* const part = rig.calibrated->find(fingers[other]);
+        if (part == nullptr || !part->together) continue;
+        others.push_back(other);
+        out.push_back({fingers[0], fingers[other], 0, *part->together});
+    }
+    Way way(reader, guide, static_cast<int>(others.size()));
+    reader.activate();
+    for (size_t i = 0; i < others.size(); ++i) {
+        way.begin_step(fmt::format("Hold the endpoints of {} and {} together.", fingers[0],
+                                   fingers[others[i]]));
+        way.wait();
+        int taken = 0;
+        way.sample([&](bool) {
+            const auto p_W = [&](size_t k) { return Vec3(X_WD[k] * reader.readings()[k].p_DH); };
+            out[i].apart += (p_W(0) - p_W(others[i])).norm() / kHeld;
+            return ++taken < kHeld;
+        });
+        out[i].agrees = std::abs(out[i].apart - out[i].before) <=
+                        Together::kMostApart + 3 * rig.calibrated->agreement_rms;
+    }
+    reader.deactivate();
+    return out;
+}
+
+}  // namespace dihaptic::rig

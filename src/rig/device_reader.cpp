@@ -1,0 +1,71 @@
+#include "rig/device_reader.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <thread>
+
+namespace dihaptic::rig {
+
+DeviceReader::DeviceReader(std::unique_ptr<devices::DeviceGroup> devices,
+                           std::vector<std::string> fingers)
+    : devices_(std::move(devices)),
+      fingers_(std::move(fingers)),
+      readings_(fingers_.size()),
+      none_(fingers_.size()) {}
+
+void DeviceReader::activate() {
+    devices_->activate();
+    active_ = true;
+}
+
+void DeviceReader::deactivate() {
+    devices_->deactivate();
+    active_ = false;
+}
+
+void DeviceReader::tick(Time now) noexcept {
+    devices_->read(now, readings_);
+    devices_->write(none_);
+}
+
+void DeviceReader::check() const {
+    for (size_t i = 0; i < readings_.size(); ++i) {
+        const devices::Reading& reading = readings_[i];
+        const bool silent = (reading.status & devices::kNotAnswering) != 0;
+        if (!silent && reading.p_DH.allFinite() && reading.joints.allFinite()) continue;
+        throw Error(fmt::format("the {}'s device does not answer", fingers_[i]),
+                    "Look at its power and its cables, and begin again.");
+    }
+}
+
+void DeviceReader::repeat(const std::function<bool()>& each) {
+    using Clock = std::chrono::steady_clock;
+    static const Clock::time_point begin = Clock::now();
+    std::exception_ptr failure;
+    const auto once = [&] {
+        try {
+            if (active_) {
+                tick(Clock::now() - begin);
+                check();
+            }
+            return each();
+        } catch (...) {
+            failure = std::current_exception();  // not through a maker's library
+            return false;
+        }
+    };
+    if (active_ && devices_->paces()) {
+        devices_->pace(once);
+    } else {
+        auto due = Clock::now();
+        while (once()) {
+            due += kTick;
+            std::this_thread::sleep_until(due);
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace dihaptic::rig

@@ -1,0 +1,185 @@
+// A person who does what the guide says, on our fake of OpenHaptics.
+#include "rig/calibration_guide.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "devices/openhaptics/hd.h"
+#include "devices/test/fakes.h"
+#include "testing/files.h"
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr double kLink = 0.05;       // [m]
+constexpr double kTogether = 0.012;  // of endpoints held together [m]
+
+/// Two devices that stand elsewhere than the rig file says, and who holds them.
+struct Person {
+    testing::TemporaryFolder folder;
+    devices::openhaptics::FakeHd& fake = devices::openhaptics::fake_hd();
+    Rig rig;
+    std::vector<Pose> X_WD;  // the truth
+    Guidance now;
+    std::vector<std::string> told;
+    int64_t ticks = 0;          // since the step began
+    int64_t patience = 60'000;  // ticks of carrying
+    double moving = 0;          // apart, while the endpoints are held together [m]
+    int given_up_at = 0;        // step
+    double felt = 0;            // most of all forces [N]
+
+    explicit Person(const std::string& more = "") {
+        std::string text = "title: A rig\n" + more + "devices:\n";
+        for (const int i : {0, 1}) {
+            text += fmt::format(
+                "  - {{finger: {}, backend: openhaptics, rotation_deg: [90, 0, {}], "
+                "options: {{library: {}, name: {}}}}}\n",
+                i == 0 ? "thumb" : "index", i == 0 ? 90 : -90, DIHAPTIC_FAKE_HD,
+                fake.devices[static_cast<size_t>(i)].name);
+        }
+        text +=
+            "jig:\n  - {name: left, position_mm: [-30, -30, 0]}\n"
+            "  - {name: right, position_mm: [30, -30, 0]}\n"
+            "  - {name: back, position_mm: [0, 30, 10]}\n";
+        Diagnostics diagnostics;
+        rig = read_rig(folder.write("rig.yaml", text), diagnostics);
+        diagnostics.throw_if_errors();
+        X_WD = poses(rig, held_fingers(rig));
+        X_WD[0] = X_WD[0] * Pose{rotation_xyz({0.02, -0.01, 0.03}), {0.002, -0.001, 0.003}};
+        X_WD[1] = X_WD[1] * Pose{rotation_xyz({-0.01, 0.03, 0.02}), {-0.003, 0.002, 0.001}};
+        fake.hand = [this](size_t i, double t, const Vec3& force) {
+            felt = std::max(felt, force.norm());
+            devices::Held held;
+            held.p = X_WD[i].inverse() * place(i, t);
+            return held;
+        };
+    }
+
+    bool does(const char* words) const { return now.text.find(words) != std::string::npos; }
+    Vec3 place(size_t device, double t) const {
+        const double side = device == 0 ? 0.5 : -0.5;
+        if (does("Move the link")) {
+            const Vec3 off(0.05 * std::sin(0.7 * t), 0.05 * std::sin(1.1 * t),
+                           0.05 * std::sin(1.3 * t));
+            const double up = 0.95 * std::sin(0.9 * t);
+            const Vec3 along(std::sqrt(1 - up * up) * std::cos(1.7 * t),
+                             std::sqrt(1 - up * up) * std::sin(1.7 * t), up);
+            return off + side * kLink * along;
+        }
+        if (does("together")) {
+            const double apart = kTogether + moving * std::sin(20 * t);
+            return {side * apart, 0.01, 0.02};
+        }
+        for (const JigPoint& point : rig.jig) {
+            const bool own = does(rig.devices[device].finger.c_str());
+            if (own && does(point.name.c_str()) && does("Touch")) return point.position;
+        }
+        return {0, 0, 0.02 * side};
+    }
+    Guide guide() {
+        Guide out;
+        out.show = [this](const Guidance& guidance) {
+            if (guidance.step != now.step) ticks = 0;
+            now = guidance;
+            if (!now.measured.empty()) told.push_back(now.measured);
+        };
+        out.done = [this] {
+            if (given_up_at != 0 && now.step == given_up_at) throw GivenUp{};
+            const int64_t enough = does("Move the link") ? patience : 5;
+            return ++ticks % enough == 0;
+        };
+        return out;
+    }
+};
+
+TEST(CalibrationGuide, LeadsAPersonToACalibration) {
+    Person person;
+    const CalibrationInput input = lead_calibration(person.rig, person.guide());
+    EXPECT_EQ(person.now.step, 10);
+    EXPECT_EQ(person.now.steps, 10);
+    EXPECT_EQ(person.now.share, 0);
+    EXPECT_NE(person.told.back().find("60 needed"), std::string::npos) << person.told.back();
+    const CalibrationResult result = calibrate(input);
+    EXPECT_NEAR(result.calibration.link_length, kLink, 1e-6);
+    EXPECT_LT(result.calibration.agreement_rms, 1e-6);
+    EXPECT_LT(*result.calibration.jig_rms, 1e-6);
+    EXPECT_NEAR(*result.calibration.find("index")->together, kTogether, 1e-6);
+    EXPECT_FALSE(result.calibration.find("thumb")->together);
+    EXPECT_NE(describe(result).find("12.0 mm from the first, held together"), std::string::npos);
+    EXPECT_EQ(person.fake.violations, 0);
+    EXPECT_EQ(person.felt, 0);
+}
+
+TEST(CalibrationGuide, AsksForMoreWhenTheCloudIsTooSmall) {
+    Person person;
+    person.patience = 400;
+    lead_calibration(person.rig, person.guide());
+    const bool told = std::any_of(person.told.begin(), person.told.end(), [](const auto& text) {
+        return text.find("go on, that is too little") != std::string::npos;
+    });
+    EXPECT_TRUE(told);
+}
+
+TEST(CalibrationGuide, AsksAgainWhenEndpointsMoveApart) {
+    Person person;
+    person.moving = 0.005;
+    Guide guide = person.guide();
+    guide.show = [&, show = guide.show](const Guidance& now) {
+        show(now);
+        if (now.measured.find("hold them still, once more") != std::string::npos) person.moving = 0;
+    };
+    const CalibrationInput input = lead_calibration(person.rig, guide);
+    EXPECT_EQ(person.moving, 0);
+    EXPECT_EQ(input.together_samples.size(), 50U);
+}
+
+TEST(CalibrationGuide, EndsWhenThePersonGivesUpOrADeviceFallsSilent) {
+    for (const int step : {1, 3, 5}) {
+        Person person;
+        person.given_up_at = step;
+        EXPECT_THROW(lead_calibration(person.rig, person.guide()), GivenUp) << step;
+        for (const auto& device : person.fake.devices) EXPECT_FALSE(device.initialised);
+    }
+    Person person;
+    Guide guide = person.guide();
+    guide.done = [&, done = guide.done] {
+        if (person.now.step == 3) person.fake.devices[1].nonsense = true;
+        return done();
+    };
+    try {
+        lead_calibration(person.rig, guide);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("the index's device does not answer"),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
+TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
+    Person person;
+    EXPECT_FALSE(can_check_together(person.rig));
+    person.rig.calibrated = calibrate(lead_calibration(person.rig, person.guide())).calibration;
+    ASSERT_TRUE(can_check_together(person.rig));
+    person.now = {};
+    const Together well = check_together(person.rig, person.guide()).at(0);
+    EXPECT_TRUE(well.agrees);
+    EXPECT_NEAR(well.apart, kTogether, 1e-5);
+    EXPECT_NEAR(well.before, kTogether, 1e-5);
+    // somebody ran into it
+    person.X_WD[1].p.x() += 0.004;
+    person.now = {};
+    const Together moved = check_together(person.rig, person.guide()).at(0);
+    EXPECT_FALSE(moved.agrees);
+    EXPECT_NEAR(moved.apart, kTogether + 0.004, 1e-4);
+    EXPECT_NE(moved.warning(person.rig).text().find("Calibrate the rig again"), std::string::npos);
+    // a scale moves nothing that is held together
+    person.X_WD[1].p.x() -= 0.004;
+    for (Device& device : person.rig.devices) device.scale = 3;
+    person.now = {};
+    EXPECT_NEAR(check_together(person.rig, person.guide()).at(0).apart, kTogether, 1e-5);
+}
+
+}  // namespace
+}  // namespace dihaptic::rig
