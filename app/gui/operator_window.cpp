@@ -12,6 +12,7 @@
 #include <QTime>
 #include <QUrl>
 
+#include "rig/calibration_guide.h"
 #include "theme.h"
 
 namespace dihaptic::gui {
@@ -35,6 +36,7 @@ QString duration(double seconds) {
 
 OperatorWindow::OperatorWindow(QString out)
     : out_(std::move(out)),
+      calibrator_(new Calibrator(this)),
       scene_(new SceneWidget),
       session_(new SessionPanel),
       plots_(new PlotsPanel),
@@ -89,6 +91,8 @@ OperatorWindow::OperatorWindow(QString out)
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
     });
+    connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
+    connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
     connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
@@ -147,6 +151,8 @@ void OperatorWindow::make_menus() {
     add("S&top", Qt::Key_F7, &OperatorWindow::stop);
     add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
     add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
+    session->addSeparator();
+    session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
 
     view_menu_ = menuBar()->addMenu("&View");
     camera_menu_ = view_menu_->addMenu("C&amera");
@@ -299,18 +305,28 @@ void OperatorWindow::start_trials() {
 
 void OperatorWindow::begin(const recording::Participant& participant) {
     if (!plan_ || runner_.running() || loader_.loading()) return;
+    experiment::Request asked = request();
+    asked.participant = participant.id;
+    try {
+        auto made = std::make_shared<experiment::Plan>(experiment::make_plan(asked));
+        if (!rig::can_check_together(made->rig)) return run(std::move(*made), participant);
+        calibrator_->check_together(
+            made->rig, [this, made, participant](const std::vector<Problem>& warnings) {
+                made->warnings.insert(made->warnings.end(), warnings.begin(), warnings.end());
+                run(std::move(*made), participant);
+            });
+    } catch (const Error& e) {
+        log(QString::fromStdString(e.what()), true);
+    }
+}
+
+void OperatorWindow::run(experiment::Plan made, const recording::Participant& participant) {
+    if (runner_.running()) return;
     experiment::RunOptions options;
     options.out = out_.toStdString();
     options.command = "dihaptic gui " + file_.toStdString();
     options.participant = participant;
-    experiment::Request asked = request();
-    asked.participant = participant.id;
-    try {
-        runner_.start(experiment::make_plan(asked), options);
-    } catch (const Error& e) {
-        log(QString::fromStdString(e.what()), true);
-        return;
-    }
+    runner_.start(std::move(made), options);
     const experiment::Plan& plan = runner_.plan();
     tuning_->set_settings(plan.settings);
     if (plan.mouse) {
@@ -322,6 +338,14 @@ void OperatorWindow::begin(const recording::Participant& participant) {
     scene_->setFocus();
     log("started: " + QString::fromStdString(plan.title));
     update_state();
+}
+
+void OperatorWindow::calibrate() {
+    if (runner_.running() || loader_.loading()) return;
+    QString rig = session_->rig();
+    if (rig.isEmpty() && plan_) rig = QString::fromStdString(plan_->rig.place.file);
+    if (rig.isEmpty()) return log("There is no rig file to calibrate: choose a rig.", true);
+    calibrator_->calibrate(rig);
 }
 
 void OperatorWindow::stop() {

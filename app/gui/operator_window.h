@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "calibrator.h"
 #include "device_panel.h"
 #include "loader.h"
 #include "participant_dialog.h"
@@ -49,6 +50,9 @@ class OperatorWindow : public QMainWindow {
     /// Asks for the person first.
     void start_trials();
     void begin(const recording::Participant& participant);
+    void run(experiment::Plan plan, const recording::Participant& participant);
+    /// The rig that is chosen, or the file's.
+    void calibrate();
     void stop();
     void skip();
     /// A key that a task may wait for.
@@ -84,6 +88,7 @@ class OperatorWindow : public QMainWindow {
 
     Loader loader_;
     SessionRunner runner_;
+    Calibrator* calibrator_;
     SceneWidget* scene_;
     SessionPanel* session_;
     PlotsPanel* plots_;

@@ -79,6 +79,38 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     }
 }
 
+/// Angles that put the endpoint elsewhere than the device says are not understood.
+void check_joints(const CalibrationInput& input) {
+    constexpr double kMostApart = 2e-3;  // rms [m]
+    for (size_t i = 0; i < input.devices.size(); ++i) {
+        const auto& arm = input.devices[i].arm;
+        if (!arm) continue;
+        std::vector<Vec3> apart;
+        const auto add = [&](const CalibrationReading& at) {
+            apart.push_back(at.p_DH - model::phantom_position(*arm, at.joints));
+        };
+        for (const auto& sample : input.link_samples) {
+            if (sample.a == i) add(sample.at_a);
+            if (sample.b == i) add(sample.at_b);
+        }
+        for (const auto& sample : input.jig_samples) {
+            if (sample.device == i) add(sample.at);
+        }
+        // a constant is where D's origin lies
+        Vec3 mean = Vec3::Zero();
+        for (const Vec3& d : apart) mean += d / static_cast<double>(apart.size());
+        std::vector<double> off;
+        for (const Vec3& d : apart) off.push_back((d - mean).norm());
+        if (rms(off) <= kMostApart) continue;
+        throw Error(
+            fmt::format("the joints of the {}'s device put its endpoint elsewhere than the device "
+                        "says: {:.1f} mm rms, {:.1f} mm at worst",
+                        input.devices[i].finger, rms(off) * 1e3, worst(off) * 1e3),
+            "Correct the lengths of its links in the rig file (thigh_mm, shin_mm), or leave out "
+            "joint_angles.");
+    }
+}
+
 void check_jig(const CalibrationInput& input) {
     if (input.jig_samples.empty()) return;
     std::vector<Vec3> points;
@@ -214,6 +246,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         throw Error("one device alone is calibrated by a jig, and none was touched",
                     "Give the rig file a jig, or two devices.");
     }
+    check_joints(input);
     check_jig(input);
     const size_t links = input.link_samples.size();
     const size_t touches = input.jig_samples.size();

@@ -87,15 +87,18 @@ class CalibrationWay {
         way_.begin_step(
             "Move the link through all of the workspace, turning it to all sides, for a minute.");
         size_t taken = 0;
+        bool too_soon = false;
         way_.sample([&](bool said) {
             sampler_.add_link(other);
             if (++taken % 25 != 0 && !said) return true;
             const double depth = std::min(sampler_.cloud(0)[0], sampler_.cloud(other)[0]);
             const double share =
                 std::min({1.0, depth / kLeastDepth, static_cast<double>(taken) / kLeastSamples});
-            way_.tell(share, fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
-                                         kLeastDepth * 1e3, taken,
-                                         said && share < 1 ? ": go on, that is too little" : ""));
+            too_soon = too_soon || said;
+            way_.tell(share,
+                      fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
+                                  kLeastDepth * 1e3, taken,
+                                  too_soon && share < 1 ? ": go on, that is too little" : ""));
             return !said || share < 1;
         });
     }

@@ -90,6 +90,13 @@ void Connection::read_info() {
     const Vec3 most(edges[3], edges[4], edges[5]);
     centre_ = (least + most) / 2 * kPerMm;
     info_.workspace = (most - least) * kPerMm;
+    if (options_.joint_angles) {
+        // HD's own origin is where the joints are zero, and the box around it is the smaller one
+        info_.arm = options_.links;
+        centre_ = Vec3::Zero();
+        info_.workspace = 2 * least.cwiseAbs().cwiseMin(most.cwiseAbs()) * kPerMm;
+        check_joints();
+    }
     int dof = 0;
     hd_.get_integers(kHdInputDof, &dof);
     info_.measures_orientation = options_.orientation && dof >= 6;
@@ -118,6 +125,16 @@ void Connection::read_info() {
                     fmt::format("{} is not that of serial {}", who(), options_.serial),
                     "Correct name or serial, or swap the devices in the driver's configuration.");
     }
+}
+
+void Connection::check_joints() const {
+    check("does not say what it can do", "name");
+    Vec3 joints = Vec3::Constant(std::nan(""));
+    hd_.get_doubles(kHdJointAngles, joints.data());
+    forget_errors();
+    if (joints.allFinite()) return;
+    throw Error(place_, "joint_angles", who() + " does not tell the angles of its joints",
+                "Leave out joint_angles.");
 }
 
 void Connection::calibrate() const {

@@ -75,6 +75,11 @@ void Group::read(Device& device, Reading& reading) noexcept {
     reading.p_DH = position * kPerMm - device.connection.centre();
     reading.v_DH = velocity * kPerMm;
     reading.buttons = static_cast<uint32_t>(buttons);
+    if (device.connection.info().arm) {
+        Vec3 joints = Vec3::Zero();
+        hd_.get_doubles(kHdJointAngles, joints.data());
+        reading.joints = {-joints[0], joints[1], joints[2]};  // ours: turret to the right
+    }
     if (device.connection.info().measures_orientation) {
         Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
         hd_.get_doubles(kHdTransform, transform.data());

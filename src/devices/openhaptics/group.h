@@ -2,7 +2,7 @@
 // devices are read, the tick computes, all forces are set, all frames end.
 //
 // D has HD's axes (x right, y up, z toward the person) and its origin in the middle of the usable
-// workspace that the device states.
+// workspace that the device states; or HD's own, of a device whose joints are asked for.
 #pragma once
 
 #include <array>
@@ -21,6 +21,8 @@ struct Options {
     std::string library;         ///< libHD.so, where it is not found by itself
     bool encoder_reset = false;  ///< at each activation, held in its neutral pose
     bool orientation = true;     ///< whether it is used, of devices that measure it
+    bool joint_angles = false;   ///< a Premium's are asked for, so that calibrations know them
+    model::PhantomLinks links;   ///< of one whose joints are asked for
     std::optional<double> max_stiffness;  ///< in place of what the device says [N/m]
     std::optional<double> max_damping;    ///< the same [N*s/m]
 
@@ -31,6 +33,9 @@ struct Options {
         v("library", library);
         v("encoder_reset", encoder_reset);
         v("orientation", orientation);
+        v("joint_angles", joint_angles);
+        v("thigh", links.thigh, Field::length().positive());
+        v("shin", links.shin, Field::length().positive());
         v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
         v("max_damping", max_damping, Field::of(Quantity::damping).positive());
     }
@@ -65,6 +70,7 @@ class Connection {
     double number(HdValue value) const;
     std::string text(HdValue value) const;
     void read_info();
+    void check_joints() const;
 
     Hd hd_;
     Options options_;

@@ -29,6 +29,7 @@ enum HdValue : unsigned {
     kHdVelocity = 0x2051,         // 3 doubles
     kHdTransform = 0x2052,        // 16 doubles, column after column
     kHdAngularVelocity = 0x2053,  // 3 doubles
+    kHdJointAngles = 0x2100,      // 3 doubles: turret to the left, thigh up, shin up [rad]
     kHdVersion = 0x2500,          // string, as are the next
     kHdModel = 0x2501,
     kHdSerial = 0x2504,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "devices/openhaptics/hd.h"
 #include "devices/test/fakes.h"
@@ -29,14 +30,15 @@ struct Person {
     int given_up_at = 0;        // step
     double felt = 0;            // most of all forces [N]
 
-    explicit Person(const std::string& more = "") {
-        std::string text = "title: A rig\n" + more + "devices:\n";
+    /// `options`: more, of each device.
+    explicit Person(const std::string& options = "") {
+        std::string text = "title: A rig\ndevices:\n";
         for (const int i : {0, 1}) {
             text += fmt::format(
                 "  - {{finger: {}, backend: openhaptics, rotation_deg: [90, 0, {}], "
-                "options: {{library: {}, name: {}}}}}\n",
+                "options: {{library: {}, name: {}{}}}}}\n",
                 i == 0 ? "thumb" : "index", i == 0 ? 90 : -90, DIHAPTIC_FAKE_HD,
-                fake.devices[static_cast<size_t>(i)].name);
+                fake.devices[static_cast<size_t>(i)].name, options);
         }
         text +=
             "jig:\n  - {name: left, position_mm: [-30, -30, 0]}\n"
@@ -109,6 +111,37 @@ TEST(CalibrationGuide, LeadsAPersonToACalibration) {
     EXPECT_NE(describe(result).find("12.0 mm from the first, held together"), std::string::npos);
     EXPECT_EQ(person.fake.violations, 0);
     EXPECT_EQ(person.felt, 0);
+}
+
+/// A reset off the standard configuration bends the space of a device that tells no joint angles.
+TEST(CalibrationGuide, FindsAResetThatWasOffByTheJoints) {
+    const double degree = std::numbers::pi / 180;
+    for (const bool joints : {true, false}) {
+        Person person(joints ? ", joint_angles: yes" : "");
+        person.fake.devices[0].joint_offset = Vec3(1, -1, 1) * degree;
+        person.fake.devices[1].joint_offset = Vec3(-1, 1, 1) * degree;
+        const CalibrationResult result = calibrate(lead_calibration(person.rig, person.guide()));
+        const double rms = result.calibration.agreement_rms;
+        if (joints) {
+            EXPECT_LT(rms, 1e-5);
+            EXPECT_NEAR(result.calibration.find("thumb")->joint_offset->y(), -degree,
+                        0.02 * degree);
+        } else {
+            EXPECT_GT(rms, 1e-4);
+        }
+    }
+}
+
+TEST(CalibrationGuide, RefusesJointsThatDoNotExplainThePositions) {
+    Person person(", joint_angles: yes, thigh_mm: 215, shin_mm: 170");
+    for (auto& device : person.fake.devices) device.joint_offset = Vec3::Zero();
+    try {
+        calibrate(lead_calibration(person.rig, person.guide()));
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("Correct the lengths of its links"), std::string::npos)
+            << e.what();
+    }
 }
 
 TEST(CalibrationGuide, AsksForMoreWhenTheCloudIsTooSmall) {

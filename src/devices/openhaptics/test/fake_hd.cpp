@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "devices/openhaptics/hd.h"
+#include "model/phantom_arm.h"
 
 namespace dihaptic::devices::openhaptics {
 namespace {
@@ -144,9 +145,20 @@ Held held(Device& device) {
 }
 Held state[8];  // by device: in this frame
 
+/// What an arm's encoders say, in our signs.
+Vec3 told_joints(const Device& device, const Held& now) {
+    return model::phantom_joints({}, now.p) - *device.joint_offset;
+}
+
 Vec3 middle(const Device& device) {
     const double* const w = device.workspace;
     return Vec3(w[0] + w[3], w[1] + w[4], w[2] + w[5]) / 2;
+}
+
+/// Where HD says that the handle is [mm].
+Vec3 told_position(const Device& device, const Held& now) {
+    if (device.joint_offset) return 1e3 * model::phantom_position({}, told_joints(device, now));
+    return 1e3 * now.p + middle(device);
 }
 
 /// What of a force reaches the hand: it ramps up after the amplifiers came on.
@@ -286,9 +298,14 @@ void hdGetDoublev(unsigned value, double* out) {
     const auto give = [&](const Vec3& v) { std::copy_n(v.data(), 3, out); };
     switch (value) {
         case kHdPosition:
-            give(device->nonsense ? Vec3::Constant(std::nan(""))
-                                  : Vec3(now.p * 1e3 + middle(*device)));
+            give(device->nonsense ? Vec3::Constant(std::nan("")) : told_position(*device, now));
             break;
+        case kHdJointAngles: {
+            if (!device->joint_offset) return push(0x100, current);
+            const Vec3 q = told_joints(*device, now);
+            give({-q[0], q[1], q[2]});
+            break;
+        }
         case kHdVelocity:
             give(now.v * 1e3);
             break;
@@ -298,7 +315,7 @@ void hdGetDoublev(unsigned value, double* out) {
         case kHdTransform: {
             Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
             transform.topLeftCorner<3, 3>() = now.R.toRotationMatrix();
-            transform.topRightCorner<3, 1>() = now.p * 1e3 + middle(*device);
+            transform.topRightCorner<3, 1>() = told_position(*device, now);
             std::copy_n(transform.data(), 16, out);
             break;
         }

@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,7 +27,10 @@ struct FakeHd {
         double max_stiffness = 1;                              ///< [N/mm]
         double max_damping = 0.005;                            ///< [N*s/mm]
         double workspace[6] = {-127, -60, -40, 127, 118, 87};  ///< minima, maxima [mm]
-        bool nonsense = false;                                 ///< its position is not a number
+        /// Its joints' true angles less those that it tells, and goes by; unset: it tells none
+        /// [rad].
+        std::optional<Vec3> joint_offset;
+        bool nonsense = false;  ///< its position is not a number
 
         // what became of it
         bool initialised = false;

@@ -76,6 +76,28 @@ TEST(OpenHaptics, ConvertsUnitsAndPutsTheOriginInTheMiddleOfTheWorkspace) {
     EXPECT_EQ(reading.status, 0u);
 }
 
+TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
+    FakeHd& fake = fake_hd();
+    const Vec3 q(0.3, -0.2, 0.4);
+    const Vec3 offset(0.01, 0.02, -0.01);
+    fake.devices[0].joint_offset = offset;
+    fake.hand = [&](size_t, double, const Vec3&) { return Held{model::phantom_position({}, q)}; };
+    const auto group = make({"joint_angles: yes\n"});
+    ASSERT_TRUE(group->info(0).arm);
+    // around HD's own origin the device reaches less to one side
+    EXPECT_TRUE(group->info(0).workspace->isApprox(Vec3(0.254, 0.120, 0.080)));
+    group->activate();
+    const Reading reading = Paced(*group, 1).readings[0][0];
+    EXPECT_TRUE(reading.joints.isApprox(q - offset, 1e-9)) << reading.joints.transpose();
+    EXPECT_TRUE(reading.p_DH.isApprox(model::phantom_position({}, reading.joints), 1e-9));
+}
+
+TEST(OpenHaptics, RefusesJointsOfADeviceThatTellsNone) {
+    fake_hd();
+    expect_in("does not tell the angles of its joints. Leave out joint_angles.",
+              told([] { make({"joint_angles: yes\n"}); }));
+}
+
 TEST(OpenHaptics, SaysWhenAHandleLeavesTheWorkspace) {
     FakeHd& fake = fake_hd();
     fake.hand = [&](size_t i, double, const Vec3&) {

@@ -1,0 +1,100 @@
+#include "calibrator.h"
+
+#include <QDialogButtonBox>
+#include <QFontDatabase>
+#include <QLabel>
+#include <QPushButton>
+#include <QSvgWidget>
+#include <QVBoxLayout>
+
+#include "guide_dialog.h"
+#include "recording/session.h"
+
+namespace dihaptic::gui {
+
+void Calibrator::calibrate(const QString& rig_file) {
+    Diagnostics diagnostics;
+    const rig::Rig rig = rig::read_rig_to_calibrate(rig_file.toStdString(), diagnostics);
+    for (const Problem& problem : diagnostics.problems())
+        Q_EMIT logged(QString::fromStdString(problem.text()), true);
+    if (diagnostics.has_errors()) return;
+    auto found = std::make_shared<rig::CalibrationResult>();
+    auto* guide = new GuideDialog(
+        "Calibration: " + QString::fromStdString(rig.title), "&Give up",
+        [rig, found](const rig::Guide& person) {
+            *found = rig::calibrate(rig::lead_calibration(rig, person));
+            found->calibration.date = recording::iso_now().substr(0, 10);
+        },
+        window_);
+    connect(guide, &GuideDialog::failed, this,
+            [this](const QString& why) { Q_EMIT logged(why, true); });
+    const std::string file = rig::calibration_file(rig, rig_file.toStdString());
+    connect(guide, &QDialog::accepted, this,
+            [this, rig, found, file] { ask_to_store(rig, *found, file); });
+    guide->open();
+}
+
+void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
+                              const std::string& file) {
+    auto* dialog = new QDialog(window_);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle("What the calibration found");
+    auto* words = new QLabel(QString::fromStdString(rig::describe(result)));
+    words->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+    words->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* picture = new QSvgWidget;
+    picture->load(QByteArray::fromStdString(rig::residual_picture(result, rig.title)));
+    picture->setMinimumSize(picture->sizeHint());
+    auto* buttons = new QDialogButtonBox;
+    buttons->addButton("&Store", QDialogButtonBox::AcceptRole)->setDefault(true);
+    buttons->addButton("&Discard", QDialogButtonBox::RejectRole)->setAutoDefault(false);
+    auto* layout = new QVBoxLayout(dialog);
+    layout->addWidget(words);
+    layout->addWidget(picture, 1);
+    layout->addWidget(new QLabel("It goes to " + QString::fromStdString(file)));
+    layout->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+    connect(dialog, &QDialog::accepted, this, [this, rig, result, file] {
+        try {
+            rig::store_calibration(rig, result, file);
+        } catch (const Error& e) {
+            Q_EMIT logged(e.what(), true);
+            return;
+        }
+        Q_EMIT logged("calibration stored: " + QString::fromStdString(file), false);
+        if (rig.calibration.empty()) {
+            const QString name = QString::fromStdString(file).section('/', -1);
+            Q_EMIT logged("For the rig file, so that it is used:   calibration: " + name, true);
+        }
+        Q_EMIT stored();
+    });
+    dialog->open();
+}
+
+void Calibrator::check_together(const rig::Rig& rig,
+                                const std::function<void(const std::vector<Problem>&)>& then) {
+    auto found = std::make_shared<std::vector<rig::Together>>();
+    auto* guide = new GuideDialog(
+        "Does the calibration still hold?", "&Skip",
+        [rig, found](const rig::Guide& person) { *found = rig::check_together(rig, person); },
+        window_);
+    auto refused = std::make_shared<bool>(false);
+    connect(guide, &GuideDialog::failed, this, [this, refused](const QString& why) {
+        *refused = true;
+        Q_EMIT logged(why, true);
+    });
+    connect(guide, &QDialog::finished, this, [this, rig, found, refused, then] {
+        if (*refused) return;
+        std::vector<Problem> warnings;
+        for (const rig::Together& pair : *found) {
+            Q_EMIT logged(QString::fromStdString(pair.describe()), !pair.agrees);
+            if (!pair.agrees) warnings.push_back(pair.warning(rig));
+        }
+        if (found->empty()) Q_EMIT logged("the calibration was not checked", false);
+        then(warnings);
+    });
+    guide->open();
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,37 @@
+// Calibrates the rig from the window, and checks before a session that its calibration still holds.
+#pragma once
+
+#include <QWidget>
+#include <functional>
+#include <vector>
+
+#include "rig/rig.h"
+
+namespace dihaptic::gui {
+
+class Calibrator : public QObject {
+    Q_OBJECT
+
+  public:
+    /// Its dialogs are of this window.
+    explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
+
+    /// Asks at the end whether to store what was found.
+    void calibrate(const QString& rig_file);
+    /// Calls `then` when endpoints were held together, or the person would not: with what is to be
+    /// warned of. Not when a device does not answer.
+    void check_together(const rig::Rig& rig,
+                        const std::function<void(const std::vector<Problem>&)>& then);
+
+  Q_SIGNALS:
+    void logged(const QString& text, bool problem);
+    void stored();
+
+  private:
+    void ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
+                      const std::string& file);
+
+    QWidget* window_;
+};
+
+}  // namespace dihaptic::gui
