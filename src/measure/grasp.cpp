@@ -117,11 +117,14 @@ bool calm_wall(const BenchSetup& setup) {
 KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
     const double way = kStartGap + setup.squeeze;
-    hand.script = {{"press", way / speed, {}, {way, 0, 0}, true},
+    // real devices let their own force come on slowly
+    hand.script = {{"wait", 0.25, {}, Vec3::Zero(), false},
+                   {"press", way / speed, {}, {way, 0, 0}, true},
                    {"stay", 1, {}, Vec3::Zero(), false},
                    {"leave", way / speed, {}, {-way, 0, 0}, true},
                    {"away", 0.2, {}, Vec3::Zero(), false}};
     Bench bench(wall_scene(setup), hand, setup);
+    constexpr int kLeave = 3;  // phase
     KickFigures out;
     out.k = setup.settings.coupling.stiffness;
     out.speed = speed;
@@ -133,7 +136,7 @@ KickFigures measure_kick(BenchSetup setup, double speed) {
         const servo::FingerFrame& finger = frame.fingers[0];
         const double push = -finger.f_sent_W.x();
         const double depth = finger.p_WH.x() + reach(setup);
-        if (frame.phase < 2) {
+        if (frame.phase < kLeave) {
             peak = std::max(peak, push);
             if (ticks_since_touch >= 0) ++ticks_since_touch;
             if (ticks_since_touch < 0 && finger.normal_force > 0) {

@@ -42,8 +42,8 @@ TEST_P(Makers, HoldAndLiftAreTheSame) {
 
 TEST_P(Makers, TouchingAWallIsTheSame) {
     set(1000, Fingering::ideal);
-    const KickFigures a = measure_kick(simulated, 0.2);
-    const KickFigures b = measure_kick(made, 0.2);
+    const KickFigures a = measure_kick(simulated, 0.5);
+    const KickFigures b = measure_kick(made, 0.5);
     EXPECT_GT(a.kick_ratio, 0.5);
     expect_alike(a.kick_ratio, b.kick_ratio, 0);
     expect_alike(a.touch_step_n, b.touch_step_n, 1e-4);
