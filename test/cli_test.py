@@ -36,6 +36,17 @@ def session_of(out):
     return folder
 
 
+def wait_for_log(out, size):
+    """Until the only session's raw log in `out` is longer; returns how long it is."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        logs = glob.glob(out + "/*/raw.log")
+        if logs and os.path.getsize(logs[0]) > size:
+            return os.path.getsize(logs[0])
+        time.sleep(0.001)
+    raise AssertionError("no log of that length in " + out)
+
+
 class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
@@ -513,10 +524,7 @@ class RealDevices(unittest.TestCase):
                                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
                 self.assertIn("1 of 1. Hold the endpoints of thumb and index together", process.stdout.readline())
                 os.write(master, answer)
-                deadline = time.monotonic() + 60
-                while time.monotonic() < deadline and not any(
-                        os.path.getsize(log) > 100000 for log in glob.glob(out + "/*/raw.log")):
-                    time.sleep(0.01)
+                wait_for_log(out, 100000)
                 process.send_signal(signal.SIGINT)
                 stdout, stderr = process.communicate(timeout=60)
                 os.close(master)
@@ -534,10 +542,7 @@ class RealDevices(unittest.TestCase):
                 process = subprocess.Popen([PROGRAM, "run", "scenes/block-on-table.yaml", "--rig", rig, "--out", out,
                                             "--set", "safety.max_pause_ms=1000"],
                                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
-                deadline = time.monotonic() + 60
-                while time.monotonic() < deadline and not any(
-                        os.path.getsize(log) > 100000 for log in glob.glob(out + "/*/raw.log")):
-                    time.sleep(0.01)
+                wait_for_log(out, 100000)
                 process.send_signal(signal.SIGINT)
                 stdout, stderr = process.communicate(timeout=60)
                 self.assertIn("Escape or Ctrl-C switches force off", stdout, stderr)
@@ -684,15 +689,6 @@ class Interruptions(unittest.TestCase):
         return subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *arguments],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
-    def wait_for_log(self, out, size):
-        deadline = time.monotonic() + 60
-        while time.monotonic() < deadline:
-            logs = glob.glob(out + "/*/raw.log")
-            if logs and os.path.getsize(logs[0]) > size:
-                return os.path.getsize(logs[0])
-            time.sleep(0.001)
-        self.fail("no log")
-
     def test_a_closed_terminal_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
             master, slave = pty.openpty()
@@ -700,7 +696,7 @@ class Interruptions(unittest.TestCase):
                                        stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
                                        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
             os.close(slave)
-            self.wait_for_log(out, 300000)
+            wait_for_log(out, 300000)
             os.close(master)
             self.assertEqual(process.wait(timeout=60), 1)
             folder = session_of(out)
@@ -714,7 +710,7 @@ class Interruptions(unittest.TestCase):
             process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
                                        stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                        start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
-            self.wait_for_log(out, 300000)
+            wait_for_log(out, 300000)
             os.write(master, b"q")  # no other key does
             time.sleep(0.2)
             self.assertIsNone(process.poll())
@@ -734,7 +730,7 @@ class Interruptions(unittest.TestCase):
     def test_a_running_session_is_not_recovered(self):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
-            self.wait_for_log(out, 100000)
+            wait_for_log(out, 100000)
             folder = session_of(out)
             before = set(os.listdir(folder))
             result = dihaptic("recover", folder)
@@ -748,7 +744,7 @@ class Interruptions(unittest.TestCase):
     def test_ticks_that_overruns_left_out_are_told(self):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
-            self.wait_for_log(out, 100000)
+            wait_for_log(out, 100000)
             process.send_signal(signal.SIGSTOP)
             time.sleep(0.3)
             process.send_signal(signal.SIGCONT)
@@ -768,7 +764,7 @@ class Interruptions(unittest.TestCase):
     def test_ctrl_c_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
-            self.wait_for_log(out, 300000)
+            wait_for_log(out, 300000)
             process.send_signal(signal.SIGINT)
             stdout, stderr = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 1, stderr)
@@ -783,7 +779,7 @@ class Interruptions(unittest.TestCase):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
             # the log as it stands, and when: from there on real time counts the frames
-            self.wait_for_log(out, 100000)
+            wait_for_log(out, 100000)
             folder = session_of(out)
             snapshot = pathlib.Path(folder + "raw.log").read_bytes()
             seen_at = time.monotonic()
@@ -812,7 +808,7 @@ class Interruptions(unittest.TestCase):
         while kills < int(os.environ.get("DIHAPTIC_KILLS", 8)):
             with tempfile.TemporaryDirectory() as out:
                 process = self.start(out)
-                size = self.wait_for_log(out, random.uniform(0.01, 0.99) * whole)
+                size = wait_for_log(out, random.uniform(0.01, 0.99) * whole)
                 process.kill()
                 process.communicate()
                 if process.returncode == 0:

@@ -13,6 +13,7 @@
 #include <QUrl>
 
 #include "rig/calibration_guide.h"
+#include "session_progress.h"
 #include "theme.h"
 
 namespace dihaptic::gui {
@@ -25,12 +26,6 @@ const QString kMouseHelp =
     "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
     "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
     "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.   Escape: force off.";
-
-QString duration(double seconds) {
-    if (seconds < 60) return QString("%1 s").arg(seconds, 0, 'f', 1);
-    const int whole = static_cast<int>(seconds);
-    return QString("%1 min %2 s").arg(whole / 60).arg(whole % 60);
-}
 
 }  // namespace
 
@@ -427,36 +422,9 @@ bool OperatorWindow::has_trials() const {
 }
 
 void OperatorWindow::show_progress(const servo::Frame& frame) {
-    const experiment::Plan& plan = runner_.plan();
-    const double now = seconds(frame.time);
-    if (plan.task) {
-        const experiment::Task& task = plan.task->task;
-        const auto trials = static_cast<int>(plan.task->trials.size());
-        const int n = std::clamp(frame.trial, 1, trials);
-        const experiment::Trial& trial = plan.task->trials[static_cast<size_t>(n - 1)];
-        QStringList what{QString("Trial %1 of %2").arg(n).arg(trials)};
-        const auto name = [&](const auto& list, int which) {
-            if (static_cast<size_t>(which) < list.size())
-                what += QString::fromStdString(list[static_cast<size_t>(which)].name);
-        };
-        name(task.rounds, trial.round);
-        name(task.blocks, trial.block);
-        name(task.conditions, trial.condition);
-        if (frame.task.attempt > 1) what += QString("attempt %1").arg(frame.task.attempt);
-        session_->set_trial(what.join(" \u00b7 "));
-        const double done = runner_.done();
-        session_->set_progress(done, done > 0
-                                         ? "about " + duration(now * (1 - done) / done) + " left"
-                                         : duration(now));
-        return;
-    }
-    if (mouse_) return session_->set_progress(0, duration(now));
-    const auto& phases = plan.driver->phases();
-    const double end = plan.driver->duration();
-    const bool has_phase = static_cast<size_t>(frame.phase) < phases.size();
-    const std::string phase = has_phase ? phases[static_cast<size_t>(frame.phase)].name : "";
-    session_->set_progress(now / end,
-                           QString("%1: %2 s left").arg(phase.c_str()).arg(end - now, 0, 'f', 1));
+    const SessionProgress now = progress_of(runner_.plan(), frame, runner_.done());
+    if (runner_.plan().task) session_->set_trial(now.trial);
+    session_->set_progress(now.share, now.text);
 }
 
 void OperatorWindow::move_hand(double h) {

@@ -1,0 +1,52 @@
+#include "session_progress.h"
+
+#include <gtest/gtest.h>
+
+namespace dihaptic::gui {
+namespace {
+
+experiment::Plan plan_of(const char* file, bool mouse = false) {
+    experiment::Request request;
+    request.file = file;
+    request.mouse = mouse;
+    request.participant = "S07";
+    return experiment::make_plan(request);
+}
+
+servo::Frame at(double time) {
+    servo::Frame frame;
+    frame.time = from_seconds(time);
+    return frame;
+}
+
+TEST(SessionProgress, OfAScriptIsItsPhaseAndWhatIsLeft) {
+    const experiment::Plan plan = plan_of("experiments/lift-block.yaml");
+    servo::Frame frame = at(plan.driver->duration() - 3);
+    frame.phase = 0;
+    const SessionProgress now = progress_of(plan, frame, 0);
+    EXPECT_EQ(now.trial, "");
+    EXPECT_NEAR(now.share, 1 - 3 / plan.driver->duration(), 1e-9);
+    EXPECT_EQ(now.text.toStdString(), plan.driver->phases()[0].name + ": 3.0 s left");
+}
+
+TEST(SessionProgress, ByAHandThatNobodyPlannedIsTheTime) {
+    const SessionProgress now = progress_of(plan_of("scenes/block-on-table.yaml", true), at(75), 0);
+    EXPECT_EQ(now.share, 0);
+    EXPECT_EQ(now.text, "1 min 15 s");
+}
+
+TEST(SessionProgress, OfTrialsIsWhichAndHowLongTheRestTakes) {
+    const experiment::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
+    servo::Frame frame = at(100);
+    EXPECT_EQ(progress_of(plan, frame, 0).text, "1 min 40 s");
+    frame.trial = 3;
+    frame.task.attempt = 2;
+    const SessionProgress now = progress_of(plan, frame, 0.25);
+    EXPECT_TRUE(now.trial.startsWith("Trial 3 of 504 \u00b7 ")) << now.trial.toStdString();
+    EXPECT_TRUE(now.trial.endsWith(" \u00b7 attempt 2")) << now.trial.toStdString();
+    EXPECT_EQ(now.share, 0.25);
+    EXPECT_EQ(now.text, "about 5 min 0 s left");
+}
+
+}  // namespace
+}  // namespace dihaptic::gui
