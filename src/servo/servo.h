@@ -131,7 +131,7 @@ class Servo {
     std::vector<devices::Reading> readings_;
     std::vector<haptics::Handle> handles_;
     std::vector<haptics::HandleGuard> guards_;
-    std::vector<uint32_t> device_faults_;  // Status bits of this tick's readings
+    std::vector<haptics::FaultKind> device_faults_;  // of this tick's readings
     haptics::FaultLatch faults_;
     std::vector<haptics::ForceGuard> force_guards_;
     haptics::SoftStart soft_start_;
