@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace dihaptic::analysis {
 namespace {
@@ -79,6 +80,16 @@ double rebound(const std::vector<AdaptationCurve::Stretch>& stretches) {
         return std::copysign(1.0, first) * change;
     }
     return kNaN;
+}
+
+/// The last attempt of each trial, which counts: the others were to be done again.
+std::map<int, int> last_attempts(const CsvFile& trials) {
+    std::map<int, int> out;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        int& last = out[static_cast<int>(trials.number(i, "trial_num"))];
+        last = std::max(last, static_cast<int>(trials.number(i, "attempt")));
+    }
+    return out;
 }
 
 }  // namespace
@@ -160,6 +171,7 @@ std::vector<Table::Column> landmark_columns() {
 
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
     std::vector<AdaptationCurve> curves;
+    const std::map<int, int> last = last_attempts(trials);
     bool any = false;
     bool extents = false;
     for (size_t i = 0; i < trials.rows(); ++i) {
@@ -181,6 +193,8 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
         // what was not reached was not seen to be wrong, and a clamp shows what it likes
         trial.clamp = trial.kind == "error_clamp" || std::isnan(trial.compensation);
         trial.perturbation = trial.clamp ? 0 : shown;
+        // what was seen in an attempt that is done again was seen, but does not count
+        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kNaN;
         any = any || !std::isnan(trial.compensation);
         const std::string round = trials.text(i, "round");
         if (curves.empty() || curves.back().round != round) curves.push_back({round, "deg", {}});

@@ -2,12 +2,54 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
+#include "servo/settings.h"
+
 namespace dihaptic::analysis {
 namespace {
 
 std::string listed(const std::vector<std::string>& names, int32_t i) {
     const auto at = static_cast<size_t>(i);
     return at < names.size() ? names[at] : std::to_string(i);
+}
+
+EventFinder::Tuned tuned(const servo::Frame& frame) {
+    // k h / 2 is no number of its own
+    const double damping = std::isnan(frame.damping) ? -1 : frame.damping;
+    return {static_cast<double>(frame.coupling),
+            frame.stiffness,
+            damping,
+            frame.smoothing,
+            static_cast<double>(frame.solver),
+            static_cast<double>(frame.proxy),
+            frame.friction_scale};
+}
+
+template <class E>
+std::string choice(double value) {
+    return std::string(enum_name(static_cast<E>(static_cast<int>(value))));
+}
+
+/// One of `tuned`, as settings have it.
+std::pair<const char*, std::string> setting(size_t which, double value) {
+    switch (which) {
+        case 0:
+            return {"coupling.kind", choice<haptics::CouplingKind>(value)};
+        case 1:
+            return {"coupling.stiffness_N_m", fmt::format("{:g}", value)};
+        case 2:
+            return {"coupling.damping_Ns_m", value < 0 ? "k h / 2" : fmt::format("{:g}", value)};
+        case 3:
+            return {"coupling.smoothing", fmt::format("{:g}", value)};
+        case 4:
+            return {"dynamics.solver", choice<dynamics::Solver>(value)};
+        case 5:
+            return {"proxy.kind", choice<scene::ProxyKind>(value)};
+        default:
+            return {"friction, times the scene's", fmt::format("{:g}", value)};
+    }
 }
 
 }  // namespace
@@ -77,8 +119,20 @@ void EventFinder::add(const servo::Frame& frame) {
         supported_ = on_support;
     }
     seen_ = true;
+    const Tuned values = tuned(frame);
+    if (frame.sequence == 0) tuned_ = last_ = values;
+    for (size_t i = 0; i < values.size(); ++i) {
+        // what is eased in is told of when it has arrived
+        if (values[i] != last_[i] || values[i] == tuned_[i]) continue;
+        const auto [key, value] = setting(i, values[i]);
+        say("setting", fmt::format("{}: {} -> {}", key, setting(i, tuned_[i]).second, value));
+        tuned_[i] = values[i];
+    }
+    last_ = values;
+    if ((frame.status & servo::kResumed) != 0) say("went on", "after a pause");
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const auto flag = static_cast<servo::Status>(1u << bit);
+        if (flag == servo::kResumed) continue;
         if ((frame.status & flag) != 0 && (status_ & flag) == 0)
             say("limit", servo::describe(flag).what);
     }

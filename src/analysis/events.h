@@ -2,6 +2,7 @@
 // the object, phases, and what the servo could not do as asked.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,17 @@ struct Event {
     int64_t tick = 0;
     double time = 0;  ///< [s]
     int trial = 0;
-    std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit"; of a task
-                       ///< "trial", "perturbation", "marker", "message", "put back", "outcome"
+    std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
+                       ///< "went on"; of a task "trial", "perturbation", "marker", "message",
+                       ///< "put back", "outcome"
     std::string detail;  ///< who, whom, or what
 };
 
 class EventFinder {
   public:
+    /// What can be changed while a session runs, in numbers: events.cpp has their names.
+    using Tuned = std::array<double, 7>;
+
     /// `object`: index of the body whose lift-off counts, or -1. `phases` names the phases.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
@@ -41,6 +46,8 @@ class EventFinder {
     bool perturbed_ = false;
     int phase_ = -1;
     uint32_t status_ = 0;
+    Tuned tuned_{};  // as it was last told of
+    Tuned last_{};   // in the last frame
     std::vector<Event> events_;
 };
 

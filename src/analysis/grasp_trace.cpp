@@ -18,6 +18,7 @@ void GraspTrace::add(const servo::Frame& frame) {
     sample.phase = frame.phase;
     sample.grip = frame.grip_force;
     sample.load = frame.load_force;
+    sample.resumed = (frame.status & servo::kResumed) != 0;
     sample.on_support = false;
     sample.support = -1;
     sample.n_support.setZero();

@@ -44,6 +44,7 @@ class GraspTrace {
         std::vector<double> normal_force;  ///< [N]
         std::vector<Vec3> f_tangential_W;  ///< on the finger [N]
         double friction_scale = 1;         ///< of the object's coefficients, over the scene's
+        bool resumed = false;              ///< the session went on after a pause
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }

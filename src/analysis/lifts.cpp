@@ -101,8 +101,10 @@ double threshold(const Signals& signals, const Signal& rate) {
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// When a digit touches, and when it lets go after `replaced`; none: it does not.
-std::optional<size_t> touch(const Signals& signals, const Signal& force, const Signal& rate) {
+/// When a digit touches, by a force that may end early, and when it lets go after `replaced`; none:
+/// it does not.
+std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
+                            const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
     if (*largest <= 0) return std::nullopt;
     const double limit = threshold(signals, rate);
@@ -196,6 +198,19 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
     return count > 0 ? sum / count : Lift::kNone;
 }
 
+/// The sample of lift-off, from the first at half of the height back.
+size_t find_lift_off(const GraspTrace& trace, const Signals& signals, double half) {
+    const auto found = std::find_if(signals.height.begin(), signals.height.end(),
+                                    [&](double h) { return h >= half; });
+    auto lifted = static_cast<size_t>(found - signals.height.begin());
+    while (lifted > 0 && signals.rise[lifted] > kRising) --lifted;
+    size_t free = lifted;
+    // what sleeps stands on something, and shows no contact
+    const auto stands = [&](const GraspTrace::Sample& s) { return s.on_support || !s.awake; };
+    while (free > 0 && !stands(trace.samples()[free - 1])) --free;
+    return free > 0 ? free : lifted;
+}
+
 }  // namespace
 
 Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction) {
@@ -205,28 +220,34 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     const Signals signals(trace, gravity);
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
 
+    lift.mark = "paused";
+    if (std::any_of(trace.samples().begin(), trace.samples().end(),
+                    [](const GraspTrace::Sample& s) { return s.resumed; }))
+        return lift;
+
+    const auto top = std::max_element(signals.height.begin(), signals.height.end());
+    const size_t lifted = find_lift_off(trace, signals, *top / 2);
     std::vector<Signal> digit_rates;
     for (const Signal& force : signals.digit_grip)
         digit_rates.push_back(savitzky_golay(force, signals.tick, kWindow, 1));
     std::optional<size_t> touched;
     std::vector<size_t> onsets;
     for (size_t f = 0; f < trace.fingers(); ++f) {
-        const auto at = touch(signals, signals.digit_grip[f], digit_rates[f]);
+        const Signal& force = signals.digit_grip[f];
+        auto at = touch(signals, force, digit_rates[f]);
+        if (at > lifted) at = touch(signals, std::span(force).first(lifted + 1), digit_rates[f]);
         if (!at) continue;
         touched = std::min(touched.value_or(*at), *at);
         if (const auto onset = load_onset(signals, signals.digit_load[f], *at))
             onsets.push_back(*onset);
     }
+    lift.mark = "no touch";
     if (!touched) return lift;
     lift.touch = time(*touched);
 
     lift.mark = "not lifted";
-    const auto top = std::max_element(signals.height.begin(), signals.height.end());
     if (*top < kLeastHeight) return lift;
     const auto high = [&](double h) { return h >= *top / 2; };
-    auto lifted = static_cast<size_t>(
-        std::find_if(signals.height.begin(), signals.height.end(), high) - signals.height.begin());
-    while (lifted > 0 && signals.rise[lifted] > kRising) --lifted;
     lift.lift_off = time(lifted);
     lift.lift_off_grip = signals.grip[lifted];
     if (!onsets.empty()) {

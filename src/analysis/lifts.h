@@ -3,13 +3,17 @@
 // Grip force GF is the mean of the digits' normal forces, load force LF the sum of their tangential
 // forces against gravity; rates are derivatives of cubics over 62 ms.
 //
-// lift-off      from half of the height back to where the object rose by 1 cm/s or less
+// lift-off      from half of the height back to where the object rose by 1 cm/s or less; where it
+//               left its support before that, since it was lifted slowly, then
 // replacement   from the last time at half of the height on to where it sinks by 2 cm/s or less
 // touch         of a digit: from a quarter of its largest force back to where the force's rate is
-//               no more than mean + 4 SD of the trial's first 100 ms
+//               no more than mean + 4 SD of the trial's first 100 ms; of the force before
+//               lift-off, where the largest came from something later
 // load onset    of a digit: from 0.2 N back to where the load's rate began to grow
 // hold          from 600 to 200 ms before the object is lowered
 // release       of a digit: from a quarter of its force at replacement on, as touch
+//
+// A pause takes the forces away, and hands close: a lift with one is marked, and has no figures.
 //
 // preload is from the first touch to the first load onset, loading from the last load onset to
 // lift-off, release from replacement to the last digit's.
@@ -33,7 +37,7 @@ struct Lift {
     int trial = 0;
     int attempt = 0;
     /// complete, or what is not there: no touch, not lifted, dropped, no hold, not put down, not
-    /// released.
+    /// released; or paused.
     std::string mark;
     double touch = kNone;  ///< by the first digit; all times in the session [s]
     double load_onset = kNone;

@@ -212,5 +212,27 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
                   "70 limit a force or a torque was kept from changing faster than allowed"}));
 }
 
+TEST(Events, TellsWhatWasTunedOnceItHasArrived) {
+    EventFinder finder({}, -1, {"all"});
+    for (int i = 0; i < 100; ++i) {
+        servo::Frame f;
+        f.sequence = i;
+        f.time = i * std::chrono::milliseconds(1);
+        f.phase = 0;
+        f.damping = servo::kUnmeasured;
+        f.stiffness = i < 20 ? 1000 : std::min(2000, 1000 + 50 * (i - 20));
+        if (i >= 60) f.damping = 3;
+        if (i == 80) f.status = servo::kResumed;
+        finder.add(f);
+    }
+    std::vector<std::string> said;
+    for (const Event& e : finder.events())
+        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
+    EXPECT_EQ(said,
+              (std::vector<std::string>{
+                  "0 phase all", "41 setting coupling.stiffness_N_m: 1000 -> 2000",
+                  "61 setting coupling.damping_Ns_m: k h / 2 -> 3", "80 went on after a pause"}));
+}
+
 }  // namespace
 }  // namespace dihaptic::analysis

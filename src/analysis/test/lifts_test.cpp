@@ -45,6 +45,9 @@ struct Plan {
     double noise = 0;       // of each digit's forces [N]
     double lag = 0;         // of grip after load
     double slides_at = -1;  // for 20 ms, at 50 mm/s
+    double rise = 0.4;      // takes so long
+    double pauses_at = -1;  // after which grip is thrice what it was
+    bool stands = false;    // contacts with the support are seen
     bool falls = false;
 };
 
@@ -62,12 +65,14 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
         const double down = ramp(t, plan.replaced, plan.let_go);
         const double grip = (0.25 * ramp(t, plan.touch, plan.onset + plan.lag) +
                              0.75 * ramp(t, plan.onset + plan.lag, plan.lift_off + plan.lag)) *
-                            plan.grip * (1 - down);
+                            plan.grip * (plan.pauses_at >= 0 && t >= plan.pauses_at ? 3 : 1) *
+                            (1 - down);
+        const bool paused = plan.pauses_at >= 0 && t >= plan.pauses_at;
         const double load = ramp(t, plan.onset, plan.lift_off) * plan.weight * (1 - down);
         const bool fell = plan.falls && t > 2;
-        double h = plan.height * (ramp(t, plan.lift_off, plan.lift_off + 0.4) -
+        double h = plan.height * (ramp(t, plan.lift_off, plan.lift_off + plan.rise) -
                                   ramp(t, plan.lower, plan.replaced));
-        double v = (plan.height * (ramp(t + kTick, plan.lift_off, plan.lift_off + 0.4) -
+        double v = (plan.height * (ramp(t + kTick, plan.lift_off, plan.lift_off + plan.rise) -
                                    ramp(t + kTick, plan.lower, plan.replaced)) -
                     h) /
                    kTick;
@@ -79,6 +84,14 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
             slid += 0.05 * kTick;
         frame.bodies[1].X_WB.p = {0, 0, 0.02 + h};
         frame.bodies[1].v_WB = {0, 0, v};
+        frame.bodies[1].awake = 1;
+        if (paused && t < plan.pauses_at + 1.5 * kTick) frame.status |= servo::kResumed;
+        if (plan.stands && h <= 0) {
+            servo::ContactFrame& contact = frame.contacts.emplace_back();
+            contact.a = 0;
+            contact.b = 1;
+            contact.normal_force = 0.1;
+        }
         for (int f = 0; f < 2; ++f) {
             const double side = f == 0 ? -1 : 1;
             frame.fingers[static_cast<size_t>(f)].p_WP = {0.02 * side, 0, 0.02 + h + slid};
@@ -161,6 +174,25 @@ TEST(Lifts, WhatIsNotThereIsMarked) {
     plan.falls = true;
     EXPECT_EQ(lift_of(plan).mark, "dropped");
     EXPECT_EQ(find_lift(GraspTrace(1, kTick), kGravity, {}).mark, "no touch");
+}
+
+TEST(Lifts, ASlowOneLeavesItsSupportBeforeItIsFast) {
+    Plan plan;
+    plan.height = 0.012;
+    plan.rise = 1.9;  // 1 cm/s at the most
+    plan.lift_off = 0.9;
+    plan.stands = true;
+    EXPECT_NEAR(lift_of(plan).lift_off, plan.lift_off, 0.01);
+    EXPECT_LT(lift_of(plan).touch, lift_of(plan).lift_off);
+}
+
+TEST(Lifts, OneWithAPauseIsMarkedAndHasNoFigures) {
+    Plan plan;
+    plan.pauses_at = 2;
+    const Lift lift = lift_of(plan);
+    EXPECT_EQ(lift.mark, "paused");
+    EXPECT_TRUE(std::isnan(lift.peak_grip));
+    EXPECT_TRUE(std::isnan(lift.touch));
 }
 
 TEST(Lifts, ASlipIsCounted) {
