@@ -238,6 +238,29 @@ class Mouse(Window):
             self.assertAlmostEqual(2 * np.arctan2(z, w), 0.64, delta=0.15)  # 80 pixels
 
 
+    def test_stays_while_the_pointer_goes_elsewhere_and_is_reported(self):
+        self.open()
+        self.start()
+        self.wheel(self.CLOSE, 19)
+        self.move(0, -4, 30)
+        time.sleep(0.7)
+        self.key("h")
+        self.move(5, 3, 40)
+        time.sleep(0.5)
+        self.key("h")
+        time.sleep(1)
+        self.key("F7")
+        with self.ended("complete") as file:
+            position = self.series(file, "block_position")
+            self.assertGreater(position[-1, 2], 0.03)
+            self.assertLess(np.abs(position[-500:] - position[-1500]).max(), 0.002)
+        time.sleep(0.5)
+        self.screenshot("recorded")
+        self.key("ctrl+r")
+        self.wait("the report", lambda: os.path.exists(self.recording() + "report.html"))
+        self.quit()
+
+
 class Sessions(Window):
     def test_run_a_script_to_its_end(self):
         self.open()
@@ -415,6 +438,7 @@ class Rigs(Window):
             self.assertEqual(mine.exists(), answer == "Return")
         self.assertIn("agreement_rms_m", mine.read_text())
         self.assertIn("<svg", mine.with_suffix(".svg").read_text())
+        self.assertIn("\ncalibration: rig-calibration.yaml\n", pathlib.Path(self.folder.name + "/rig.yaml").read_text())
         self.quit()
 
     def on_fakes(self, together):

@@ -30,12 +30,14 @@ void Calibrator::calibrate(const QString& rig_file) {
             [this](const QString& why) { Q_EMIT logged(why, true); });
     const std::string file = rig::calibration_file(rig, rig_file.toStdString());
     connect(guide, &QDialog::accepted, this,
-            [this, rig, found, file] { ask_to_store(rig, *found, file); });
+            [this, rig, found, name = rig_file.toStdString(), file] {
+                ask_to_store(rig, *found, name, file);
+            });
     guide->open();
 }
 
 void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
-                              const std::string& file) {
+                              const std::string& rig_file, const std::string& file) {
     auto* dialog = new QDialog(window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle("What the calibration found");
@@ -46,27 +48,28 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
     picture->load(QByteArray::fromStdString(rig::residual_picture(result, rig.title)));
     picture->setMinimumSize(picture->sizeHint());
     auto* buttons = new QDialogButtonBox;
-    buttons->addButton("&Store", QDialogButtonBox::AcceptRole)->setDefault(true);
+    const bool named = !rig.calibration.empty();
+    buttons->addButton(named ? "&Store" : "&Store and use", QDialogButtonBox::AcceptRole)
+        ->setDefault(true);
     buttons->addButton("&Discard", QDialogButtonBox::RejectRole)->setAutoDefault(false);
     auto* layout = new QVBoxLayout(dialog);
     layout->addWidget(words);
     layout->addWidget(picture, 1);
-    layout->addWidget(new QLabel("It goes to " + QString::fromStdString(file)));
+    QString where = "It goes to " + QString::fromStdString(file);
+    if (!named) where += ", and the rig file gets a line that names it";
+    layout->addWidget(new QLabel(where + "."));
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
-    connect(dialog, &QDialog::accepted, this, [this, rig, result, file] {
+    connect(dialog, &QDialog::accepted, this, [this, rig, result, rig_file, file] {
         try {
             rig::store_calibration(rig, result, file);
+            if (rig.calibration.empty()) rig::name_calibration(rig_file, file);
         } catch (const Error& e) {
             Q_EMIT logged(e.what(), true);
             return;
         }
         Q_EMIT logged("calibration stored: " + QString::fromStdString(file), false);
-        if (rig.calibration.empty()) {
-            const QString name = QString::fromStdString(file).section('/', -1);
-            Q_EMIT logged("For the rig file, so that it is used:   calibration: " + name, true);
-        }
         Q_EMIT stored();
     });
     dialog->open();

@@ -29,7 +29,7 @@ class Calibrator : public QObject {
 
   private:
     void ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
-                      const std::string& file);
+                      const std::string& rig_file, const std::string& file);
 
     QWidget* window_;
 };

@@ -8,7 +8,7 @@
 namespace dihaptic::gui {
 namespace {
 
-enum Column { kFinger, kModel, kForce, kStatus, kColumns };
+enum Column { kFinger, kModel, kForce, kBar, kStatus, kColumns };
 
 QString words(uint32_t status) {
     QStringList out;
@@ -23,7 +23,7 @@ QString words(uint32_t status) {
 
 DevicePanel::DevicePanel(QWidget* parent)
     : QWidget(parent), table_(new QTableWidget(0, kColumns)), loop_(new QLabel) {
-    table_->setHorizontalHeaderLabels({"Finger", "Device", "Force / limit", "Status"});
+    table_->setHorizontalHeaderLabels({"Finger", "Device", "Force / limit", "", "Status"});
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -47,24 +47,37 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         table_->setItem(i, kStatus, new QTableWidgetItem("at rest"));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
-        bar->setFormat("-");
-        table_->setCellWidget(i, kForce, bar);
+        bar->setTextVisible(false);  // the bar's end would cut through a figure
+        table_->setCellWidget(i, kBar, bar);
+        table_->setItem(i, kForce, new QTableWidgetItem);
+        show_force(i, 0);
     }
     table_->resizeColumnsToContents();
-    table_->setColumnWidth(kForce, 130);
+    table_->setColumnWidth(kForce, 100);
+    table_->setColumnWidth(kBar, 80);
+}
+
+void DevicePanel::show_force(int device, double force) {
+    const double most = devices_[static_cast<size_t>(device)].most_force;
+    const bool limited = std::isfinite(most);
+    auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(device, kBar));
+    bar->setValue(limited ? static_cast<int>(1000 * std::min(1.0, force / most)) : 0);
+    table_->item(device, kForce)
+        ->setText(limited ? QString("%1 / %2 N").arg(force, 0, 'f', 2).arg(most, 0, 'f', 1)
+                          : QString("%1 N").arg(force, 0, 'f', 2));
+}
+
+void DevicePanel::rest(const QString& why) {
+    for (int i = 0; i < table_->rowCount(); ++i) {
+        show_force(i, 0);
+        table_->item(i, kStatus)->setText(why);
+    }
 }
 
 void DevicePanel::show_frame(const servo::Frame& frame) {
     for (size_t i = 0; i < devices_.size() && i < frame.fingers.size(); ++i) {
         const servo::FingerFrame& finger = frame.fingers[i];
-        const double force = finger.f_sent_W.norm();
-        auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(static_cast<int>(i), kForce));
-        const double most = devices_[i].most_force;
-        bar->setValue(std::isfinite(most) ? static_cast<int>(1000 * std::min(1.0, force / most))
-                                          : 0);
-        bar->setFormat(std::isfinite(most)
-                           ? QString("%1 / %2 N").arg(force, 0, 'f', 2).arg(most, 0, 'f', 1)
-                           : QString("%1 N").arg(force, 0, 'f', 2));
+        show_force(static_cast<int>(i), finger.f_sent_W.norm());
         table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
     }
     if (frame.status & servo::kOverrun) ++overruns_;

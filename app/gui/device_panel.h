@@ -22,8 +22,12 @@ class DevicePanel : public QWidget {
     void set_devices(const std::vector<Device>& devices);
     /// Every frame that is shown; the loop's figures are of those.
     void show_frame(const servo::Frame& frame);
+    /// No force acts, for a reason.
+    void rest(const QString& why);
 
   private:
+    void show_force(int device, double force);
+
     QTableWidget* table_;
     QLabel* loop_;
     std::vector<Device> devices_;

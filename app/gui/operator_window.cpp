@@ -7,9 +7,9 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
+#include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
-#include <QTime>
 #include <QUrl>
 
 #include "rig/calibration_guide.h"
@@ -25,7 +25,12 @@ constexpr double kLongestStep = 0.1;  // of a hand whose grip is known as of the
 const QString kMouseHelp =
     "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
     "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
-    "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.   Escape: force off.";
+    "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.\n"
+    "H: the hand stays, or moves on.   Escape: force off.";
+const QString kFingerHelp =
+    "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
+    "Right drag: look around.   Ctrl + wheel: zoom.\n"
+    "H: the finger stays, or moves on.   Escape: force off.";
 
 }  // namespace
 
@@ -37,7 +42,7 @@ OperatorWindow::OperatorWindow(QString out)
       plots_(new PlotsPanel),
       devices_(new DevicePanel),
       tuning_(new TuningPanel),
-      log_(new QPlainTextEdit) {
+      log_(new LogView) {
     setWindowTitle("Dihaptic");
     setCentralWidget(scene_);
     make_docks();
@@ -56,6 +61,7 @@ OperatorWindow::OperatorWindow(QString out)
         runner_.set_paused(paused);
         complaint_.clear();
         log(paused ? "paused: force is off" : "goes on");
+        if (paused) devices_->rest("paused");
         update_state();
     });
     connect(tuning_, &TuningPanel::proxy_chosen, this, [this](scene::ProxyKind kind) {
@@ -86,6 +92,11 @@ OperatorWindow::OperatorWindow(QString out)
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
     });
+    connect(&reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
+    connect(&reporter_, &Reporter::written, this, [this](const QString& page) {
+        log("report: " + page);
+        QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
+    });
     connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
@@ -105,9 +116,6 @@ OperatorWindow::OperatorWindow(QString out)
 OperatorWindow::~OperatorWindow() = default;
 
 void OperatorWindow::make_docks() {
-    log_->setReadOnly(true);
-    log_->setMaximumBlockCount(5000);
-    log_->setAccessibleName("Log");
     const auto add = [&](const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
         auto* dock = new QDockWidget(title);
         dock->setObjectName(title);  // by which its place is remembered
@@ -116,11 +124,16 @@ void OperatorWindow::make_docks() {
         return dock;
     };
     add("Session", session_, Qt::RightDockWidgetArea);
-    add("Tuning", tuning_, Qt::RightDockWidgetArea);
+    auto* tuning = new QScrollArea;  // a laptop's screen is low
+    tuning->setWidget(tuning_);
+    tuning->setWidgetResizable(true);
+    tuning->setFrameShape(QFrame::NoFrame);
+    QDockWidget* tuning_dock = add("Tuning", tuning, Qt::RightDockWidgetArea);
     QDockWidget* plots = add("Plots", plots_, Qt::RightDockWidgetArea);
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
     resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
+    resizeDocks({tuning_dock, plots}, {tuning_->sizeHint().height() + 4, 300}, Qt::Vertical);
     resizeDocks({plots}, {380}, Qt::Horizontal);
 }
 
@@ -131,6 +144,8 @@ void OperatorWindow::make_menus() {
         QDir().mkpath(out_);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
     });
+    file->addAction("&Report of the last session", QKeySequence("Ctrl+R"), this,
+                    &OperatorWindow::report);
     file->addSeparator();
     file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
 
@@ -222,6 +237,7 @@ experiment::Request OperatorWindow::request() const {
 
 void OperatorWindow::open(const QString& file) {
     file_ = file;
+    recorded_.clear();
     if (const QStringList watched = watcher_.files(); !watched.isEmpty())
         watcher_.removePaths(watched);
     watcher_.addPath(file);
@@ -326,8 +342,9 @@ void OperatorWindow::run(experiment::Plan made, const recording::Participant& pa
     tuning_->set_settings(plan.settings);
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal());
-        scene_->set_hand(&*mouse_);
-        scene_->set_help(kMouseHelp);
+        const bool squeezes = plan.scene.fingers.size() > 1;
+        scene_->set_hand(&*mouse_, squeezes);
+        scene_->set_help(squeezes ? kMouseHelp : kFingerHelp);
     }
     turn_workspaces();
     scene_->setFocus();
@@ -340,7 +357,12 @@ void OperatorWindow::calibrate() {
     QString rig = session_->rig();
     if (rig.isEmpty() && plan_) rig = QString::fromStdString(plan_->rig.place.file);
     if (rig.isEmpty()) return log("There is no rig file to calibrate: choose a rig.", true);
-    calibrator_->calibrate(rig);
+    calibrator_->calibrate(QDir::cleanPath(rig));
+}
+
+void OperatorWindow::report() {
+    if (recorded_.isEmpty()) return log("There is no session of this file yet to report.");
+    reporter_.write(recorded_);
 }
 
 void OperatorWindow::stop() {
@@ -377,13 +399,15 @@ void OperatorWindow::force_off() {
 
 void OperatorWindow::session_ended(const SessionEnd& end) {
     mouse_.reset();
-    scene_->set_hand(nullptr);
+    scene_->set_hand(nullptr, false);
     scene_->set_help("");
     message_ = -1;
     complaint_.clear();
     session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
+    recorded_ = end.folder;
     if (!end.folder.isEmpty()) log("recorded in " + end.folder);
+    devices_->rest("at rest");
     update_state();
     if (closing_) close();
 }
@@ -470,6 +494,8 @@ QString OperatorWindow::banner() const {
         return complaint_ + (complaint_.isEmpty() ? "" : "\n") + "Paused: press F6 to go on";
     if (loader_.loading()) return "Opening " + file_ + " ...";
     if (!complaint_.isEmpty()) return complaint_;
+    if (!recorded_.isEmpty())
+        return "Recorded in " + recorded_ + "\nCtrl+R: its report.   F5: start again";
     return plan_ ? "Press F5 to start" : "Open a scene or an experiment: Ctrl+O";
 }
 
@@ -485,11 +511,7 @@ void OperatorWindow::update_state() {
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {
-    const QString time = QTime::currentTime().toString("HH:mm:ss");
-    QString html = text.toHtmlEscaped();
-    html.replace("\n", "<br>");
-    if (problem) html = "<b>" + html + "</b>";
-    log_->appendHtml(time + "  " + html);
+    log_->add(text, problem);
 }
 
 void OperatorWindow::closeEvent(QCloseEvent* event) {

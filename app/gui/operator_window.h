@@ -5,7 +5,6 @@
 #include <QElapsedTimer>
 #include <QFileSystemWatcher>
 #include <QMainWindow>
-#include <QPlainTextEdit>
 #include <QTimer>
 #include <memory>
 #include <optional>
@@ -13,8 +12,10 @@
 #include "calibrator.h"
 #include "device_panel.h"
 #include "loader.h"
+#include "log_view.h"
 #include "participant_dialog.h"
 #include "plots_panel.h"
+#include "reporter.h"
 #include "session_panel.h"
 #include "session_runner.h"
 #include "subject_window.h"
@@ -53,6 +54,8 @@ class OperatorWindow : public QMainWindow {
     void run(experiment::Plan plan, const recording::Participant& participant);
     /// The rig that is chosen, or the file's.
     void calibrate();
+    /// Of the last session.
+    void report();
     void stop();
     void skip();
     /// A key that a task may wait for.
@@ -89,12 +92,13 @@ class OperatorWindow : public QMainWindow {
     Loader loader_;
     SessionRunner runner_;
     Calibrator* calibrator_;
+    Reporter reporter_;
     SceneWidget* scene_;
     SessionPanel* session_;
     PlotsPanel* plots_;
     DevicePanel* devices_;
     TuningPanel* tuning_;
-    QPlainTextEdit* log_;
+    LogView* log_;
     std::unique_ptr<SubjectWindow> subject_;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;
@@ -104,6 +108,7 @@ class OperatorWindow : public QMainWindow {
     QElapsedTimer since_refresh_;
     QFileSystemWatcher watcher_;
     QTimer reload_;      ///< editors write a file in several goes
+    QString recorded_;   ///< folder of the last session; empty: none of this file
     QString complaint_;  ///< about the file as it is now; empty: it is good
 };
 

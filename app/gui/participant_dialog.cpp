@@ -32,7 +32,8 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
 
     auto* form = new QFormLayout(this);
     form->addRow("S&ubject", id_);
-    if (needs_number) form->addRow(new QLabel("The number that it ends in orders the trials."));
+    if (needs_number)
+        form->addRow(new QLabel("It has to end in a number, which orders the trials."));
     form->addRow("&Age in years", age_);
     form->addRow("&Sex", sex_);
     form->addRow("&Handedness", handedness_);

@@ -75,11 +75,26 @@ void SceneWidget::set_layers(const Layers& layers) {
     update();
 }
 
-void SceneWidget::set_hand(MouseHand* hand) {
+void SceneWidget::set_hand(MouseHand* hand, bool squeezes) {
     hand_ = hand;
+    squeezes_ = squeezes;
     keys_ = MouseHand::Squeeze::none;
-    setCursor(hand_ != nullptr ? Qt::CrossCursor : Qt::OpenHandCursor);
+    set_staying(false);
     if (hand_ != nullptr) setFocus();
+}
+
+void SceneWidget::set_staying(bool stays) {
+    stays_ = stays;
+    setCursor(hand_ == nullptr ? Qt::OpenHandCursor : stays ? Qt::ArrowCursor : Qt::CrossCursor);
+}
+
+void SceneWidget::move_hand(const QPointF& pixels, bool in_depth) {
+    // the hand is where the devices are: the workspaces' turn is none of its business
+    view::Camera camera = camera_;
+    camera.position = turn_.unturned(camera.position);
+    camera.look_at = turn_.unturned(camera.look_at);
+    hand_->move(pixels, camera, height(), in_depth);
+    Q_EMIT hand_moved();
 }
 
 void SceneWidget::set_camera(const std::string& name) {
@@ -180,15 +195,9 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
         set_camera(view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y()));
     } else if (hand_ != nullptr) {
         setFocus();  // keys are the hand's where the pointer is
-        if (left) {
-            hand_->turn(way);
-        } else {
-            // the hand is where the devices are: the workspaces' turn is none of its business
-            view::Camera camera = camera_;
-            camera.position = turn_.unturned(camera.position);
-            camera.look_at = turn_.unturned(camera.look_at);
-            hand_->move(way, camera, height(), shift);
-        }
+        if (stays_) return;
+        if (!left) return move_hand(way, shift);
+        hand_->turn(way);
         Q_EMIT hand_moved();
     }
 }
@@ -196,8 +205,13 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
 void SceneWidget::wheelEvent(QWheelEvent* event) {
     const double notches = event->angleDelta().y() / 120.0;
     if (hand_ != nullptr && !event->modifiers().testFlag(Qt::ControlModifier)) {
-        hand_->wheel(-notches);
-        Q_EMIT hand_moved();
+        constexpr double kNotch = 20;  // [pixels]
+        if (!squeezes_) {
+            move_hand(QPointF(0, -kNotch * notches), true);
+        } else {
+            hand_->wheel(-notches);
+            Q_EMIT hand_moved();
+        }
     } else {
         set_camera(view::zoomed(camera_, std::pow(0.9, notches)));
     }
@@ -219,6 +233,8 @@ void SceneWidget::set_key(const QKeyEvent& event, bool down) {
 
 void SceneWidget::keyPressEvent(QKeyEvent* event) {
     set_key(*event, true);
+    if (hand_ != nullptr && event->key() == Qt::Key_H && !event->isAutoRepeat())
+        set_staying(!stays_);
     QOpenGLWidget::keyPressEvent(event);  // a task may wait for it
 }
 

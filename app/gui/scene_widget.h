@@ -27,7 +27,7 @@ class SceneWidget : public QOpenGLWidget {
     /// The newest frame; drawn with the screen's next picture.
     void show_frame(const servo::Frame& frame);
     /// While it is set, the mouse moves this hand; null: the camera.
-    void set_hand(MouseHand* hand);
+    void set_hand(MouseHand* hand, bool squeezes);
     /// Keys that squeeze, as they are held now.
     MouseHand::Squeeze keys() const { return keys_; }
 
@@ -78,6 +78,8 @@ class SceneWidget : public QOpenGLWidget {
   private:
     void release();
     void set_key(const QKeyEvent& event, bool down);
+    void set_staying(bool stays);
+    void move_hand(const QPointF& pixels, bool in_depth);
     void place_labels();
 
     scene::Scene scene_;
@@ -92,6 +94,8 @@ class SceneWidget : public QOpenGLWidget {
     view::Shown shown_;
     int64_t presented_ = -1;  // tick
     MouseHand* hand_ = nullptr;
+    bool squeezes_ = false;  // otherwise the wheel moves it in depth
+    bool stays_ = false;     // while the pointer goes elsewhere
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
     QLabel* banner_;

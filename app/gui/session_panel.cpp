@@ -35,7 +35,8 @@ SessionPanel::SessionPanel(QWidget* parent)
     start_->setToolTip("F5");
     pause_->setToolTip("F6: time stands still, and no force acts");
     skip_->setToolTip("F8: this trial is over and counts as skipped; the next one begins");
-    trial_->setWordWrap(true);
+    // of fixed height, and as long as there is room: nothing jumps under the pointer
+    trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
     stop_->setToolTip("F7: ends the session in order. Escape switches force off at once.");
     progress_->setTextVisible(true);
@@ -90,6 +91,7 @@ void SessionPanel::set_state(State state, bool trials) {
     stop_->setText(opening ? "Cancel" : "Stop");
     skip_->setEnabled(state == State::running && trials);
     skip_->setVisible(trials);
+    trial_->setVisible(trials);
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
@@ -107,7 +109,7 @@ void SessionPanel::set_progress(double share, const QString& text) {
 
 void SessionPanel::set_trial(const QString& text) {
     trial_->setText(text);
-    trial_->setVisible(!text.isEmpty());
+    trial_->setToolTip(text);
 }
 
 void SessionPanel::set_finishing(double share) {

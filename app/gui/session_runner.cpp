@@ -10,14 +10,20 @@
 namespace dihaptic::gui {
 namespace {
 
-QStringList messages_of(const analysis::SessionFigures& figures,
+QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFigures& figures,
                         const experiment::RunResult& result) {
     QStringList out;
     if (!result.fault.empty()) out += QString::fromStdString(result.fault);
     if (!result.stall.empty()) out += QString::fromStdString(result.stall);
+    if (result.timing.refusals.any()) {
+        out += QString::fromStdString(
+            servo::describe(result.timing.refusals, plan.settings.real_time_priority));
+    }
+    const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // the fault says so
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const auto status = static_cast<servo::Status>(1u << bit);
         if (status == servo::kResumed || status == servo::kSoftStarted) continue;  // as is usual
+        if (stopped && (status == servo::kStopped || status == servo::kForceOff)) continue;
         const int64_t ticks = figures.ticks_with(status);
         if (ticks == 0) continue;
         const servo::StatusText text = servo::describe(status);
@@ -73,7 +79,7 @@ SessionEnd SessionRunner::run(Session& session, const experiment::RunOptions& op
                     this, [this, share] { Q_EMIT finishing_progressed(share); },
                     Qt::QueuedConnection);
             });
-        end.messages = messages_of(figures, result);
+        end.messages = messages_of(session.plan, figures, result);
         end.good = !result.interrupted && !figures.failed();
     } catch (const std::exception& e) {
         end.messages += QString::fromStdString(e.what());

@@ -300,7 +300,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                 servo::run_real(*servo, director, sink, first, whole, paused, result.timing, stuck);
                 servo->rest();
                 if (live == nullptr) break;
-                if (servo->fault()) {
+                if (servo->fault() && !stop) {
                     info.notes.push_back(describe_fault());
                     if (task) task->interrupt();
                     live->tell(info.notes.back());

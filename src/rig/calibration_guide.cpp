@@ -147,6 +147,7 @@ CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
     if (is_real(rig)) return CalibrationWay(rig, guide).lead();
     Guidance now;
     now.text = "A simulated hand carries the link, and touches the jig.";
+    guide.show(now);
     return simulate_calibration(rig, kSeed, [&](double share) {
         now.share = share;
         guide.show(now);

@@ -163,6 +163,16 @@ std::string store_calibration(const Rig& rig, const CalibrationResult& result,
     return picture;
 }
 
+void name_calibration(const std::string& rig_file, const std::string& calibration_file) {
+    std::string text = read_text_file(rig_file);
+    if (!text.empty() && text.back() != '\n') text += '\n';
+    const auto folder = std::filesystem::path(rig_file).parent_path();
+    text +=
+        fmt::format("calibration: {}\n",
+                    std::filesystem::path(calibration_file).lexically_proximate(folder).string());
+    write_file(text, rig_file);
+}
+
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {
     if (!rig.calibrated) return;
     const std::optional<int> days = days_between(rig.calibrated->date, today);

@@ -100,6 +100,9 @@ std::string calibration_file(const Rig& rig, const std::string& rig_file);
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file);
 
+/// Adds a line to a rig file that names no calibration, so that it uses this one.
+void name_calibration(const std::string& rig_file, const std::string& calibration_file);
+
 /// Whether its devices are real: they keep real time, and move a person's hand.
 bool is_real(const Rig& rig);
 

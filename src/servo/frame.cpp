@@ -28,8 +28,8 @@ StatusText describe(Status bit) {
             return {"the recording ended", ""};
         case kOverrun:
             return {"the tick before had ended too late, and those that it missed were left out",
-                    "allow what the note on real time names, close other programs, or lower the "
-                    "rate"};
+                    "close other programs, lower the rate, or allow real time where a note asks "
+                    "for it"};
         case kSolverFallback:
             return {
                 "the contact solver missed its tolerance and another answered",

@@ -1,0 +1,36 @@
+// The log: what came last stays in sight.
+#pragma once
+
+#include <QPlainTextEdit>
+#include <QScrollBar>
+#include <QTime>
+
+namespace dihaptic::gui {
+
+class LogView : public QPlainTextEdit {
+  public:
+    LogView() {
+        setReadOnly(true);
+        setMaximumBlockCount(5000);
+        setAccessibleName("Log");
+    }
+    /// With the time of day; what is wrong is bold.
+    void add(const QString& text, bool problem) {
+        QString html = text.toHtmlEscaped();
+        html.replace("\n", "<br>");
+        if (problem) html = "<b>" + html + "</b>";
+        appendHtml(QTime::currentTime().toString("HH:mm:ss") + "  " + html);
+        show_last();
+    }
+
+  protected:
+    void resizeEvent(QResizeEvent* event) override {
+        QPlainTextEdit::resizeEvent(event);
+        show_last();
+    }
+
+  private:
+    void show_last() { verticalScrollBar()->setValue(verticalScrollBar()->maximum()); }
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,27 @@
+// Writes the report of a session in a thread of its own.
+#pragma once
+
+#include <QObject>
+#include <thread>
+
+namespace dihaptic::gui {
+
+class Reporter : public QObject {
+    Q_OBJECT
+
+  public:
+    using QObject::QObject;
+    ~Reporter() override;
+
+    /// Of the session in a folder; one at a time.
+    void write(const QString& folder);
+
+  Q_SIGNALS:
+    void written(const QString& page);
+    void failed(const QString& why);
+
+  private:
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::gui
