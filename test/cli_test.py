@@ -129,6 +129,29 @@ class Commands(unittest.TestCase):
             result = dihaptic("replay", session)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
+    def test_calibrate_writes_over_no_input_and_says_at_once_where_it_cannot(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            text = pathlib.Path("rigs/premium-misplaced.yaml").read_text()
+            pathlib.Path(rig).write_text(text)
+            os.mkdir(folder + "/taken.svg")
+            for out, message in [(rig, "is the rig file itself"), (folder + "/c.svg", "is a name for the picture"),
+                                 (folder + "/none/c.yaml", "cannot be written: No such file or directory"),
+                                 (folder + "/taken.yaml", "cannot be written: it is a folder")]:
+                began = time.monotonic()
+                result = dihaptic("calibrate", rig, "-o", out)
+                self.assertEqual(result.returncode, 2, out)
+                self.assertIn(message, result.stderr)
+                self.assertLess(time.monotonic() - began, 2)
+            result = dihaptic("workspace", rig, "-o", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertEqual(pathlib.Path(rig).read_text(), text)
+            self.assertEqual(sorted(os.listdir(folder)), ["rig.yaml", "taken.svg"])
+            pathlib.Path(rig).write_text(text[:text.index("jig:")] + "jig: [{name: post, position_mm: [0, 0, 100]}]\n")
+            result = dihaptic("calibrate", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertRegex(result.stderr, r"rig.yaml:\d+: error: jig: its points are on a line")
+
     def test_a_window_needs_a_screen(self):
         nowhere = {name: value for name, value in os.environ.items()
                    if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
@@ -497,6 +520,19 @@ class RealDevices(unittest.TestCase):
             self.assertRegex(result.stderr, r"omega-pair.yaml:\d+: error: library: Force Dimension's SDK cannot be loaded")
             self.assertEqual(os.listdir(out), [])
 
+    def test_calibrate_ends_in_the_middle_of_a_line(self):
+        self.put(self.HD, "libfake_hd.so")
+        process = subprocess.Popen([PROGRAM, "calibrate", "rigs/phantom-pair-openhaptics.yaml", "-o", self.folder.name + "/c.yaml"],
+                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=self.env)
+        process.stdin.write(b"\n\nabc")  # two steps at once, and no end of line
+        process.stdin.flush()
+        lines = iter(process.stdout.readline, b"")
+        next(line for line in lines if b"3 of 4" in line)
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn(b"nothing was stored", stderr)
+
     def test_calibrate_leads_a_person_who_may_give_up(self):
         self.put(self.HD, "libfake_hd.so")
         rig = self.folder.name + "/rig.yaml"
@@ -516,13 +552,15 @@ class RealDevices(unittest.TestCase):
         pathlib.Path(rig).write_text("calibration: mine.yaml\n" + text)
         pathlib.Path(self.folder.name + "/mine.yaml").write_text(
             f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: 12}}]\n")
-        for answer, notes in [(b"\n", True), (b"s\n", False)]:
+        for answer, notes in [(b"\n", True), (b"s", False)]:
             with tempfile.TemporaryDirectory() as out:
                 master, slave = pty.openpty()
                 process = subprocess.Popen([PROGRAM, "run", "scenes/block-on-table.yaml", "--rig", rig, "--out", out,
                                             "--set", "safety.max_pause_ms=1000"], stdin=slave,
-                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
-                self.assertIn("1 of 1. Hold the endpoints of thumb and index together", process.stdout.readline())
+                                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env,
+                                           start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+                lines = iter(process.stdout.readline, "")
+                next(line for line in lines if "Hold the endpoints of thumb and index together" in line)
                 os.write(master, answer)
                 wait_for_log(out, 100000)
                 process.send_signal(signal.SIGINT)
@@ -698,6 +736,17 @@ class Interruptions(unittest.TestCase):
             os.close(slave)
             wait_for_log(out, 300000)
             os.close(master)
+            self.assertEqual(process.wait(timeout=60), 1)
+            folder = session_of(out)
+            self.assertTrue(os.path.exists(folder + "session.nwb"))
+            self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
+
+    def test_a_reader_that_goes_away_ends_in_order(self):
+        with tempfile.TemporaryDirectory() as out:
+            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
+                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            wait_for_log(out, 300000)
+            process.stdout.close()
             self.assertEqual(process.wait(timeout=60), 1)
             folder = session_of(out)
             self.assertTrue(os.path.exists(folder + "session.nwb"))

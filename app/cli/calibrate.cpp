@@ -21,6 +21,9 @@ void calibrate(const Options& options) {
     const rig::Rig rig = rig::read_rig_to_calibrate(options.rig, diagnostics);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
+    const std::string out =
+        options.out.empty() ? rig::calibration_file(rig, options.rig) : options.out;
+    rig::check_calibration_file(options.rig, out);
     rig::CalibrationInput input;
     try {
         TerminalGuide guide("calibrate");
@@ -32,8 +35,6 @@ void calibrate(const Options& options) {
     }
     rig::CalibrationResult result = rig::calibrate(input);
     result.calibration.date = recording::iso_now().substr(0, 10);
-    const std::string out =
-        options.out.empty() ? rig::calibration_file(rig, options.rig) : options.out;
     const std::string picture = rig::store_calibration(rig, result, out);
     fmt::print("{}\n{}picture: {}\ncalibration: {}\n", rig.title, rig::describe(result), picture,
                out);

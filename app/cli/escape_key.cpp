@@ -44,7 +44,10 @@ void EscapeKey::listen(std::atomic<bool>& pressed, std::atomic<char>& key) {
         if (poll(&input, 1, kWait) <= 0) continue;
         std::array<char, 64> keys;
         const ssize_t count = read(STDIN_FILENO, keys.data(), keys.size());
-        if (count <= 0) return;  // the terminal is gone: that ends the session too
+        if (count <= 0) {
+            pressed.store(true);  // the terminal is gone, and with it the operator
+            return;
+        }
         // arrows and function keys begin with it: they stop as well, which harms nobody
         if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
             pressed.store(true);

@@ -18,6 +18,8 @@ class EscapeKey {
     EscapeKey(const EscapeKey&) = delete;
     EscapeKey& operator=(const EscapeKey&) = delete;
 
+    /// Whether keys are read.
+    bool listens() const { return listens_; }
     /// Gives the terminal back as it was, from any thread: for a program that must end at once.
     void restore() noexcept;
 

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "recording/session.h"
+#include "steady_output.h"
 
 namespace {
 
@@ -56,6 +57,7 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace dihaptic;
     handle_signals();
+    cli::make_output_steady();
     cli::remember_command_line(argc, argv);
 
     CLI::App app(

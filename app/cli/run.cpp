@@ -13,8 +13,8 @@
 #include "command.h"
 #include "escape_key.h"
 #include "person/person.h"
+#include "rig/calibration_guide.h"
 #include "summary.h"
-#include "terminal_guide.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -55,7 +55,43 @@ class Console {
         };
     }
 
+    /// Before somebody's hour, not after it: whether the calibration of real devices still holds.
+    void check_calibration(const experiment::Plan& plan, experiment::RunOptions& run) {
+        const auto fingers = scene::finger_names(plan.scene);
+        if (!escape_ || !escape_->listens() || !rig::can_check_together(plan.rig, fingers)) return;
+        run.check = [&](devices::DeviceGroup& devices) { return check(plan, devices); };
+    }
+
   private:
+    /// Whether the calibration still holds, by what the person holds together.
+    std::vector<Problem> check(const experiment::Plan& plan, devices::DeviceGroup& devices) {
+        struct Skipped {};
+        rig::Guide guide;
+        guide.show = [](const rig::Guidance& now) {
+            fmt::print("{} Then press Enter (S: without this).\n", now.text);
+            std::fflush(stdout);
+        };
+        guide.done = [this] {
+            if (stop_requested) throw rig::GivenUp{};
+            const char key = key_.exchange(0);
+            if (key == 's' || key == 'S') throw Skipped{};
+            return key == '\n' || key == '\r';
+        };
+        std::vector<Problem> warnings;
+        try {
+            const auto fingers = scene::finger_names(plan.scene);
+            for (const rig::Together& pair :
+                 rig::check_together(plan.rig, fingers, devices, guide)) {
+                fmt::print("{}\n", pair.describe());
+                if (!pair.agrees) warnings.push_back(pair.warning(plan.rig));
+            }
+        } catch (const Skipped&) {
+            fmt::print("not checked\n");
+        }
+        print(warnings);
+        return warnings;
+    }
+
     std::atomic<char> key_{0};
     std::optional<EscapeKey> escape_;
 };
@@ -82,28 +118,12 @@ void ask(recording::Participant& participant) {
     question("handedness (right, left, both)", participant.handedness);
 }
 
-/// Real devices that were calibrated: a calibration that holds no more is told of before somebody's
-/// hour, and in the session's notes.
-void check_together(experiment::Plan& plan) {
-    if (!rig::can_check_together(plan.rig) || isatty(STDIN_FILENO) == 0) return;
-    try {
-        TerminalGuide guide("endpoints", "s");
-        for (const rig::Together& pair : rig::check_together(plan.rig, guide.guide())) {
-            fmt::print("{}\n", pair.describe());
-            if (!pair.agrees) plan.warnings.push_back(pair.warning(plan.rig));
-        }
-    } catch (const rig::GivenUp&) {
-        fmt::print("not checked\n");
-    }
-}
-
 void run_one(const Options& options) {
     experiment::Plan plan = experiment::make_plan(options.request);
     if (options.simulate && plan.task) {
         const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
         person::sit_down(plan, person::draw_person(objects, plan.seed, options.run.participant.id));
     }
-    check_together(plan);
     run_plan(plan, options.run);
 }
 
@@ -112,7 +132,8 @@ void run_one(const Options& options) {
 void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
-    const Console console(run);
+    Console console(run);
+    console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
     if (run.clock == experiment::Clock::real) {
         // before an hour of somebody's time, not after it
@@ -125,9 +146,15 @@ void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
     experiment::RunResult result;
     {
         ProgressLine line("running");
-        result = experiment::run_session(plan, run, stop_requested, [&](double share) {
-            line.show(share, trial_at(plan, share));
-        });
+        try {
+            result = experiment::run_session(plan, run, stop_requested, [&](double share) {
+                line.show(share, trial_at(plan, share));
+            });
+        } catch (const rig::GivenUp&) {
+            fmt::print(stderr, "interrupted before it began: nothing was recorded\n");
+            exit_code = kFailed;
+            return;
+        }
     }
     const analysis::SessionFigures figures = finish(result);
     print_summary(figures, plan, result);

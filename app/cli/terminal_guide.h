@@ -10,20 +10,21 @@ namespace dihaptic::cli {
 
 class TerminalGuide {
   public:
-    /// `label`: of the line of progress. `skip`: what is entered to do without all of it; "": it
-    /// cannot be.
-    explicit TerminalGuide(const std::string& label, std::string skip = "");
+    /// `label`: of the line of progress.
+    explicit TerminalGuide(const std::string& label) : line_(label) {}
 
-    /// Ctrl-C, the end of input, and `skip` give up.
+    /// Ctrl-C and the end of input give up.
     rig::Guide guide();
 
   private:
     void show(const rig::Guidance& now);
     bool done();
+    /// Takes what was typed, without waiting for the rest of a line. False at the end of input.
+    bool read_input();
 
     ProgressLine line_;
-    std::string skip_;
     int step_ = 0;
+    std::string typed_;  // and not taken yet
 };
 
 }  // namespace dihaptic::cli

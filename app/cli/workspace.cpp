@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "base/text_file.h"
 #include "command.h"
 
@@ -42,6 +44,11 @@ void show_workspace(const std::string& file, const std::string& out) {
     const rig::Rig rig = rig::read_rig(file, diagnostics);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, out, ignored)) {
+        throw Error({out, 0}, "--out", "is the rig file itself", "Name another file, *.svg.");
+    }
+    check_writable(out);
     const std::vector<rig::Reach> reaches = rig::reaches(rig);
     rig::Workspace found;
     {
@@ -64,14 +71,20 @@ void show_workspace(const std::string& file, const std::string& out) {
     if (found.shared > 0) {
         const Vec3 size = found.box.sizes() * 1e3;
         const Vec3 middle = found.box.center() * 1e3;
-        fmt::print(
-            "  largest box in it     {:.0f} x {:.0f} x {:.0f} mm around [{:.0f}, {:.0f}, {:.0f}]\n",
-            size.x(), size.y(), size.z(), middle.x(), middle.y(), middle.z());
+        if (found.box.isEmpty()) {
+            fmt::print("  That is too thin for a box: move the devices nearer to each other.\n");
+            exit_code = kFailed;
+        } else {
+            fmt::print(
+                "  largest box in it     {:.0f} x {:.0f} x {:.0f} mm around [{:.0f}, {:.0f}, "
+                "{:.0f}]\n",
+                size.x(), size.y(), size.z(), middle.x(), middle.y(), middle.z());
+        }
         const Vec3 centre = found.sphere_centre * 1e3;
         fmt::print("  largest sphere in it  radius {:.0f} mm around [{:.0f}, {:.0f}, {:.0f}]\n",
                    found.sphere_radius * 1e3, centre.x(), centre.y(), centre.z());
         check_wall(rig, reaches);
-        print_placement(rig, found);
+        if (!found.box.isEmpty()) print_placement(rig, found);
     } else {
         fmt::print("  The devices reach no place together: move them in the rig file.\n");
         exit_code = kFailed;

@@ -18,6 +18,13 @@ void Calibrator::calibrate(const QString& rig_file) {
     for (const Problem& problem : diagnostics.problems())
         Q_EMIT logged(QString::fromStdString(problem.text()), true);
     if (diagnostics.has_errors()) return;
+    const std::string file = rig::calibration_file(rig, rig_file.toStdString());
+    try {
+        rig::check_calibration_file(rig_file.toStdString(), file);
+    } catch (const Error& e) {
+        Q_EMIT logged(e.what(), true);
+        return;
+    }
     auto found = std::make_shared<rig::CalibrationResult>();
     auto* guide = new GuideDialog(
         "Calibration: " + QString::fromStdString(rig.title), "&Give up",
@@ -28,7 +35,6 @@ void Calibrator::calibrate(const QString& rig_file) {
         window_);
     connect(guide, &GuideDialog::failed, this,
             [this](const QString& why) { Q_EMIT logged(why, true); });
-    const std::string file = rig::calibration_file(rig, rig_file.toStdString());
     connect(guide, &QDialog::accepted, this,
             [this, rig, found, name = rig_file.toStdString(), file] {
                 ask_to_store(rig, *found, name, file);
@@ -75,29 +81,42 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
     dialog->open();
 }
 
-void Calibrator::check_together(const rig::Rig& rig,
-                                const std::function<void(const std::vector<Problem>&)>& then) {
-    auto found = std::make_shared<std::vector<rig::Together>>();
-    auto* guide = new GuideDialog(
-        "Does the calibration still hold?", "&Skip",
-        [rig, found](const rig::Guide& person) { *found = rig::check_together(rig, person); },
-        window_);
-    auto refused = std::make_shared<bool>(false);
-    connect(guide, &GuideDialog::failed, this, [this, refused](const QString& why) {
-        *refused = true;
-        Q_EMIT logged(why, true);
-    });
-    connect(guide, &QDialog::finished, this, [this, rig, found, refused, then] {
-        if (*refused) return;
+std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_check(
+    const rig::Rig& rig, const std::vector<std::string>& fingers,
+    const std::function<bool()>& ends) {
+    auto* dialog = new GuideDialog("Does the calibration still hold?", "&Skip", window_);
+    dialog->open();
+    return [this, dialog, rig, fingers, ends](devices::DeviceGroup& devices) {
+        const auto tell = [this](const QString& text, bool problem) {
+            QMetaObject::invokeMethod(
+                this, [this, text, problem] { Q_EMIT logged(text, problem); },
+                Qt::QueuedConnection);
+        };
+        struct Ended {};
+        rig::Guide guide = dialog->guide();
+        guide.done = [ends, done = guide.done] {
+            if (ends()) throw Ended{};
+            return done();
+        };
         std::vector<Problem> warnings;
-        for (const rig::Together& pair : *found) {
-            Q_EMIT logged(QString::fromStdString(pair.describe()), !pair.agrees);
-            if (!pair.agrees) warnings.push_back(pair.warning(rig));
+        try {
+            for (const rig::Together& pair : rig::check_together(rig, fingers, devices, guide)) {
+                tell(QString::fromStdString(pair.describe()), !pair.agrees);
+                if (!pair.agrees) warnings.push_back(pair.warning(rig));
+            }
+            dialog->finish(GuideDialog::Outcome::done);
+        } catch (const rig::GivenUp&) {
+            tell("the calibration was not checked", false);
+            dialog->finish(GuideDialog::Outcome::given_up);
+        } catch (const Ended&) {
+            dialog->finish(GuideDialog::Outcome::given_up);
+            throw Error("The session was ended before it began: nothing was recorded", "");
+        } catch (const std::exception& e) {
+            dialog->finish(GuideDialog::Outcome::failed, QString::fromStdString(e.what()));
+            throw;
         }
-        if (found->empty()) Q_EMIT logged("the calibration was not checked", false);
-        then(warnings);
-    });
-    guide->open();
+        return warnings;
+    };
 }
 
 }  // namespace dihaptic::gui

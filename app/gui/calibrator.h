@@ -18,10 +18,11 @@ class Calibrator : public QObject {
 
     /// Asks at the end whether to store what was found.
     void calibrate(const QString& rig_file);
-    /// Calls `then` when endpoints were held together, or the person would not: with what is to be
-    /// warned of. Not when a device does not answer.
-    void check_together(const rig::Rig& rig,
-                        const std::function<void(const std::vector<Problem>&)>& then);
+    /// For a session's start, in its thread: whether the calibration still holds, by what the
+    /// person holds together; who may skip it. `ends`: whether the session is to end.
+    std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
+        const rig::Rig& rig, const std::vector<std::string>& fingers,
+        const std::function<bool()>& ends);
 
   Q_SIGNALS:
     void logged(const QString& text, bool problem);

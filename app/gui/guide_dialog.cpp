@@ -9,8 +9,13 @@ namespace dihaptic::gui {
 
 GuideDialog::GuideDialog(const QString& title, const QString& leave,
                          std::function<void(const rig::Guide&)> work, QWidget* parent)
+    : GuideDialog(title, leave, parent) {
+    work_ = std::move(work);
+    thread_ = std::thread([this] { this->work(); });
+}
+
+GuideDialog::GuideDialog(const QString& title, const QString& leave, QWidget* parent)
     : QDialog(parent),
-      work_(std::move(work)),
       step_(new QLabel),
       text_(new QLabel("...")),
       measured_(new QLabel),
@@ -39,15 +44,14 @@ GuideDialog::GuideDialog(const QString& title, const QString& leave,
     connect(done_, &QPushButton::clicked, this, [this] { said_ = true; });
     connect(leave_, &QPushButton::clicked, this, &GuideDialog::reject);
     done_->setEnabled(false);
-    thread_ = std::thread([this] { this->work(); });
 }
 
 GuideDialog::~GuideDialog() {
     given_up_ = true;
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
 }
 
-void GuideDialog::work() {
+rig::Guide GuideDialog::guide() {
     rig::Guide guide;
     guide.show = [this](const rig::Guidance& now) {
         QMetaObject::invokeMethod(
@@ -57,18 +61,23 @@ void GuideDialog::work() {
         if (given_up_) throw rig::GivenUp{};
         return said_.exchange(false);
     };
-    Outcome outcome = Outcome::done;
-    QString why;
-    try {
-        work_(guide);
-    } catch (const rig::GivenUp&) {
-        outcome = Outcome::given_up;
-    } catch (const std::exception& e) {
-        outcome = Outcome::failed;
-        why = QString::fromStdString(e.what());
-    }
+    return guide;
+}
+
+void GuideDialog::finish(Outcome outcome, const QString& why) {
     QMetaObject::invokeMethod(
         this, [this, outcome, why] { end(outcome, why); }, Qt::QueuedConnection);
+}
+
+void GuideDialog::work() {
+    try {
+        work_(guide());
+        finish(Outcome::done);
+    } catch (const rig::GivenUp&) {
+        finish(Outcome::given_up);
+    } catch (const std::exception& e) {
+        finish(Outcome::failed, QString::fromStdString(e.what()));
+    }
 }
 
 void GuideDialog::show_guidance(const rig::Guidance& now) {

@@ -1,5 +1,5 @@
 // Leads a person through what a rig needs of one (rig/calibration_guide.h): what to do now, and how
-// far that is. The work runs in a thread of its own.
+// far that is. The work runs in another thread.
 #pragma once
 
 #include <QDialog>
@@ -21,16 +21,23 @@ class GuideDialog : public QDialog {
     /// when the person gave up, or after failed().
     GuideDialog(const QString& title, const QString& leave,
                 std::function<void(const rig::Guide&)> work, QWidget* parent);
+    /// The same of work that another does: with guide(), and finish() at its end. Outlives it.
+    GuideDialog(const QString& title, const QString& leave, QWidget* parent);
     /// Gives up, and waits for the work's end.
     ~GuideDialog() override;
 
     void reject() override;
 
+    /// For the thread that works.
+    rig::Guide guide();
+    /// From any thread: what came of it; `why`: it failed.
+    enum class Outcome { done, given_up, failed };
+    void finish(Outcome outcome, const QString& why = "");
+
   Q_SIGNALS:
     void failed(const QString& why);
 
   private:
-    enum class Outcome { done, given_up, failed };
     void work();
     void show_guidance(const rig::Guidance& now);
     void end(Outcome outcome, const QString& why);

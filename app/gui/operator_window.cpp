@@ -319,13 +319,7 @@ void OperatorWindow::begin(const recording::Participant& participant) {
     experiment::Request asked = request();
     asked.participant = participant.id;
     try {
-        auto made = std::make_shared<experiment::Plan>(experiment::make_plan(asked));
-        if (!rig::can_check_together(made->rig)) return run(std::move(*made), participant);
-        calibrator_->check_together(
-            made->rig, [this, made, participant](const std::vector<Problem>& warnings) {
-                made->warnings.insert(made->warnings.end(), warnings.begin(), warnings.end());
-                run(std::move(*made), participant);
-            });
+        run(experiment::make_plan(asked), participant);
     } catch (const Error& e) {
         log(QString::fromStdString(e.what()), true);
     }
@@ -337,6 +331,11 @@ void OperatorWindow::run(experiment::Plan made, const recording::Participant& pa
     options.out = out_.toStdString();
     options.command = "dihaptic gui " + file_.toStdString();
     options.participant = participant;
+    const std::vector<std::string> fingers = scene::finger_names(made.scene);
+    if (rig::can_check_together(made.rig, fingers)) {
+        options.check =
+            calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
+    }
     runner_.start(std::move(made), options);
     const experiment::Plan& plan = runner_.plan();
     tuning_->set_settings(plan.settings);

@@ -58,6 +58,8 @@ class SessionRunner : public QObject {
     void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
     /// In order; the hand may hold what it holds.
     void end() { session_->live.ended = true; }
+    /// Whether it is to end; from the session's thread too.
+    bool ending() const { return session_->live.ended || session_->stop; }
     /// At once, and the session ends.
     void force_off() { session_->stop = true; }
 

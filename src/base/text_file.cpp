@@ -87,6 +87,19 @@ std::string read_text_file(const std::string& file) {
     return text;
 }
 
+void check_writable(const std::string& file) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+        throw Error({file, 0}, "", "cannot be written: it is a folder, or no file",
+                    "Name another file.");
+    }
+    const fs::path folder = fs::path(file).parent_path();
+    if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return;
+    throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
+                "Name a file in a folder that is there, and that you may write to.");
+}
+
 void write_file(const std::string& text, const std::string& file) {
     namespace fs = std::filesystem;
     const std::string part = fmt::format("{}.{}.part", file, getpid());

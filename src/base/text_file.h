@@ -10,6 +10,9 @@ namespace dihaptic {
 /// opened, or is not UTF-8 text.
 std::string read_text_file(const std::string& file);
 
+/// Throws Error when write_file() could not write there now: before work whose result it is to
+/// keep.
+void check_writable(const std::string& file);
 /// Replaces a file's content so that a reader sees either the old or the new. Throws Error when it
 /// cannot.
 void write_file(const std::string& text, const std::string& file);

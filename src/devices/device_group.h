@@ -106,6 +106,7 @@ class DeviceGroup {
   public:
     virtual ~DeviceGroup() = default;
 
+    bool active() const { return active_; }
     int size() const { return static_cast<int>(infos_.size()); }
     const DeviceInfo& info(int device) const { return infos_[static_cast<size_t>(device)]; }
 

@@ -369,6 +369,41 @@ void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
     }
 }
 
+/// A wall that is not where the work is pushes all the time.
+void check_wall(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.rig.wall) return;
+    const Eigen::AlignedBox3d box = plan.rig.wall->box();
+    const char* const remedy = "See dihaptic workspace for a wall, and an origin, that fit.";
+    if (const int object = plan.scene.object_index(); object >= 0) {
+        const scene::Body& body = plan.scene.bodies[static_cast<size_t>(object)];
+        if (!box.contains(body.position)) {
+            diagnostics.warning(
+                plan.rig.wall->place, "wall",
+                fmt::format("keeps hands from the {}, which lies outside of it", body.name),
+                remedy);
+        }
+    }
+    if (plan.task || plan.open_ended() || plan.driver == nullptr) return;
+    constexpr int kMoments = 200;
+    constexpr double kNear = 5e-3;  // [m]
+    int out = 0;
+    for (int i = 0; i < kMoments; ++i) {
+        const double t = plan.driver->duration() * i / kMoments;
+        for (size_t finger = 0; finger < plan.scene.fingers.size(); ++finger) {
+            const Vec3 p = plan.driver->target(static_cast<int>(finger), t).p_WT;
+            if (box.exteriorDistance(p) > kNear) {
+                ++out;
+                break;
+            }
+        }
+    }
+    if (out == 0) return;
+    diagnostics.warning(
+        plan.rig.wall->place, "wall",
+        fmt::format("pushes the hand back in {:.0f} % of its movement", 100.0 * out / kMoments),
+        remedy);
+}
+
 }  // namespace
 
 void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
@@ -384,6 +419,7 @@ void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
     check_torsion(plan, diagnostics);
     check_grip(plan, devices->devices(), diagnostics);
     check_liftings(plan, devices->devices(), diagnostics);
+    check_wall(plan, diagnostics);
     check_fields(plan, devices->devices(), diagnostics);
     check_triggers(plan, diagnostics);
     diagnostics.throw_if_errors();

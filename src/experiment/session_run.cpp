@@ -198,8 +198,13 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         if (real && !plan.rig.outlets.empty())
             outward.emplace(plan, fs::path(folder.path()).filename().string());
         servo->activate();
-    } catch (const Error&) {
-        // real devices, or what they send to, may refuse: there is no session then
+        if (options.check) {
+            for (const Problem& warning : options.check(servo->devices()))
+                info.notes.push_back(warning.text());
+            folder.write_info(info);
+        }
+    } catch (...) {
+        // real devices, what they send to, or the person may refuse: there is no session then
         std::error_code ignored;
         fs::remove_all(folder.path(), ignored);
         throw;

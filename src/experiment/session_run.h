@@ -23,6 +23,9 @@ struct RunOptions {
     /// Called from another thread when a call to the devices never returns, and run_session() thus
     /// cannot either: it has to end the program. Gets what to tell.
     std::function<void(const std::string& message)> stuck;
+    /// On active devices, before the first tick and without force: returns what is to be warned of.
+    /// What it throws ends the session, of which nothing stays.
+    std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
     Live* live = nullptr;  ///< real clock only: who watches and steers; outlives the run
 };
 

@@ -22,8 +22,6 @@ constexpr double kLeastTurned = 0.04;
 /// Beyond, the endpoints were not held by one link [m].
 constexpr double kMostSpread = 2e-3;
 constexpr double kMostSlips = 0.3;
-/// Least extent of the jig across its longest [m].
-constexpr double kLeastJig = 0.03;
 
 double rms(const std::vector<double>& values) {
     double sum = 0;
@@ -109,22 +107,6 @@ void check_joints(const CalibrationInput& input) {
             "Correct the lengths of its links in the rig file (thigh_mm, shin_mm), or leave out "
             "joint_angles.");
     }
-}
-
-void check_jig(const CalibrationInput& input) {
-    if (input.jig_samples.empty()) return;
-    std::vector<Vec3> points;
-    for (const CalibrationInput::JigSample& sample : input.jig_samples)
-        points.push_back(input.jig[sample.point]);
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
-    Mat3 spread = Mat3::Zero();
-    for (const Vec3& p : points)
-        spread += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
-    const Vec3 variance = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
-    if (std::sqrt(std::max(0.0, variance[1])) * 2 >= kLeastJig) return;
-    throw Error("the points of the jig that were touched are on a line, or too near to each other",
-                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
 }
 
 void check_link(const CalibrationSolution& solution, double slips) {
@@ -238,7 +220,18 @@ Vec3 cloud_extents(const std::vector<Vec3>& points) {
     return out;
 }
 
+double across(const std::vector<Vec3>& points) {
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+    Mat3 spread = Mat3::Zero();
+    for (const Vec3& p : points)
+        spread += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
+    const Vec3 variance = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
+    return 2 * std::sqrt(std::max(0.0, variance[1]));
+}
+
 CalibrationResult calibrate(const CalibrationInput& input) {
+    check_joints(input);  // wrong links make a cloud look too small
     const CalibrationSolver solver(input);
     if (input.devices.size() > 1) {
         check_movement(input, solver);
@@ -246,8 +239,16 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         throw Error("one device alone is calibrated by a jig, and none was touched",
                     "Give the rig file a jig, or two devices.");
     }
-    check_joints(input);
-    check_jig(input);
+    if (!input.jig_samples.empty()) {
+        std::vector<Vec3> points;
+        for (const CalibrationInput::JigSample& sample : input.jig_samples)
+            points.push_back(input.jig[sample.point]);
+        if (across(points) < kLeastJig) {
+            throw Error(
+                "the points of the jig that were touched are on a line, or too near to each other",
+                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
+        }
+    }
     const size_t links = input.link_samples.size();
     const size_t touches = input.jig_samples.size();
     const CalibrationSolution nominal = solver.nominal();
@@ -289,6 +290,11 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     Calibration& calibration = out.calibration;
     if (links > 0) calibration.slips = static_cast<double>(slips) / static_cast<double>(links);
     check_link(all, calibration.slips);
+    if (all.jig_spread > kMostSpread) {
+        throw Error(fmt::format("the endpoints that touched the jig were {:.1f} mm off its points",
+                                all.jig_spread * 1e3),
+                    "Do the rig file's jig, positions and rotations name these places?");
+    }
     calibration.link_length = all.length;
     calibration.link_rms = rms(along);
     calibration.link_worst = worst(along);

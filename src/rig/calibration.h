@@ -29,7 +29,7 @@ struct DeviceCalibration {
         v("finger", finger, Field::text().required());
         v("serial", serial);
         v("shift", shift, Field::length().within(-1, 1));
-        v("turn", turn, Field::of(Quantity::angle));
+        v("turn", turn, Field::of(Quantity::angle).within(-7, 7));
         v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.5, 0.5));
         v("stretch", stretch, Field::number().within(-0.5, 0.5));
         v("skew", skew, Field::number().within(-0.5, 0.5));
@@ -58,13 +58,13 @@ struct Calibration {
     void visit(Visitor& v) {
         v("date", date, Field::text().required());
         v("devices", devices, Field::text().required());
-        v("link_length", link_length, Field::length());
-        v("link_rms", link_rms, Field::length());
-        v("link_worst", link_worst, Field::length());
-        v("agreement_rms", agreement_rms, Field::length());
-        v("jig_rms", jig_rms, Field::length());
-        v("jig_worst", jig_worst, Field::length());
-        v("slips", slips);
+        v("link_length", link_length, Field::length().within(0, 10));
+        v("link_rms", link_rms, Field::length().within(0, 0.1));
+        v("link_worst", link_worst, Field::length().within(0, 0.1));
+        v("agreement_rms", agreement_rms, Field::length().within(0, 0.1));
+        v("jig_rms", jig_rms, Field::length().within(0, 0.1));
+        v("jig_worst", jig_worst, Field::length().within(0, 0.1));
+        v("slips", slips, Field::number().within(0, 1));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -133,6 +133,11 @@ Vec3 cloud_extents(const std::vector<Vec3>& points);
 
 /// What was found, in lines for a person.
 std::string describe(const CalibrationResult& result);
+
+/// Extent of points across their longest one, as twice the standard deviation [m].
+double across(const std::vector<Vec3>& points);
+/// Least such extent of a jig [m].
+constexpr double kLeastJig = 0.03;
 
 /// SVG text: misfits over the workspace from above, before and after.
 std::string residual_picture(const CalibrationResult& result, const std::string& title);

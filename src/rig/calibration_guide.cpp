@@ -141,9 +141,30 @@ class CalibrationWay {
     Way way_;
 };
 
+/// Two endpoints of which the calibration tells how far apart they are when held together.
+struct Told {
+    size_t first;  // finger
+    size_t other;
+    double before;  // [m]
+};
+
+std::vector<Told> told_together(const Rig& rig, const std::vector<std::string>& fingers) {
+    std::vector<Told> out;
+    if (!rig.calibrated) return out;
+    const auto first = std::find(fingers.begin(), fingers.end(), rig.devices.front().finger);
+    if (first == fingers.end()) return out;
+    for (size_t other = 0; other < fingers.size(); ++other) {
+        const DeviceCalibration* const part = rig.calibrated->find(fingers[other]);
+        if (part == nullptr || !part->together) continue;
+        out.push_back({static_cast<size_t>(first - fingers.begin()), other, *part->together});
+    }
+    return out;
+}
+
 }  // namespace
 
 CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
+    check_jig(rig);
     if (is_real(rig)) return CalibrationWay(rig, guide).lead();
     Guidance now;
     now.text = "A simulated hand carries the link, and touches the jig.";
@@ -156,12 +177,8 @@ CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
     });
 }
 
-bool can_check_together(const Rig& rig) {
-    if (!is_real(rig) || !rig.calibrated) return false;
-    return std::any_of(rig.devices.begin(), rig.devices.end(), [&](const Device& device) {
-        const DeviceCalibration* const part = rig.calibrated->find(device.finger);
-        return part != nullptr && part->together;
-    });
+bool can_check_together(const Rig& rig, const std::vector<std::string>& fingers) {
+    return is_real(rig) && !told_together(rig, fingers).empty();
 }
 
 std::string Together::describe() const {
@@ -178,37 +195,34 @@ Problem Together::warning(const Rig& rig) const {
     return diagnostics.problems().front();
 }
 
-std::vector<Together> check_together(const Rig& rig, const Guide& guide) {
-    // a scale moves endpoints apart that are together
-    Rig unscaled = rig;
-    for (Device& device : unscaled.devices) device.scale = 1;
-    const std::vector<std::string> fingers = held_fingers(rig);
-    DeviceReader reader(make_devices(unscaled, fingers, {}), fingers);
-    const std::vector<Pose> X_WD = poses(unscaled, fingers);
+std::vector<Together> check_together(const Rig& rig, const std::vector<std::string>& fingers,
+                                     devices::DeviceGroup& devices, const Guide& guide) {
+    std::vector<Told> told = told_together(rig, fingers);
+    DeviceReader reader(devices, fingers);
+    const std::vector<Pose> X_WD = poses(rig, fingers);
+    // of the hand: a scale moves endpoints apart that are together
+    const auto p_W = [&](size_t k) {
+        return Vec3(X_WD[k] *
+                    (reader.readings()[k].p_DH / devices.info(static_cast<int>(k)).scale));
+    };
+    Way way(reader, guide, static_cast<int>(told.size()));
     std::vector<Together> out;
-    std::vector<size_t> others;
-    for (size_t other = 1; other < fingers.size(); ++other) {
-        const DeviceCalibration* const part = rig.calibrated->find(fingers[other]);
-        if (part == nullptr || !part->together) continue;
-        others.push_back(other);
-        out.push_back({fingers[0], fingers[other], 0, *part->together});
-    }
-    Way way(reader, guide, static_cast<int>(others.size()));
-    reader.activate();
-    for (size_t i = 0; i < others.size(); ++i) {
-        way.begin_step(fmt::format("Hold the endpoints of {} and {} together.", fingers[0],
-                                   fingers[others[i]]));
+    for (const auto& [first, other, before] : told) {
+        Together& pair = out.emplace_back();
+        pair.first = fingers[first];
+        pair.second = fingers[other];
+        pair.before = before;
+        way.begin_step(
+            fmt::format("Hold the endpoints of {} and {} together.", pair.first, pair.second));
         way.wait();
         int taken = 0;
         way.sample([&](bool) {
-            const auto p_W = [&](size_t k) { return Vec3(X_WD[k] * reader.readings()[k].p_DH); };
-            out[i].apart += (p_W(0) - p_W(others[i])).norm() / kHeld;
+            pair.apart += (p_W(first) - p_W(other)).norm() / kHeld;
             return ++taken < kHeld;
         });
-        out[i].agrees = std::abs(out[i].apart - out[i].before) <=
-                        Together::kMostApart + 3 * rig.calibrated->agreement_rms;
+        pair.agrees = std::abs(pair.apart - pair.before) <=
+                      Together::kMostApart + 3 * rig.calibrated->agreement_rms;
     }
-    reader.deactivate();
     return out;
 }
 

@@ -51,10 +51,13 @@ struct Together {
     Problem warning(const Rig& rig) const;
 };
 
-/// Whether there is something to check: real devices, and a calibration that knows of endpoints
-/// held together.
-bool can_check_together(const Rig& rig);
-/// Measures for a second what the person holds together. Throws as lead_calibration() does.
-std::vector<Together> check_together(const Rig& rig, const Guide& guide);
+/// Whether there is something to check: several real devices, and a calibration that knows of their
+/// endpoints held together. `fingers`: that a session is about.
+bool can_check_together(const Rig& rig, const std::vector<std::string>& fingers);
+/// Measures for a second what the person holds together, on active devices that make_devices() made
+/// for these fingers: activating them again could reset them. Throws what `guide` throws, and Error
+/// when a device does not answer.
+std::vector<Together> check_together(const Rig& rig, const std::vector<std::string>& fingers,
+                                     devices::DeviceGroup& devices, const Guide& guide);
 
 }  // namespace dihaptic::rig

@@ -156,9 +156,9 @@ Ball common_ball(const Rig& rig) {
 }  // namespace
 
 CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* driver)
-    : reader_(devices_of(rig, driver), held_fingers(rig)) {
+    : devices_(devices_of(rig, driver)), reader_(*devices_, held_fingers(rig)) {
     for (size_t i = 0; i < rig.devices.size(); ++i) {
-        const devices::DeviceInfo& info = reader_.devices().info(static_cast<int>(i));
+        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
         input_.devices.push_back(
             {rig.devices[i].finger, info.serial, rig.devices[i].X_WD(), info.arm});
     }
@@ -206,10 +206,6 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
         if (device.backend == "simulated") continue;
         throw Error(device.place, "backend", "is not simulated, as the first one's is",
                     "All devices of a rig are of one backend.");
-    }
-    if (rig.devices.size() == 1 && rig.jig.empty()) {
-        throw Error(rig.place, "jig", "one device alone is calibrated by a jig, and there is none",
-                    "Give the rig file a jig, or two devices.");
     }
     const Rig plain = uncorrected(rig);
     const CalibrationHand hand(rig.devices.size(), common_ball(plain), jig_of(rig), seed);

@@ -19,8 +19,8 @@ class CalibrationSampler {
     /// Throws Error as make_devices() does. `driver`: of simulated devices.
     CalibrationSampler(const Rig& rig, const hand::Driver* driver);
 
-    void activate() { reader_.activate(); }
-    void deactivate() { reader_.deactivate(); }
+    void activate() { devices_->activate(); }
+    void deactivate() { devices_->deactivate(); }
     DeviceReader& reader() { return reader_; }
 
     /// The last tick's endpoints of the first device and another, joined.
@@ -43,6 +43,7 @@ class CalibrationSampler {
         return {last.p_DH, last.joints};
     }
 
+    std::unique_ptr<devices::DeviceGroup> devices_;
     DeviceReader reader_;
     CalibrationInput input_;
 };

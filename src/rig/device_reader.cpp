@@ -8,26 +8,15 @@
 
 namespace dihaptic::rig {
 
-DeviceReader::DeviceReader(std::unique_ptr<devices::DeviceGroup> devices,
-                           std::vector<std::string> fingers)
-    : devices_(std::move(devices)),
+DeviceReader::DeviceReader(devices::DeviceGroup& devices, std::vector<std::string> fingers)
+    : devices_(devices),
       fingers_(std::move(fingers)),
       readings_(fingers_.size()),
       none_(fingers_.size()) {}
 
-void DeviceReader::activate() {
-    devices_->activate();
-    active_ = true;
-}
-
-void DeviceReader::deactivate() {
-    devices_->deactivate();
-    active_ = false;
-}
-
 void DeviceReader::tick(Time now) noexcept {
-    devices_->read(now, readings_);
-    devices_->write(none_);
+    devices_.read(now, readings_);
+    devices_.write(none_);
 }
 
 void DeviceReader::check() const {
@@ -46,7 +35,7 @@ void DeviceReader::repeat(const std::function<bool()>& each) {
     std::exception_ptr failure;
     const auto once = [&] {
         try {
-            if (active_) {
+            if (devices_.active()) {
                 tick(Clock::now() - begin);
                 check();
             }
@@ -56,8 +45,8 @@ void DeviceReader::repeat(const std::function<bool()>& each) {
             return false;
         }
     };
-    if (active_ && devices_->paces()) {
-        devices_->pace(once);
+    if (devices_.active() && devices_.paces()) {
+        devices_.pace(once);
     } else {
         auto due = Clock::now();
         while (once()) {

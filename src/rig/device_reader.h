@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,29 +15,24 @@ class DeviceReader {
     static constexpr Time kTick = std::chrono::milliseconds(1);
 
     /// `fingers`: who holds each, for what is said of one that does not answer.
-    DeviceReader(std::unique_ptr<devices::DeviceGroup> devices, std::vector<std::string> fingers);
-    ~DeviceReader() { deactivate(); }
+    DeviceReader(devices::DeviceGroup& devices, std::vector<std::string> fingers);
 
-    void activate();
-    void deactivate();
     /// Reads once, at `now`.
     void tick(Time now) noexcept;
     /// In real time: reads, at the devices' own pace where they have one, and calls `each` after
-    /// each reading until it returns false. Before activate() it only calls. Throws Error when a
-    /// device does not answer, and what `each` throws.
+    /// each reading until it returns false. Devices that are not active are not read. Throws Error
+    /// when a device does not answer, and what `each` throws.
     void repeat(const std::function<bool()>& each);
 
-    devices::DeviceGroup& devices() { return *devices_; }
     const std::vector<devices::Reading>& readings() const { return readings_; }
 
   private:
     void check() const;
 
-    std::unique_ptr<devices::DeviceGroup> devices_;
+    devices::DeviceGroup& devices_;
     std::vector<std::string> fingers_;
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> none_;
-    bool active_ = false;
 };
 
 }  // namespace dihaptic::rig

@@ -64,6 +64,13 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
                           fmt::format("'{}' is no date", calibration.date),
                           "Write it as 2026-11-21.");
     }
+    std::set<std::string> parts;
+    for (const DeviceCalibration& part : calibration.devices) {
+        if (parts.insert(part.finger).second) continue;
+        diagnostics.error(calibration.place, "devices",
+                          fmt::format("has two parts for the {}'s device", part.finger),
+                          "Calibrate the rig again.");
+    }
     for (const Device& device : rig.devices) {
         if (calibration.find(device.finger) != nullptr) continue;
         diagnostics.error(calibration.place, "devices",
@@ -155,9 +162,31 @@ std::string calibration_file(const Rig& rig, const std::string& rig_file) {
     return (file.parent_path() / fmt::format("{}-calibration.yaml", file.stem().string())).string();
 }
 
+namespace {
+std::string picture_of(const std::string& calibration_file) {
+    return std::filesystem::path(calibration_file).replace_extension(".svg").string();
+}
+}  // namespace
+
+void check_calibration_file(const std::string& rig_file, const std::string& file) {
+    namespace fs = std::filesystem;
+    if (picture_of(file) == file) {
+        throw Error({file, 0}, "", "is a name for the picture beside it",
+                    "Name the calibration *.yaml.");
+    }
+    for (const std::string& out : {file, picture_of(file)}) {
+        std::error_code ignored;
+        if (fs::equivalent(out, rig_file, ignored)) {
+            throw Error({out, 0}, "calibration", "is the rig file itself",
+                        "Give the calibration a file of its own.");
+        }
+        check_writable(out);
+    }
+}
+
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file) {
-    const std::string picture = std::filesystem::path(file).replace_extension(".svg").string();
+    const std::string picture = picture_of(file);
     write_file(to_yaml(write_fields(result.calibration)), file);
     write_file(residual_picture(result, rig.title), picture);
     return picture;
@@ -171,6 +200,19 @@ void name_calibration(const std::string& rig_file, const std::string& calibratio
         fmt::format("calibration: {}\n",
                     std::filesystem::path(calibration_file).lexically_proximate(folder).string());
     write_file(text, rig_file);
+}
+
+void check_jig(const Rig& rig) {
+    if (rig.jig.empty() && rig.devices.size() > 1) return;
+    std::vector<Vec3> points;
+    for (const JigPoint& point : rig.jig) points.push_back(point.position);
+    if (points.empty()) {
+        throw Error(rig.place, "jig", "one device alone is calibrated by a jig, and there is none",
+                    "Give the rig file a jig, or two devices.");
+    }
+    if (across(points) >= kLeastJig) return;
+    throw Error(rig.place, "jig", "its points are on a line, or too near to each other",
+                fmt::format("Give three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
 }
 
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {

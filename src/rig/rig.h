@@ -49,11 +49,13 @@ struct JigPoint {
 struct Wall {
     Vec3 centre = Vec3::Zero();  ///< [m]
     Vec3 size = Vec3::Zero();    ///< [m]
+    Place place{};
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("centre", centre, Field::length().within(-100, 100).required());
-        v("size", size, Field::length().positive().required());
+        v("size", size, Field::length().within(0.001, 100).required());
+        if constexpr (requires { v.place(); }) place = v.place();
     }
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
 };
@@ -95,6 +97,8 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
 /// Where a rig's calibration goes: to the file that it names, or to one beside it.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
+/// Throws Error when a calibration could not be stored there: before somebody's work.
+void check_calibration_file(const std::string& rig_file, const std::string& file);
 /// Writes a calibration, and beside it the picture of what remains; returns the picture's name.
 /// Throws Error when they cannot be written.
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
@@ -109,6 +113,8 @@ bool is_real(const Rig& rig);
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 
+/// Throws Error when the rig's jig, or its lack of one, does not tell where one device is.
+void check_jig(const Rig& rig);
 /// Warns of a calibration that is older than kOldCalibration. `today`: ISO 8601.
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days

@@ -94,6 +94,8 @@ class Servo {
     const dynamics::World& world() const { return world_; }
     dynamics::World& world() { return world_; }
     const devices::DeviceGroup& devices() const { return *devices_; }
+    /// Active, and between ticks: to be read without a tick.
+    devices::DeviceGroup& devices() { return *devices_; }
 
   private:
     void measure(Time now) noexcept;

@@ -306,6 +306,27 @@ TEST(Session, ReplaysWhatTheDevicesLimitsAndTheSwitchDid) {
     EXPECT_EQ(force, 0);
 }
 
+TEST(Session, AWallThatIsNotWhereTheWorkIsIsWarnedOf) {
+    const testing::TemporaryFolder folder;
+    const auto warnings = [&](const char* wall) {
+        Request request;
+        request.file = "scenes/block-on-table.yaml";
+        request.rig = folder.write(
+            "rig.yaml", fmt::format("devices:\n  - {{finger: thumb, backend: simulated}}\n"
+                                    "  - {{finger: index, backend: simulated}}\nwall: {}\n",
+                                    wall));
+        std::string out;
+        for (const Problem& problem : make_plan(request).warnings) out += problem.text() + "\n";
+        return out;
+    };
+    EXPECT_EQ(warnings("{centre_mm: [0, 0, 100], size_mm: [400, 400, 200]}"), "");
+    const std::string high = warnings("{centre_mm: [0, 0, 200], size_mm: [400, 400, 200]}");
+    EXPECT_NE(high.find("rig.yaml:4: warning: wall: keeps hands from the block"), std::string::npos)
+        << high;
+    EXPECT_NE(high.find("pushes the hand back in 100 % of its movement"), std::string::npos)
+        << high;
+}
+
 TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
     const auto highest = [](const std::vector<servo::Frame>& frames) {
         double height = 0;

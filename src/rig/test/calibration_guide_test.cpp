@@ -79,6 +79,16 @@ struct Person {
         }
         return {0, 0, 0.02 * side};
     }
+    /// As a session does, on its devices.
+    std::vector<Together> hold_together() {
+        now = {};
+        const auto fingers = held_fingers(rig);
+        const auto devices = make_devices(rig, fingers, {});
+        devices->activate();
+        auto out = check_together(rig, fingers, *devices, guide());
+        devices->deactivate();
+        return out;
+    }
     Guide guide() {
         Guide out;
         out.show = [this](const Guidance& guidance) {
@@ -192,26 +202,25 @@ TEST(CalibrationGuide, EndsWhenThePersonGivesUpOrADeviceFallsSilent) {
 
 TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
     Person person;
-    EXPECT_FALSE(can_check_together(person.rig));
+    const auto fingers = held_fingers(person.rig);
+    EXPECT_FALSE(can_check_together(person.rig, fingers));
     person.rig.calibrated = calibrate(lead_calibration(person.rig, person.guide())).calibration;
-    ASSERT_TRUE(can_check_together(person.rig));
-    person.now = {};
-    const Together well = check_together(person.rig, person.guide()).at(0);
+    ASSERT_TRUE(can_check_together(person.rig, fingers));
+    EXPECT_FALSE(can_check_together(person.rig, {"index"}));  // a session of one finger
+    const Together well = person.hold_together().at(0);
     EXPECT_TRUE(well.agrees);
     EXPECT_NEAR(well.apart, kTogether, 1e-5);
     EXPECT_NEAR(well.before, kTogether, 1e-5);
     // somebody ran into it
     person.X_WD[1].p.x() += 0.004;
-    person.now = {};
-    const Together moved = check_together(person.rig, person.guide()).at(0);
+    const Together moved = person.hold_together().at(0);
     EXPECT_FALSE(moved.agrees);
     EXPECT_NEAR(moved.apart, kTogether + 0.004, 1e-4);
     EXPECT_NE(moved.warning(person.rig).text().find("Calibrate the rig again"), std::string::npos);
     // a scale moves nothing that is held together
     person.X_WD[1].p.x() -= 0.004;
     for (Device& device : person.rig.devices) device.scale = 3;
-    person.now = {};
-    EXPECT_NEAR(check_together(person.rig, person.guide()).at(0).apart, kTogether, 1e-5);
+    EXPECT_NEAR(person.hold_together().at(0).apart, kTogether, 1e-5);
 }
 
 }  // namespace

@@ -71,6 +71,12 @@ TEST(Workspace, ProposesAWorldOverItsFloorAndAWallThatItHolds) {
     EXPECT_NEAR(out_of_reach(wide.box(), all), 0.5, 0.05);
 }
 
+TEST(Workspace, ThatIsThinHasNoBox) {
+    const auto found =
+        find_workspace(reaches(boxes({{0, 0, 0}, {0.1999, 0, 0}}, "[200, 200, 200]")), kGoOn);
+    EXPECT_TRUE(found.box.isEmpty());
+}
+
 class Premiums : public ::testing::TestWithParam<int> {};
 
 TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
