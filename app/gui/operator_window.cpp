@@ -133,7 +133,7 @@ void OperatorWindow::make_docks() {
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
     resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {tuning_->sizeHint().height() + 4, 300}, Qt::Vertical);
+    resizeDocks({tuning_dock, plots}, {262, 250}, Qt::Vertical);  // all of the first is seen
     resizeDocks({plots}, {380}, Qt::Horizontal);
 }
 
