@@ -1,4 +1,5 @@
-# A room is a folder of src/: one static library, its headers, its tests, and its soaks (`./dev soak`).
+# A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and
+# its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus beside it; test/support/fuzz.h).
 #
 #   dihaptic_room(haptics USES dynamics LINKS Foo::foo)
 #
@@ -12,7 +13,7 @@ function(dihaptic_room name)
 
     # relative: the folder that holds the project may be called test itself
     file(GLOB_RECURSE sources RELATIVE ${folder} CONFIGURE_DEPENDS ${folder}/*.cpp)
-    list(FILTER sources EXCLUDE REGEX "(^|/)(test|soak)/")
+    list(FILTER sources EXCLUDE REGEX "(^|/)(test|soak|fuzz)/")
     list(TRANSFORM sources PREPEND ${folder}/)
     set(room dihaptic_${name})
     if(sources)
@@ -47,6 +48,23 @@ function(dihaptic_room name)
         gtest_discover_tests(${name}_soak DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
             PROPERTIES LABELS soak TIMEOUT 7200)
     endif()
+    file(GLOB fuzzers CONFIGURE_DEPENDS ${folder}/fuzz/*_fuzz.cpp ${folder}/*/fuzz/*_fuzz.cpp)
+    foreach(fuzzer ${fuzzers})
+        get_filename_component(target ${fuzzer} NAME_WE)
+        string(REGEX REPLACE "_fuzz.cpp$" "_corpus" corpus ${fuzzer})
+        add_executable(${target} ${fuzzer})
+        target_link_libraries(${target} PRIVATE ${room} ${ROOM_LINKS})
+        if(DIHAPTIC_SANITIZE MATCHES fuzzer)
+            target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/rooms/testing)
+            target_link_options(${target} PRIVATE -fsanitize=fuzzer)
+            set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzzers)
+            add_dependencies(fuzzers ${target})
+        else()
+            target_link_libraries(${target} PRIVATE dihaptic_feed_corpus)
+            add_test(NAME ${target} COMMAND ${target} ${corpus} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+            set_tests_properties(${target} PROPERTIES LABELS ${name} TIMEOUT 900)
+        endif()
+    endforeach()
 endfunction()
 
 # The table of a seam's implementations: each subfolder with a header KIND.h has a namespace of the

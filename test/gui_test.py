@@ -6,8 +6,11 @@ SCREENSHOTS.
 import csv
 import glob
 import math
+import mmap
 import os
 import pathlib
+import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -20,10 +23,9 @@ import numpy as np
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
 SIZE = "1400x900"
-FORCE_OFF, RESUMED = 10, 22  # bits of a frame's status
+FORCE_OFF, STOPPED, RESUMED, ABANDONED, PAUSED = 10, 21, 22, 28, 29  # bits of a frame's status
 
-# a busy machine that leaves the hands without an answer shall not end the session
-SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text() + "\nsettings:\n  safety: {max_pause_ms: 1000}\n"
+SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
 
 
 class Window(unittest.TestCase):
@@ -139,12 +141,16 @@ class Mouse(Window):
             time.sleep(0.02)
         time.sleep(1.5)  # a busy machine takes its time
 
+    def lift(self, steps):
+        """The block of the scene, which is open; so many steps of 4 pixels up."""
+        self.start()
+        self.wheel(self.CLOSE, 19)
+        self.move(0, -4, steps)
+
     def test_grips_and_lifts_while_the_solver_changes(self):
         self.open()
         self.screenshot("opened")
-        self.start()
-        self.wheel(self.CLOSE, 19)
-        self.move(0, -4, 40)
+        self.lift(40)
         time.sleep(1.5)
         self.screenshot("lifted")
         self.key("alt+i", "ctrl+a")
@@ -175,9 +181,7 @@ class Mouse(Window):
 
     def test_holds_while_the_workspace_follows_the_camera(self):
         self.open()
-        self.start()
-        self.wheel(self.CLOSE, 19)
-        self.move(0, -4, 30)
+        self.lift(30)
         time.sleep(1)
         self.key("F9")  # the scene's own camera is at -0.59 rad
         self.xdotool("mousedown", "3")
@@ -224,9 +228,7 @@ class Mouse(Window):
 
     def test_turns_by_a_drag(self):
         self.open()
-        self.start()
-        self.wheel(self.CLOSE, 19)
-        self.move(0, -4, 20)
+        self.lift(20)
         self.xdotool("mousedown", "1")
         self.move(4, 0, 20)
         self.xdotool("mouseup", "1")
@@ -240,9 +242,7 @@ class Mouse(Window):
 
     def test_stays_while_the_pointer_goes_elsewhere_and_is_reported(self):
         self.open()
-        self.start()
-        self.wheel(self.CLOSE, 19)
-        self.move(0, -4, 30)
+        self.lift(30)
         time.sleep(0.7)
         self.key("h")
         self.move(5, 3, 40)
@@ -286,12 +286,20 @@ class Sessions(Window):
         with self.ended("complete") as file:
             self.assertEqual(self.status(file, RESUMED).sum(), 1)
 
-    def test_end_by_escape_with_force_off(self):
+    def test_wait_after_escape_and_go_on_or_end(self):
         self.open()
         self.start()
         self.key("Escape")
-        with self.ended("interrupted") as file:
-            self.assertTrue(self.status(file, FORCE_OFF)[-1])
+        time.sleep(0.5)
+        self.screenshot("force-off")
+        self.key("F6")
+        time.sleep(0.5)
+        self.key("Escape", "Escape", "F7")  # the second does nothing
+        with self.ended("complete") as file:
+            self.assertEqual(self.status(file, PAUSED).sum(), 2)
+            self.assertEqual(self.status(file, RESUMED).sum(), 1)
+            self.assertTrue(self.status(file, PAUSED)[-1])
+        self.replay()
         self.quit()
 
     def test_are_whole_when_the_window_is_closed(self):
@@ -308,7 +316,7 @@ class Trials(Window):
     def experiment(self, name, change):
         text = change(pathlib.Path(f"experiments/{name}.yaml").read_text()).replace("../scenes", os.getcwd() + "/scenes")
         file = self.folder.name + "/experiment.yaml"
-        pathlib.Path(file).write_text(text + "\nsettings:\n  safety: {max_pause_ms: 1000}\n")
+        pathlib.Path(file).write_text(text)
         return file
 
     def dialog(self):
@@ -441,14 +449,14 @@ class Rigs(Window):
         self.assertIn("\ncalibration: rig-calibration.yaml\n", pathlib.Path(self.folder.name + "/rig.yaml").read_text())
         self.quit()
 
-    def on_fakes(self, together):
-        """Two devices that nobody moves, and how far apart they are said to have been."""
+    def on_fakes(self, together, more=""):
+        """Two devices that nobody moves, and how far apart they are said to have been; `more`: of the rig."""
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
         pathlib.Path(self.folder.name + "/mine.yaml").write_text(
             f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: {together}}}]\n")
         self.with_rig("title: Two fakes\ncalibration: mine.yaml\ndevices:\n" + "".join(
             f"  - {{finger: {finger}, backend: openhaptics, options: {{library: {library}, name: PHANToM {i}}}}}\n"
-            for i, finger in [(1, "thumb"), (2, "index")]))
+            for i, finger in [(1, "thumb"), (2, "index")]) + more)
 
     def test_lead_a_person_through_a_calibration_who_gives_up(self):
         self.on_fakes(0)
@@ -467,7 +475,7 @@ class Rigs(Window):
 
     def test_that_were_moved_since_their_calibration_are_warned_of(self):
         self.on_fakes(12)
-        for answer, notes in [("Return", True), ("Escape", False)]:
+        for answer, notes in [("Return", True), ("alt+s", False)]:
             before = len(glob.glob(self.out + "/*/raw.log"))
             self.key("F5")
             self.dialog("^Does the calibration still hold")
@@ -482,6 +490,204 @@ class Rigs(Window):
             time.sleep(1)
             info = pathlib.Path(self.recording() + "session.yaml").read_text()
             self.assertEqual("12.0 mm apart when the rig was calibrated" in info, notes, info)
+        self.quit()
+
+
+    def test_that_cannot_start_ask_for_nothing_more(self):
+        self.on_fakes(0, "outlets: [{ kind: serial, options: { port: /dev/no-such-line } }]\n")
+        self.key("F5")
+        time.sleep(2)
+        self.assertEqual(self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration still hold"), "")
+        self.assertEqual(glob.glob(self.out + "/*"), [])
+        self.xdotool("windowfocus", self.name)
+        self.quit()
+
+
+class Force(Window):
+    """On two fakes of real devices whose handles are pushed into the table, and what pushes back."""
+    DEVICES, RECORD = 2, 4 * 8  # of the file that the fakes show: force [N] first
+
+    def setUp(self):
+        super().setUp()
+        self.felt = self.folder.name + "/felt"
+        self.environment.update(DIHAPTIC_FAKE_FELT=self.felt, DIHAPTIC_FAKE_PUSH="0 0 0.007")  # half a finger is 10 mm
+
+    def open(self, more=""):
+        library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
+        # a busy machine is another test's
+        title = "title: Two fakes\nsettings: {safety: {max_pause_ms: 1000}}\n"
+        pathlib.Path(self.folder.name + "/rig.yaml").write_text(title + more + "devices:\n" + "".join(
+            f"  - {{finger: {finger}, position_mm: [{x}, 0, 0], backend: openhaptics, "
+            f"options: {{library: {library}, name: PHANToM {i}}}}}\n"
+            for i, finger, x in [(1, "thumb", -100), (2, "index", 100)]))
+        file = self.folder.name + "/experiment.yaml"
+        pathlib.Path(file).write_text("scene: block.yaml\nrig: rig.yaml\n")
+        super().open(file)
+
+    def forces(self):
+        with open(self.felt, "rb") as file:
+            if os.fstat(file.fileno()).st_size == 0:
+                return [0]
+            with mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as felt:
+                return [struct.unpack_from("d", felt, i * self.RECORD)[0] for i in range(self.DEVICES)]
+
+    def pushed(self):
+        """A busy machine may draw the first picture for longer than a window may be silent: then it is told to go on."""
+        for _ in range(6):
+            end = time.monotonic() + 6
+            while time.monotonic() < end:
+                if min(self.forces()) > 1:
+                    return
+                time.sleep(0.05)
+            self.key("F6")
+        self.fail("no force came")
+
+    def off_after(self, act, most):
+        """How long after `act` force was off everywhere, and stays so; at most `most` [s]."""
+        begin = time.monotonic()
+        act()
+        while max(self.forces()) > 0 and time.monotonic() < begin + 10:
+            time.sleep(0.0002)
+        took = time.monotonic() - begin
+        self.assertLess(took, most)
+        for _ in range(20):
+            self.assertEqual(max(self.forces()), 0)
+            time.sleep(0.01)
+        return took
+
+    def last_frame(self):
+        folder = self.recording()
+        with h5py.File(folder + "session.nwb", "r") as file:
+            return [self.status(file, bit)[-1] for bit in (FORCE_OFF, STOPPED)]
+
+    def test_goes_at_the_first_escape_whatever_has_the_keyboard(self):
+        self.open()
+        self.key("alt+v", "s")
+        subject = self.wait("the subject's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        self.xdotool("windowfocus", self.name)
+        self.start()
+        places = {
+            "the scene": [],
+            "a menu": ["alt+s"],
+            "a menu in a menu": ["alt+v", "n", "Right"],
+            "a list that is open": ["alt+l", "alt+Down"],
+            "a number that is typed": ["alt+n", "ctrl+a", "4"],
+            "a text that is selected": ["alt+i", "ctrl+a"],
+        }
+        for place, keys in places.items():
+            with self.subTest(place):
+                self.pushed()
+                self.key(*keys)
+                self.screenshot("escape-" + place.replace(" ", "-"))
+                print(f"Escape, {place}: {self.off_after(lambda: self.xdotool('key', 'Escape'), 0.5) * 1e3:.1f} ms")
+                self.key("Escape", "Escape")  # what was open is closed by now
+                self.xdotool("windowfocus", self.name)
+                self.key("F6")
+        with self.subTest("the subject's window"):
+            self.pushed()
+            self.xdotool("windowfocus", subject)
+            time.sleep(0.3)
+            self.off_after(lambda: self.xdotool("key", "Escape"), 0.5)
+            self.key("F6")
+            self.pushed()
+        self.xdotool("windowfocus", self.name)
+        self.off_after(lambda: self.key("F7"), 2)
+        with self.ended("complete") as file:
+            self.assertEqual(self.status(file, PAUSED).sum(), len(places) + 1)
+        self.quit()
+
+    def test_waits_for_a_word_after_escape_in_the_question_before_it(self):
+        pathlib.Path(self.folder.name + "/mine.yaml").write_text(
+            f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: 0}}]\n")
+        self.open("calibration: mine.yaml\n")
+        self.key("F5")
+        dialog = self.wait("the question", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration")).strip()
+        time.sleep(0.5)
+        self.xdotool("windowfocus", dialog)
+        self.key("Escape")
+        self.wait("its end", lambda: not self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration"))
+        self.xdotool("windowfocus", self.name)
+        time.sleep(1)
+        self.assertEqual(max(self.forces()), 0)
+        self.screenshot("escape-before")
+        self.key("F6")
+        self.pushed()
+        self.key("F7")
+        with self.ended("complete"):
+            pass
+        self.quit()
+
+    def test_goes_at_signals_and_the_session_is_whole(self):
+        for name in ("INT", "TERM", "HUP", "QUIT", "TSTP", "USR1", "ALRM", "XCPU"):
+            with self.subTest(name):
+                self.open()
+                self.start()
+                self.pushed()
+                number = getattr(signal, "SIG" + name)
+                took = self.off_after(lambda: self.window.send_signal(number), 0.2)
+                print(f"SIG{name}: {took * 1e3:.1f} ms")
+                self.assertEqual(self.window.wait(60), 1)
+                self.assertEqual(self.last_frame(), [True, True])
+                self.assertIn("state: interrupted", pathlib.Path(self.recording() + "session.yaml").read_text())
+                self.log.seek(0)
+                self.assertIn("force is off, and the session ends", self.log.read())
+        self.replay()
+
+    def test_goes_when_the_window_fails_is_killed_or_stopped(self):
+        """By the process that owns the devices: nothing in the window could."""
+        for name in ("SEGV", "ABRT", "BUS", "FPE", "ILL", "KILL", "STOP"):
+            with self.subTest(name):
+                self.open()
+                self.start()
+                self.pushed()
+                # a second when it is stopped: the rig of these tests bears such a silence
+                took = self.off_after(lambda: self.window.send_signal(getattr(signal, "SIG" + name)), 1.2)
+                print(f"SIG{name}: {took * 1e3:.1f} ms")
+                self.window.kill()
+                self.window.wait()
+                if name not in ("KILL", "STOP"):
+                    self.log.seek(0)
+                    self.assertIn(f"the program failed (SIG{name}). Force is off.", self.log.read())
+
+    def test_goes_with_the_display(self):
+        for killed in (False, True):
+            with self.subTest("and the program is killed" if killed else "alone"):
+                self.setUp()
+                self.open()
+                self.start()
+                self.pushed()
+                print(f"display: {self.off_after(self.display.kill, 1) * 1e3:.1f} ms")
+                folder = self.recording()
+                if killed:
+                    self.window.kill()
+                    self.window.wait()
+                    recovered = subprocess.run([PROGRAM, "recover", folder], capture_output=True, text=True)
+                    self.assertEqual(recovered.returncode, 0, recovered.stderr)
+                else:
+                    self.assertEqual(self.window.wait(60), 1)
+                    self.log.seek(0)
+                    self.assertIn("The window is lost: force is off", self.log.read())
+                self.assertEqual(self.last_frame(), [True, True])
+                self.replay()
+
+    def test_goes_when_the_window_hangs_and_comes_back_when_told(self):
+        self.open()
+        self.start()
+        self.pushed()
+        # what draws to a display that does not answer waits for it
+        took = self.off_after(lambda: self.display.send_signal(signal.SIGSTOP), 2)
+        print(f"hang: {took * 1e3:.1f} ms")
+        self.display.send_signal(signal.SIGCONT)
+        time.sleep(2)
+        self.assertEqual(max(self.forces()), 0)
+        self.screenshot("hung")
+        self.key("F6")
+        self.pushed()
+        self.key("F7")
+        with self.ended("complete") as file:
+            self.assertGreaterEqual(self.status(file, ABANDONED).sum(), 1)
+        self.replay()
         self.quit()
 
 
@@ -530,6 +736,48 @@ class Files(Window):
         self.start()
         self.quit()
 
+
+    def test_that_are_edited_while_they_run_are_shown_after_it(self):
+        self.open()
+        title = lambda: self.xdotool("getwindowname", self.name).strip()
+        before = title()
+        self.start()
+        pathlib.Path(self.scene).write_text(SCENE.replace("title: ", "title: Other, "))
+        time.sleep(1)
+        self.assertEqual(title(), before)
+        self.key("F7")
+        with self.ended("complete"):
+            pass
+        self.wait("the file as it is", lambda: "Other, " in title())
+
+    def test_that_changed_a_moment_ago_are_shown_as_they_run(self):
+        """Of an experiment's scene nobody watches whether it changes."""
+        file = self.folder.name + "/experiment.yaml"
+        pathlib.Path(file).write_text("scene: block.yaml\n")
+        super().open(file)
+        pathlib.Path(self.scene).write_text(SCENE.replace("size_mm: [40, 40, 40]", "size_mm: [40, 40, 90]")
+                                            .replace("[0, 0, 20]", "[0, 0, 45]"))
+        self.start()
+        time.sleep(1)
+        self.screenshot("changed")
+        self.key("F7")
+        with self.ended("complete") as recording:
+            self.assertAlmostEqual(self.series(recording, "block_position")[0, 2], 0.045, delta=0.001)
+
+    def test_are_not_opened_while_a_session_runs(self):
+        self.open()
+        self.start()
+        for keys in (["ctrl+o"], ["alt+f", "o"]):
+            self.key(*keys)
+            time.sleep(0.5)
+            self.assertEqual(self.xdotool("search", "--onlyvisible", "--name", "^Open a scene"), "")
+            self.key("Escape")  # the menu
+        self.screenshot("menu-in-a-session")
+        self.key("F7")
+        with self.ended("complete"):
+            pass
+        self.key("ctrl+o")
+        self.wait("the dialog", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Open a scene"))
 
     def test_that_take_long_can_be_cancelled(self):
         self.open()

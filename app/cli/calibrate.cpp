@@ -1,15 +1,11 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "command.h"
 #include "recording/session.h"
 #include "terminal_guide.h"
 
 namespace dihaptic::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Options {
     std::string rig;
@@ -39,8 +35,7 @@ void calibrate(const Options& options) {
     fmt::print("{}\n{}picture: {}\ncalibration: {}\n", rig.title, rig::describe(result), picture,
                out);
     if (rig.calibration.empty()) {
-        fmt::print("\nfor the rig file:\n\ncalibration: {}\n",
-                   fs::path(out).lexically_proximate(fs::path(options.rig).parent_path()).string());
+        fmt::print("\nfor the rig file:\n\n{}\n", rig::calibration_line(options.rig, out));
     }
 }
 

@@ -22,7 +22,7 @@ void add_check(CLI::App& app) {
         size_t bad = 0;
         for (const std::string& file : *files) {
             Diagnostics diagnostics;
-            const std::string what = experiment::check_file(file, diagnostics, *rig);
+            const experiment::Checked checked = experiment::check_file(file, diagnostics, *rig);
             print(diagnostics.problems(), stdout);
             const auto warnings =
                 std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),
@@ -31,11 +31,12 @@ void add_check(CLI::App& app) {
                 ++bad;
                 fmt::print("{}: not usable\n", file);
             } else if (warnings > 0) {
-                fmt::print("{}: {} with {} warning{}\n", file, what, warnings,
+                fmt::print("{}: {} with {} warning{}\n", file, checked.what, warnings,
                            warnings == 1 ? "" : "s");
             } else {
-                fmt::print("{}: {}, in order\n", file, what);
+                fmt::print("{}: {}, in order\n", file, checked.what);
             }
+            for (const std::string& limit : checked.limits) fmt::print("  {}\n", limit);
         }
         if (bad > 0) exit_code = kBadInput;
     });

@@ -20,13 +20,14 @@ void add_export(CLI::App& app) {
         "\nExample:\n  dihaptic export sessions/2026-11-20_101500_lift-block_S07 --bids study");
     command->callback([options] {
         const auto session = recording::SessionFolder::open(options->session);
-        std::string folder;
+        analysis::Exported exported;
         {
             ProgressLine line("writing motion");
-            folder = analysis::export_bids(session, options->data_set,
-                                           [&](double share) { line.show(share); });
+            exported = analysis::export_bids(session, options->data_set,
+                                             [&](double share) { line.show(share); });
         }
-        fmt::print("written: {}\n", folder);
+        for (const std::string& what : exported.log) fmt::print("raw.log: {}\n", what);
+        fmt::print("written: {}\n", exported.folder);
     });
 }
 

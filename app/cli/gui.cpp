@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kProgram = "dihaptic-gui";
 
 /// Becomes the window's program, which lies beside this one.
-void run(const std::string& file, const std::string& out) {
+void run(const std::string& file, const std::string& out, double sync) {
     const auto is_set = [](const char* name) {
         const char* value = std::getenv(name);
         return value != nullptr && *value != '\0';
@@ -25,7 +25,7 @@ void run(const std::string& file, const std::string& out) {
     }
     const std::string program =
         (std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram).string();
-    std::vector<std::string> words{kProgram, "--out", out};
+    std::vector<std::string> words{kProgram, "--out", out, "--sync", fmt::format("{}", sync)};
     if (!file.empty()) words.push_back(file);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
@@ -41,14 +41,17 @@ void add_gui(CLI::App& app) {
     struct Options {
         std::string file;
         std::string out = "sessions";
+        double sync = 0;  // [s]
     };
     auto* command = app.add_subcommand(
         "gui", "The operator's window; without devices, the mouse moves a simulated hand");
     auto options = std::make_shared<Options>();
     command->add_option("FILE", options->file, "scene or experiment; scenes/block-on-table.yaml");
     command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
+    command->add_option("--sync", options->sync, "as of dihaptic run [s]")
+        ->check(CLI::Range(0.05, 3600.0));
     command->footer("\nExample:\n  dihaptic gui scenes/block-on-table.yaml");
-    command->callback([options] { run(options->file, options->out); });
+    command->callback([options] { run(options->file, options->out, options->sync); });
 }
 
 }  // namespace dihaptic::cli

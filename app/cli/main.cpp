@@ -1,41 +1,16 @@
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
+#include <filesystem>
 
 #include "command.h"
+#include "common/stop_signals.h"
+#include "keeper/at_death.h"
 #include "recording/session.h"
 #include "steady_output.h"
 
 namespace {
-
-void on_interrupt(int) {
-    dihaptic::cli::stop_requested.store(true);
-}
-
-int nowhere = -1;
-bool is_terminal[3] = {};
-
-/// The terminal is gone: the session ends in order, and what is said of it goes nowhere.
-void on_hangup(int) {
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-        if (is_terminal[stream]) dup2(nowhere, stream);
-    }
-    on_interrupt(SIGHUP);
-}
-
-void handle_signals() {
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
-    nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        is_terminal[stream] = isatty(stream) != 0;
-    if (std::signal(SIGHUP, on_hangup) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
-    std::signal(SIGXFSZ, SIG_IGN);  // a quota is a full disk: writing fails, and says so
-}
 
 /// Names the word that is no command, which the parser would leave to a guess.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
@@ -56,7 +31,8 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace dihaptic;
-    handle_signals();
+    app::stop_on_signals(cli::stop_requested);
+    keeper::take_force_away_at_death();
     cli::make_output_steady();
     cli::remember_command_line(argc, argv);
 
@@ -93,6 +69,10 @@ int main(int argc, char** argv) {
         return code == 0 ? cli::kOk : cli::kBadInput;
     } catch (const Error& e) {
         fmt::print(stderr, "{}\n", e.what());
+        return cli::kBadInput;
+    } catch (const std::filesystem::filesystem_error& e) {
+        fmt::print(stderr, "{}: error: {}. Check what is there, and its permissions.\n",
+                   e.path1().string(), e.code().message());
         return cli::kBadInput;
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n",

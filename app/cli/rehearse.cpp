@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/plural.h"
+#include "base/regular_file.h"
 #include "base/text_file.h"
 #include "command.h"
 #include "person/person.h"
@@ -225,13 +226,14 @@ void write_rows(const std::vector<std::vector<std::string>>& rows, const std::st
 void collect(const CollectOptions& options) {
     std::map<std::string, std::string> sessions;  // by person
     for (const std::string& folder : options.folders) {
-        if (!fs::is_directory(folder)) {
+        std::error_code unreadable;
+        if (!fs::is_directory(folder, unreadable)) {
             throw Error({folder, 0}, "", "is no folder",
                         "Name the folders that dihaptic rehearse made.");
         }
         for (const auto& entry : fs::directory_iterator(folder)) {
             const std::string id = entry.path().filename().string();
-            if (!fs::exists(entry.path() / "person.yaml")) continue;
+            if (!is_there((entry.path() / "person.yaml").string())) continue;
             if (!sessions.emplace(id, entry.path().string()).second) {
                 throw Error({entry.path().string(), 0}, "", "is there twice: " + sessions[id],
                             "Name folders of different shards.");

@@ -34,8 +34,9 @@ void add_replay(CLI::App& app) {
         if (result.interrupted) fmt::print("interrupted: the rest was not compared\n");
         if (result.damaged) {
             fmt::print(
-                "not all of the session could be compared: a replay needs every tick from the "
-                "first one, and the log lacks some\n");
+                "the log is not as it was written: what it lacks could not be compared, and a "
+                "replay "
+                "needs every tick from the first one\n");
         }
         if (!result.good()) exit_code = kFailed;
     });

@@ -28,6 +28,7 @@ void add_report(CLI::App& app) {
                                             [&](double share) { line.show(share); });
         }
         for (const std::string& why : result.left_out) fmt::print("left out: {}\n", why);
+        for (const std::string& what : result.log) fmt::print("raw.log: {}\n", what);
         std::string tables;
         for (const std::string& file : result.tables)
             tables += ", " + std::filesystem::path(file).filename().string();

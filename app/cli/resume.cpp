@@ -5,6 +5,7 @@
 #include "analysis/recovery.h"
 #include "base/field_reader.h"
 #include "base/plural.h"
+#include "base/regular_file.h"
 #include "command.h"
 #include "person/person.h"
 #include "recording/raw_log.h"
@@ -16,6 +17,7 @@ namespace {
 struct Options {
     std::string session;
     std::string out;
+    double sync = 0;  // [s]
 };
 
 void resume(const Options& options) {
@@ -28,7 +30,7 @@ void resume(const Options& options) {
     }
     recording::SessionInfo info;
     experiment::Plan plan = experiment::make_rest(options.session, info);
-    if (const std::string person = folder.file("person.yaml"); std::filesystem::exists(person)) {
+    if (const std::string person = folder.file("person.yaml"); is_there(person)) {
         Diagnostics diagnostics;
         person::Traits traits;
         read_fields(traits, read_yaml(person), diagnostics);
@@ -40,6 +42,7 @@ void resume(const Options& options) {
     experiment::RunOptions run;
     run.clock = info.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
     run.command = command_line();
+    run.sync = options.sync;
     run.participant = info.participant;
     const std::string parent = std::filesystem::path(folder.path()).parent_path().string();
     run.out = !options.out.empty() ? options.out : parent.empty() ? "." : parent;
@@ -54,6 +57,8 @@ void add_resume(CLI::App& app) {
     auto options = std::make_shared<Options>();
     command->add_option("SESSION", options->session, "folder of the session")->required();
     command->add_option("--out", options->out, "folder for the new session; default: beside it");
+    command->add_option("--sync", options->sync, "as of dihaptic run [s]")
+        ->check(CLI::Range(0.05, 3600.0));
     command->footer(
         "\nFinished trials stay; the one that was interrupted is done again. The new session's\n"
         "trials.csv has all of them.\n"

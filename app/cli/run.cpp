@@ -11,6 +11,7 @@
 #include "base/plural.h"
 #include "base/table.h"
 #include "command.h"
+#include "common/stop_signals.h"
 #include "escape_key.h"
 #include "person/person.h"
 #include "rig/calibration_guide.h"
@@ -47,6 +48,7 @@ class Console {
     explicit Console(experiment::RunOptions& run) {
         if (run.clock != experiment::Clock::real) return;
         escape_.emplace(stop_requested, key_);
+        no_suspension_.emplace();
         run.keys = &key_;
         run.stuck = [this](const std::string& message) {
             escape_->restore();
@@ -94,6 +96,7 @@ class Console {
 
     std::atomic<char> key_{0};
     std::optional<EscapeKey> escape_;
+    std::optional<app::NoSuspension> no_suspension_;
 };
 
 /// Whether a person does it: a file without a task moves the hand itself.
@@ -132,6 +135,7 @@ void run_one(const Options& options) {
 void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
+    if (rig::is_real(plan.rig)) run.keeper = keeper::program();
     Console console(run);
     console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
@@ -356,6 +360,11 @@ void add_run(CLI::App& app) {
         ->check(CLI::IsMember({"virtual", "real"}));
     command->add_option("--out", options->run.out, "folder for session folders")
         ->capture_default_str();
+    command
+        ->add_option("--sync", options->run.sync,
+                     "synchronise the recording to the disk so often [s]: that much a loss of "
+                     "power can take; default: at the session's end alone")
+        ->check(CLI::Range(0.05, 3600.0));
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())
         ->capture_default_str();

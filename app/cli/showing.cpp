@@ -9,7 +9,7 @@
 
 #include "experiment/phase_director.h"
 #include "experiment/plan.h"
-#include "recording/raw_log.h"
+#include "recording/log_scene.h"
 #include "recording/session.h"
 #include "servo/displayed.h"
 
@@ -42,6 +42,7 @@ Showing open_session(const std::string& file) {
     out.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
     const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
     diagnostics.throw_if_errors();
+    recording::check_fits(head, out.scene, folder.raw_log());
     for (const recording::DeviceRecord& device : head.devices)
         add_workspace(out, rig, device.finger, device.workspace);
     out.next = [log] { return log->next(); };
@@ -103,8 +104,10 @@ std::pair<int, int> pixels(const std::string& size) {
 }  // namespace
 
 Showing open_showing(const std::string& file) {
-    return fs::is_directory(file) || fs::path(file).filename() == "raw.log" ? open_session(file)
-                                                                            : open_plan(file);
+    std::error_code unreadable;  // then it says so when it is read
+    return fs::is_directory(file, unreadable) || fs::path(file).filename() == "raw.log"
+               ? open_session(file)
+               : open_plan(file);
 }
 
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {

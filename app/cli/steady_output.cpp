@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 
@@ -39,7 +38,6 @@ FILE* steady(int file, int buffering) {
 }  // namespace
 
 void make_output_steady() {
-    std::signal(SIGPIPE, SIG_IGN);
     FILE* const out = steady(STDOUT_FILENO, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
     FILE* const error = steady(STDERR_FILENO, _IONBF);
     if (out != nullptr) stdout = out;

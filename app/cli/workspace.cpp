@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "base/text_file.h"
 #include "command.h"
 
@@ -44,11 +42,7 @@ void show_workspace(const std::string& file, const std::string& out) {
     const rig::Rig rig = rig::read_rig(file, diagnostics);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, out, ignored)) {
-        throw Error({out, 0}, "--out", "is the rig file itself", "Name another file, *.svg.");
-    }
-    check_writable(out);
+    check_output(out, file, "the rig file");
     const std::vector<rig::Reach> reaches = rig::reaches(rig);
     rig::Workspace found;
     {

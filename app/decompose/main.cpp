@@ -1,6 +1,7 @@
-// dihaptic-decompose MESH.off PIECES: cuts a closed mesh into convex pieces, exactly (CGAL's Nef
-// polyhedra; Chazelle 1984). Writes "piece COUNT" and then the vertices, one a line, of each. The
-// program dihaptic calls it and keeps the result; nobody needs to call it by hand.
+// dihaptic-decompose < MESH.off > PIECES: cuts a closed mesh into convex pieces, exactly (CGAL's
+// Nef polyhedra; Chazelle 1984). Writes "piece COUNT" and then the vertices, one a line, of each.
+// The program dihaptic calls it, under limits, and keeps the result; nobody needs to call it by
+// hand.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/IO/Polyhedron_iostream.h>
 #include <CGAL/Nef_polyhedron_3.h>
@@ -8,8 +9,8 @@
 #include <CGAL/convex_decomposition_3.h>
 
 #include <exception>
-#include <fstream>
 #include <iostream>
+#include <new>
 
 namespace {
 
@@ -17,15 +18,13 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Polyhedron = CGAL::Polyhedron_3<Kernel>;
 using Nef = CGAL::Nef_polyhedron_3<Kernel>;
 
-void decompose(const char* mesh, const char* pieces) {
+void decompose(std::istream& in, std::ostream& out) {
     Polyhedron surface;
-    std::ifstream in(mesh);
     in >> surface;
     if (!in || !surface.is_closed()) throw std::runtime_error("the mesh is not a closed surface");
     Nef solid(surface);
     CGAL::convex_decomposition_3(solid);
 
-    std::ofstream out(pieces);
     out.precision(17);
     // the first volume is what lies outside
     for (auto volume = ++solid.volumes_begin(); volume != solid.volumes_end(); ++volume) {
@@ -39,21 +38,19 @@ void decompose(const char* mesh, const char* pieces) {
                 << CGAL::to_double(p.z()) << "\n";
         }
     }
-    out.close();
+    out.flush();
     if (!out) throw std::runtime_error("the pieces cannot be written");
 }
 
 }  // namespace
 
-int main(int count, char** arguments) {
-    if (count != 3) {
-        std::cerr << "usage: dihaptic-decompose MESH.off PIECES\n";
-        return 2;
-    }
+int main() {
     try {
         // without a word of its own: whoever called says what it means
         CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
-        decompose(arguments[1], arguments[2]);
+        decompose(std::cin, std::cout);
+    } catch (const std::bad_alloc&) {
+        return 3;
     } catch (const std::exception&) {
         return 1;
     }

@@ -7,7 +7,6 @@
 #include <QSvgWidget>
 #include <QVBoxLayout>
 
-#include "guide_dialog.h"
 #include "recording/session.h"
 
 namespace dihaptic::gui {
@@ -86,6 +85,7 @@ std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_
     const std::function<bool()>& ends) {
     auto* dialog = new GuideDialog("Does the calibration still hold?", "&Skip", window_);
     dialog->open();
+    check_ = dialog;
     return [this, dialog, rig, fingers, ends](devices::DeviceGroup& devices) {
         const auto tell = [this](const QString& text, bool problem) {
             QMetaObject::invokeMethod(
@@ -117,6 +117,10 @@ std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_
         }
         return warnings;
     };
+}
+
+void Calibrator::end_check() {
+    if (check_ != nullptr) check_->finish(GuideDialog::Outcome::given_up);
 }
 
 }  // namespace dihaptic::gui

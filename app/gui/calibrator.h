@@ -1,10 +1,12 @@
 // Calibrates the rig from the window, and checks before a session that its calibration still holds.
 #pragma once
 
+#include <QPointer>
 #include <QWidget>
 #include <functional>
 #include <vector>
 
+#include "guide_dialog.h"
 #include "rig/rig.h"
 
 namespace dihaptic::gui {
@@ -23,6 +25,8 @@ class Calibrator : public QObject {
     std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
         const rig::Rig& rig, const std::vector<std::string>& fingers,
         const std::function<bool()>& ends);
+    /// The session has ended, and its check with it, wherever that was.
+    void end_check();
 
   Q_SIGNALS:
     void logged(const QString& text, bool problem);
@@ -33,6 +37,7 @@ class Calibrator : public QObject {
                       const std::string& rig_file, const std::string& file);
 
     QWidget* window_;
+    QPointer<GuideDialog> check_;  // of the session that starts
 };
 
 }  // namespace dihaptic::gui

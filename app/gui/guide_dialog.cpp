@@ -97,6 +97,7 @@ void GuideDialog::reject() {
 }
 
 void GuideDialog::end(Outcome outcome, const QString& why) {
+    if (ended_) return;
     ended_ = true;
     if (outcome == Outcome::done) return accept();
     if (outcome == Outcome::given_up) return QDialog::reject();

@@ -30,7 +30,7 @@ class GuideDialog : public QDialog {
 
     /// For the thread that works.
     rig::Guide guide();
-    /// From any thread: what came of it; `why`: it failed.
+    /// From any thread: what came of it; `why`: it failed. The first counts.
     enum class Outcome { done, given_up, failed };
     void finish(Outcome outcome, const QString& why = "");
 

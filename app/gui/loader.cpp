@@ -1,26 +1,33 @@
 #include "loader.h"
 
+#include "scene/mesh.h"
 #include "scene/pieces.h"
 
 namespace dihaptic::gui {
 namespace {
 
-Opened open(const experiment::Request& request) {
-    Opened out;
-    out.plan = experiment::make_plan(request);
-    const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
+void ask_devices(Opened& out, const std::vector<Pose>& X_WD) {
     const auto servo = experiment::make_servo(out.plan);
-    const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
+    out.devices.emplace();
     for (int i = 0; i < servo->devices().size(); ++i) {
         const devices::DeviceInfo& info = servo->devices().info(i);
-        out.devices.push_back({QString::fromStdString(fingers[static_cast<size_t>(i)]),
-                               QString::fromStdString(info.model),
-                               out.plan.settings.safety.largest_force(info.peak_force)});
+        out.devices->push_back(
+            {QString::fromStdString(out.plan.scene.fingers[static_cast<size_t>(i)].name),
+             QString::fromStdString(info.model),
+             out.plan.settings.safety.largest_force(info.peak_force)});
         if (info.workspace && !out.plan.rig.wall)
             out.workspaces.push_back({X_WD[static_cast<size_t>(i)], *info.workspace});
     }
     if (const auto& wall = out.plan.rig.wall)
         out.workspaces.push_back({{Quat::Identity(), wall->centre}, wall->size});
+}
+
+Opened open(const experiment::Request& request, bool to_run) {
+    Opened out;
+    out.plan = experiment::make_plan(request);
+    const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
+    const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
+    if (!to_run || !rig::is_real(out.plan.rig)) ask_devices(out, X_WD);
     out.turn = servo::WorkspaceTurn(X_WD);
     // on simulated devices: real ones are left alone
     experiment::Plan still = out.plan;
@@ -40,22 +47,24 @@ Loader::~Loader() {
 
 void Loader::cancel() {
     next_.reset();
+    scene::cancel_reading();
     scene::cancel_cut();
 }
 
-void Loader::load(const experiment::Request& request) {
+void Loader::load(const experiment::Request& request, bool to_run) {
+    const Job job{request, to_run};
     if (loading()) {
-        next_ = request;
+        next_ = job;
         return;
     }
-    thread_ = std::thread([this, request] { run(request); });
+    thread_ = std::thread([this, job] { run(job); });
 }
 
-void Loader::run(const experiment::Request& request) {
+void Loader::run(const Job& job) {
     std::optional<Opened> result;
     QStringList problems;
     try {
-        result = open(request);
+        result = open(job.request, job.to_run);
     } catch (const Error& e) {
         for (const Problem& problem : e.problems())
             problems += QString::fromStdString(problem.text());
@@ -69,9 +78,9 @@ void Loader::run(const experiment::Request& request) {
 void Loader::done(const std::optional<Opened>& result, const QStringList& problems) {
     thread_.join();
     if (next_) {
-        const experiment::Request request = *next_;
+        const Job job = *next_;
         next_.reset();
-        load(request);
+        load(job.request, job.to_run);
     } else if (result) {
         Q_EMIT opened(*result);
     } else {

@@ -15,7 +15,8 @@ namespace dihaptic::gui {
 struct Opened {
     experiment::Plan plan;
     servo::Frame frame;  ///< the first
-    std::vector<DevicePanel::Device> devices;
+    /// What the devices say of themselves; none when they were not asked.
+    std::optional<std::vector<DevicePanel::Device>> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
 };
@@ -27,8 +28,9 @@ class Loader : public QObject {
     using QObject::QObject;
     ~Loader() override;
 
-    /// What was asked for before and is not done yet is dropped.
-    void load(const experiment::Request& request);
+    /// What was asked for before and is not done yet is dropped. `to_run`: by a session, which
+    /// opens real devices itself, so that they are not opened here.
+    void load(const experiment::Request& request, bool to_run = false);
     bool loading() const { return thread_.joinable(); }
     /// Ends what takes long; refused() says so.
     void cancel();
@@ -38,11 +40,15 @@ class Loader : public QObject {
     void refused(const QStringList& problems);
 
   private:
-    void run(const experiment::Request& request);
+    struct Job {
+        experiment::Request request;
+        bool to_run = false;
+    };
+    void run(const Job& job);
     void done(const std::optional<Opened>& result, const QStringList& problems);
 
     std::thread thread_;
-    std::optional<experiment::Request> next_;
+    std::optional<Job> next_;
 };
 
 }  // namespace dihaptic::gui

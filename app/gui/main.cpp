@@ -1,14 +1,32 @@
-#include <QApplication>
 #include <QCommandLineParser>
 #include <QFileInfo>
 #include <QSettings>
 
+#include "application.h"
+#include "keeper/at_death.h"
 #include "operator_window.h"
 #include "recording/session.h"
+#include "stop_request.h"
 #include "theme.h"
 
+namespace {
+
+QtMessageHandler usual_messages = nullptr;
+
+/// After some messages Qt ends the program as if it were alone in it; on Wayland not even by
+/// exit().
+void on_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
+    usual_messages(type, context, text);
+    if (type == QtFatalMsg || text.startsWith("The Wayland connection "))
+        dihaptic::gui::SessionRunner::end_program();
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    QApplication app(argc, argv);
+    dihaptic::keeper::take_force_away_at_death();
+    dihaptic::gui::Application app(argc, argv);
+    usual_messages = qInstallMessageHandler(on_message);
     QApplication::setOrganizationName("dihaptic");
     QApplication::setApplicationName("dihaptic");
     QApplication::setApplicationVersion(
@@ -22,11 +40,20 @@ int main(int argc, char** argv) {
     parser.addVersionOption();
     const QCommandLineOption out("out", "Folder for session folders.", "folder", "sessions");
     parser.addOption(out);
+    const QCommandLineOption sync("sync", "Synchronise recordings to the disk so often [s].",
+                                  "seconds", "0");
+    parser.addOption(sync);
     parser.addPositionalArgument("FILE", "scene or experiment", "[FILE]");
     parser.process(app);
 
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
-    dihaptic::gui::OperatorWindow window(parser.value(out));
+    dihaptic::gui::StopRequest stop;
+    dihaptic::gui::OperatorWindow window(parser.value(out), parser.value(sync).toDouble(),
+                                         stop.flag());
+    QObject::connect(&app, &dihaptic::gui::Application::escape_pressed, &window,
+                     &dihaptic::gui::OperatorWindow::force_off);
+    QObject::connect(&stop, &dihaptic::gui::StopRequest::came, &window,
+                     &dihaptic::gui::OperatorWindow::end);
     window.show();
     const QString usual = "scenes/block-on-table.yaml";
     if (!parser.positionalArguments().isEmpty()) {

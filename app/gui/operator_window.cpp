@@ -1,9 +1,12 @@
 #include "operator_window.h"
 
+#include <QApplication>
 #include <QCloseEvent>
+#include <QCoreApplication>
 #include <QDesktopServices>
 #include <QDir>
 #include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
@@ -11,6 +14,9 @@
 #include <QSettings>
 #include <QShortcut>
 #include <QUrl>
+#include <cstdio>
+#include <cstring>
+#include <utility>
 
 #include "rig/calibration_guide.h"
 #include "session_progress.h"
@@ -34,8 +40,10 @@ const QString kFingerHelp =
 
 }  // namespace
 
-OperatorWindow::OperatorWindow(QString out)
+OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop)
     : out_(std::move(out)),
+      sync_(sync),
+      runner_(stop),
       calibrator_(new Calibrator(this)),
       scene_(new SceneWidget),
       session_(new SessionPanel),
@@ -53,17 +61,13 @@ OperatorWindow::OperatorWindow(QString out)
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
-    connect(session_, &SessionPanel::choice_changed, this, &OperatorWindow::reload);
+    connect(session_, &SessionPanel::choice_changed, this, [this] {
+        starts_.reset();  // it was another choice that was to run
+        reload();
+    });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
     connect(session_, &SessionPanel::stop_requested, this, &OperatorWindow::stop);
-    connect(session_, &SessionPanel::pause_requested, this, [this](bool paused) {
-        if (!runner_.running()) return;
-        runner_.set_paused(paused);
-        complaint_.clear();
-        log(paused ? "paused: force is off" : "goes on");
-        if (paused) devices_->rest("paused");
-        update_state();
-    });
+    connect(session_, &SessionPanel::pause_requested, this, &OperatorWindow::pause);
     connect(tuning_, &TuningPanel::proxy_chosen, this, [this](scene::ProxyKind kind) {
         if (!runner_.running()) return;
         runner_.set_proxy(kind);
@@ -90,6 +94,7 @@ OperatorWindow::OperatorWindow(QString out)
                 .arg(tuning.smoothing));
     });
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
+        runner_.watch();
         if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
     });
     connect(&reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
@@ -139,7 +144,8 @@ void OperatorWindow::make_docks() {
 
 void OperatorWindow::make_menus() {
     QMenu* file = menuBar()->addMenu("&File");
-    file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
+    open_action_ =
+        file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
     file->addAction("&Folder of sessions", this, [this] {
         QDir().mkpath(out_);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
@@ -153,16 +159,17 @@ void OperatorWindow::make_menus() {
     const auto add = [&](const QString& name, int key, auto what) {
         QAction* action = session->addAction(name, QKeySequence(key), this, what);
         action->setShortcutContext(Qt::ApplicationShortcut);  // in the subject's window too
+        return action;
     };
-    add("&Start", Qt::Key_F5, &OperatorWindow::start);
-    add("&Pause, or go on", Qt::Key_F6, [this] {
-        if (runner_.running()) Q_EMIT session_->pause_requested(!runner_.paused());
-    });
-    add("S&top", Qt::Key_F7, &OperatorWindow::stop);
-    add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
-    add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
+    start_action_ = add("&Start", Qt::Key_F5, &OperatorWindow::start);
+    pause_action_ = add("&Pause, or go on", Qt::Key_F6, [this] { pause(!runner_.paused()); });
+    stop_action_ = add("S&top", Qt::Key_F7, &OperatorWindow::stop);
+    skip_action_ = add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
+    // the key is the application's: it is seen there whoever has the keyboard
+    force_off_action_ = add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
     session->addSeparator();
-    session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
+    calibrate_action_ =
+        session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
 
     view_menu_ = menuBar()->addMenu("&View");
     camera_menu_ = view_menu_->addMenu("C&amera");
@@ -217,6 +224,9 @@ void OperatorWindow::restore() {
 }
 
 void OperatorWindow::choose_file() {
+    // what comes to an end under the dialog must not start a session there
+    start_when_opened_ = false;
+    starts_.reset();
     const QString start = file_.isEmpty() ? QString("experiments") : QFileInfo(file_).path();
     const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
                                                       "Scenes and experiments (*.yaml)");
@@ -237,6 +247,7 @@ experiment::Request OperatorWindow::request() const {
 
 void OperatorWindow::open(const QString& file) {
     file_ = file;
+    starts_.reset();
     recorded_.clear();
     if (const QStringList watched = watcher_.files(); !watched.isEmpty())
         watcher_.removePaths(watched);
@@ -250,9 +261,11 @@ void OperatorWindow::open(const QString& file) {
 }
 
 void OperatorWindow::reload() {
-    if (file_.isEmpty() || runner_.running()) return;
+    if (file_.isEmpty()) return;
     // an editor that replaces the file ends its being watched
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
+    changed_ = runner_.running() || starts_;
+    if (changed_) return;
     loader_.load(request());
     update_state();
 }
@@ -262,28 +275,33 @@ void OperatorWindow::opened(const Opened& opened) {
     plan_ = opened.plan;
     frame_ = opened.frame;
     complaint_.clear();
-    for (const Problem& warning : plan_->warnings)
-        log(QString::fromStdString(warning.text()), true);
-    scene_->set_scene(plan_->scene, frame_, opened.workspaces, opened.turn);
+    if (!starts_) {
+        for (const Problem& warning : plan_->warnings)
+            log(QString::fromStdString(warning.text()), true);
+    }
+    if (opened.devices) workspaces_ = opened.workspaces;
+    scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
     if (subject_) subject_->scene().set_scene(plan_->scene, frame_);
     plots_->set_scene(plan_->scene);
     tuning_->set_settings(plan_->settings);
-    devices_->set_devices(opened.devices);
+    if (opened.devices) devices_->set_devices(*opened.devices);
     camera_menu_->clear();
     for (const view::Camera& camera : scene_->cameras()) {
         camera_menu_->addAction(QString::fromStdString(camera.name), this,
                                 [this, name = camera.name] { scene_->set_camera(name); });
     }
     const QString title = QString::fromStdString(plan_->title);
-    log(QString("opened %1: %2").arg(file_, title));
     session_->set_file(file_);
     setWindowTitle(title + " - Dihaptic");
+    if (starts_) return run(*plan_, *std::exchange(starts_, std::nullopt));
+    log(QString("opened %1: %2").arg(file_, title));
     update_state();
     if (start_when_opened_) start();
 }
 
 void OperatorWindow::refused(const QStringList& problems) {
     start_when_opened_ = false;
+    starts_.reset();
     complaint_ = problems.front();
     for (const QString& problem : problems) log(problem, true);
     if (plan_) log("What was open stays as it is.");
@@ -291,7 +309,7 @@ void OperatorWindow::refused(const QStringList& problems) {
 }
 
 void OperatorWindow::start() {
-    start_when_opened_ = loader_.loading();
+    start_when_opened_ = loader_.loading() && !starts_;
     if (!plan_ || runner_.running() || loader_.loading()) return;
     if (plan_->task) {
         start_trials();
@@ -318,17 +336,15 @@ void OperatorWindow::begin(const recording::Participant& participant) {
     if (!plan_ || runner_.running() || loader_.loading()) return;
     experiment::Request asked = request();
     asked.participant = participant.id;
-    try {
-        run(experiment::make_plan(asked), participant);
-    } catch (const Error& e) {
-        log(QString::fromStdString(e.what()), true);
-    }
+    starts_ = participant;
+    loader_.load(asked, true);
+    update_state();
 }
 
-void OperatorWindow::run(experiment::Plan made, const recording::Participant& participant) {
-    if (runner_.running()) return;
+void OperatorWindow::run(const experiment::Plan& made, const recording::Participant& participant) {
     experiment::RunOptions options;
     options.out = out_.toStdString();
+    options.sync = sync_;
     options.command = "dihaptic gui " + file_.toStdString();
     options.participant = participant;
     const std::vector<std::string> fingers = scene::finger_names(made.scene);
@@ -336,9 +352,8 @@ void OperatorWindow::run(experiment::Plan made, const recording::Participant& pa
         options.check =
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
-    runner_.start(std::move(made), options);
+    runner_.start(made, options);
     const experiment::Plan& plan = runner_.plan();
-    tuning_->set_settings(plan.settings);
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal());
         const bool squeezes = plan.scene.fingers.size() > 1;
@@ -365,6 +380,8 @@ void OperatorWindow::report() {
 }
 
 void OperatorWindow::stop() {
+    start_when_opened_ = false;
+    starts_.reset();
     if (runner_.running()) runner_.end();
     if (loader_.loading()) loader_.cancel();
 }
@@ -390,13 +407,31 @@ void OperatorWindow::turn_workspaces() {
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
 
+void OperatorWindow::pause(bool paused) {
+    if (!runner_.running() || runner_.finishing()) return;
+    runner_.set_paused(paused);
+    complaint_.clear();
+    log(paused ? "paused: force is off. F6 goes on, F7 ends the session." : "goes on");
+    if (paused) devices_->rest("paused");
+    update_state();
+}
+
 void OperatorWindow::force_off() {
-    if (!runner_.running()) return;
-    runner_.force_off();
-    log("force off", true);
+    if (runner_.running() && !runner_.paused()) pause(true);
+    // a number that is being typed does not count yet, and is taken back
+    if (auto* const number = qobject_cast<QDoubleSpinBox*>(QApplication::focusWidget()))
+        number->setValue(number->value());
+}
+
+void OperatorWindow::end(int signal) {
+    std::fprintf(stderr, "%s: %s\n", strsignal(signal),
+                 runner_.running() ? "force is off, and the session ends" : "the window closes");
+    ended_ = true;
+    close();
 }
 
 void OperatorWindow::session_ended(const SessionEnd& end) {
+    calibrator_->end_check();
     mouse_.reset();
     scene_->set_hand(nullptr, false);
     scene_->set_help("");
@@ -408,7 +443,11 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     if (!end.folder.isEmpty()) log("recorded in " + end.folder);
     devices_->rest("at rest");
     update_state();
-    if (closing_) close();
+    if (closing_) {
+        close();
+    } else if (changed_) {
+        reload();
+    }
 }
 
 void OperatorWindow::refresh() {
@@ -490,7 +529,8 @@ SessionPanel::State OperatorWindow::state() const {
 QString OperatorWindow::banner() const {
     if (runner_.running() && !runner_.paused()) return message();
     if (runner_.running())
-        return complaint_ + (complaint_.isEmpty() ? "" : "\n") + "Paused: press F6 to go on";
+        return complaint_ + (complaint_.isEmpty() ? "Force is off.\n" : "\n") +
+               "F6: go on.   F7: end the session.";
     if (loader_.loading()) return "Opening " + file_ + " ...";
     if (!complaint_.isEmpty()) return complaint_;
     if (!recorded_.isEmpty())
@@ -504,7 +544,18 @@ QString OperatorWindow::message() const {
 }
 
 void OperatorWindow::update_state() {
-    session_->set_state(state(), has_trials());
+    using State = SessionPanel::State;
+    const State now = state();
+    const bool idle = now == State::nothing || now == State::ready || now == State::opening;
+    const bool runs = now == State::running || now == State::paused;
+    open_action_->setEnabled(idle);
+    start_action_->setEnabled(now == State::ready || now == State::opening);
+    pause_action_->setEnabled(runs);
+    stop_action_->setEnabled(runs || now == State::opening);
+    skip_action_->setEnabled(now == State::running && has_trials());
+    force_off_action_->setEnabled(now == State::running);
+    calibrate_action_->setEnabled(now == State::nothing || now == State::ready);
+    session_->set_state(now, has_trials());
     scene_->set_banner(banner());
     if (subject_) subject_->scene().set_banner(message());
 }
@@ -527,6 +578,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("docks", saveState());
     subject_.reset();
     event->accept();
+    if (ended_) QCoreApplication::exit(1);  // whatever dialog is open
 }
 
 }  // namespace dihaptic::gui

@@ -27,13 +27,19 @@ class OperatorWindow : public QMainWindow {
     Q_OBJECT
 
   public:
-    /// `out`: folder for session folders.
-    explicit OperatorWindow(QString out);
+    /// `out`: folder for session folders. `sync`: how often a recording is synchronised to the disk
+    /// [s]; 0: at its end alone. `stop`: as SessionRunner has it.
+    OperatorWindow(QString out, double sync, std::atomic<bool>& stop);
     ~OperatorWindow() override;
 
     /// A scene or an experiment. What is wrong with it goes to the log, and the last good one
     /// stays.
     void open(const QString& file);
+    /// Of the session that runs: in the servo's next tick, and until it is told to go on.
+    void force_off();
+    /// `signal` asks the program to end, and has ended force already: the window goes, once the
+    /// session's files are written.
+    void end(int signal);
 
   protected:
     void closeEvent(QCloseEvent* event) override;
@@ -50,8 +56,9 @@ class OperatorWindow : public QMainWindow {
     void start();
     /// Asks for the person first.
     void start_trials();
+    /// Reads the file again: the session is of what is shown, and no other.
     void begin(const recording::Participant& participant);
-    void run(experiment::Plan plan, const recording::Participant& participant);
+    void run(const experiment::Plan& plan, const recording::Participant& participant);
     /// The rig that is chosen, or the file's.
     void calibrate();
     /// Of the last session.
@@ -62,7 +69,7 @@ class OperatorWindow : public QMainWindow {
     void press(char key);
     /// The workspaces go where the camera is, if they are to follow it.
     void turn_workspaces();
-    void force_off();
+    void pause(bool paused);
     void session_ended(const SessionEnd& end);
     void refresh();
     void show_frame(const servo::Frame& frame);
@@ -80,14 +87,19 @@ class OperatorWindow : public QMainWindow {
     experiment::Request request() const;
 
     QString out_;
+    double sync_;
     QString file_;
     std::optional<experiment::Plan> plan_;  ///< of the file as it was last good
     servo::Frame frame_;                    ///< its first
-    int message_ = -1;                      ///< of the task, that is shown
-    recording::Participant participant_;    ///< who did the last trials
-    std::optional<MouseHand> mouse_;        ///< of the session that runs
+    std::vector<view::Workspace> workspaces_;
+    int message_ = -1;                    ///< of the task, that is shown
+    recording::Participant participant_;  ///< who did the last trials
+    std::optional<MouseHand> mouse_;      ///< of the session that runs
     bool start_when_opened_ = false;
+    std::optional<recording::Participant> starts_;  ///< whose session starts when the file is read
+    bool changed_ = false;  ///< the file has, while it could not be read again
     bool closing_ = false;
+    bool ended_ = false;  ///< by a signal
 
     Loader loader_;
     SessionRunner runner_;
@@ -100,6 +112,13 @@ class OperatorWindow : public QMainWindow {
     TuningPanel* tuning_;
     LogView* log_;
     std::unique_ptr<SubjectWindow> subject_;
+    QAction* open_action_ = nullptr;
+    QAction* start_action_ = nullptr;
+    QAction* pause_action_ = nullptr;
+    QAction* stop_action_ = nullptr;
+    QAction* skip_action_ = nullptr;
+    QAction* force_off_action_ = nullptr;
+    QAction* calibrate_action_ = nullptr;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* view_menu_ = nullptr;

@@ -2,6 +2,8 @@
 
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <algorithm>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "servo/displayed.h"
@@ -54,8 +56,14 @@ void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame
     path_.clear();
     scene_ = scene;
     frame_ = frame;
-    cameras_ = view::cameras(scene_);
-    set_camera(cameras_.front());
+    const std::vector<view::Camera> before = std::exchange(cameras_, view::cameras(scene_));
+    const bool same = std::equal(cameras_.begin(), cameras_.end(), before.begin(), before.end(),
+                                 [](const view::Camera& a, const view::Camera& b) {
+                                     return a.name == b.name && a.position == b.position &&
+                                            a.look_at == b.look_at &&
+                                            a.field_of_view == b.field_of_view;
+                                 });
+    set_camera(same ? view::Camera(camera_) : cameras_.front());
 }
 
 void SceneWidget::show_frame(const servo::Frame& frame) {

@@ -20,7 +20,7 @@ class SceneWidget : public QOpenGLWidget {
     ~SceneWidget() override;
 
     /// What frames are of from now on, the first of them, where the devices can go, and how all of
-    /// it turns.
+    /// it turns. The camera stays where it is when the scene has the same ones as that before.
     void set_scene(const scene::Scene& scene, const servo::Frame& frame,
                    std::vector<view::Workspace> workspaces = {},
                    const servo::WorkspaceTurn& turn = {});

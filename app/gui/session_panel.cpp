@@ -33,12 +33,12 @@ SessionPanel::SessionPanel(QWidget* parent)
     hand_->addItems({"the mouse", "the file's script"});
     pause_->setCheckable(true);
     start_->setToolTip("F5");
-    pause_->setToolTip("F6: time stands still, and no force acts");
+    pause_->setToolTip("F6, or Escape: time stands still, and no force acts");
     skip_->setToolTip("F8: this trial is over and counts as skipped; the next one begins");
     // of fixed height, and as long as there is room: nothing jumps under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
-    stop_->setToolTip("F7: ends the session in order. Escape switches force off at once.");
+    stop_->setToolTip("F7: ends the session in order");
     progress_->setTextVisible(true);
 
     auto* form = new QFormLayout;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
@@ -22,7 +23,9 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
     const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // the fault says so
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const auto status = static_cast<servo::Status>(1u << bit);
-        if (status == servo::kResumed || status == servo::kSoftStarted) continue;  // as is usual
+        const bool usual =
+            status == servo::kPaused || status == servo::kResumed || status == servo::kSoftStarted;
+        if (usual) continue;
         if (stopped && (status == servo::kStopped || status == servo::kForceOff)) continue;
         const int64_t ticks = figures.ticks_with(status);
         if (ticks == 0) continue;
@@ -36,30 +39,74 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
     return out;
 }
 
+constexpr int kBeat = 100;        // a tenth of what the servo waits [ms]
+constexpr int kFirstBeat = 5000;  // at the latest, without any picture [ms]
+
+std::atomic<SessionRunner*> the_runner{nullptr};
+
 }  // namespace
 
+SessionRunner::SessionRunner(std::atomic<bool>& stop) : stop_(stop) {
+    the_runner = this;
+    alive_.setInterval(kBeat);
+    first_beat_.setInterval(kFirstBeat);
+    first_beat_.setSingleShot(true);
+    connect(&first_beat_, &QTimer::timeout, this, &SessionRunner::watch);
+    connect(&alive_, &QTimer::timeout, this, [this] {
+        if (running()) session_->live.note_alive();
+    });
+}
+
 SessionRunner::~SessionRunner() {
+    the_runner = nullptr;
     if (running()) end();
     if (thread_.joinable()) thread_.join();
 }
 
+void SessionRunner::end_program() {
+    SessionRunner* const runner = the_runner;
+    if (runner == nullptr || !runner->busy_) return;
+    runner->stop_ = true;  // the servo's next tick sees it
+    std::fprintf(stderr, "The window is lost: force is off, and the session ends.\n");
+    while (runner->busy_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::fflush(nullptr);
+    std::_Exit(1);  // what exit() would still call belongs to a window that is gone
+}
+
+void SessionRunner::watch() {
+    if (!running() || alive_.isActive()) return;
+    first_beat_.stop();
+    session_->live.note_alive();
+    alive_.start();
+}
+
 void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options) {
     session_ = std::make_unique<Session>();
+    no_suspension_.emplace();
     session_->plan = std::move(plan);
+    first_beat_.start();
+    // for each session anew: what was made before it is still there when this is called
+    std::atexit(end_program);
     options.live = &session_->live;
     options.keys = &session_->key;
     options.clock = experiment::Clock::real;
+    if (rig::is_real(session_->plan.rig)) options.keeper = keeper::program();
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
         std::_Exit(1);  // its threads never end
     };
+    busy_ = true;
     thread_ = std::thread([this, options] {
         const SessionEnd end = run(*session_, options);
+        busy_ = false;
         QMetaObject::invokeMethod(
             this,
             [this, end] {
                 thread_.join();
                 session_.reset();
+                alive_.stop();
+                first_beat_.stop();
+                no_suspension_.reset();
                 Q_EMIT ended(end);
             },
             Qt::QueuedConnection);
@@ -70,7 +117,7 @@ SessionEnd SessionRunner::run(Session& session, const experiment::RunOptions& op
     SessionEnd end;
     try {
         const experiment::RunResult result =
-            experiment::run_session(session.plan, options, session.stop, {});
+            experiment::run_session(session.plan, options, stop_, {});
         end.folder = QString::fromStdString(result.folder);
         session.finishing = true;
         const analysis::SessionFigures figures = analysis::finish_session(

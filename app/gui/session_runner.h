@@ -1,12 +1,15 @@
-// Runs sessions in a thread of their own, so that the window never waits for one.
+// Runs sessions in a thread of their own, so that the window never waits for one, and ends their
+// force when the window hangs or goes.
 #pragma once
 
 #include <QObject>
+#include <QTimer>
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <thread>
 
+#include "common/stop_signals.h"
 #include "experiment/session_run.h"
 
 namespace dihaptic::gui {
@@ -22,7 +25,8 @@ class SessionRunner : public QObject {
     Q_OBJECT
 
   public:
-    using QObject::QObject;
+    /// `stop`: force is off at once, and what runs ends; outlives it. One a program.
+    explicit SessionRunner(std::atomic<bool>& stop);
     /// Ends the session in order and waits for its files.
     ~SessionRunner() override;
 
@@ -31,6 +35,10 @@ class SessionRunner : public QObject {
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
+
+    /// The window shows the session: from now on its silence takes force away. To draw a scene for
+    /// the first time may take longer than that.
+    void watch();
 
     /// Only while running.
     const experiment::Plan& plan() const { return session_->plan; }
@@ -59,9 +67,11 @@ class SessionRunner : public QObject {
     /// In order; the hand may hold what it holds.
     void end() { session_->live.ended = true; }
     /// Whether it is to end; from the session's thread too.
-    bool ending() const { return session_->live.ended || session_->stop; }
-    /// At once, and the session ends.
-    void force_off() { session_->stop = true; }
+    bool ending() const { return session_->live.ended || stop_; }
+    /// For a program that must end and unwinds nothing, when its display is gone: does nothing when
+    /// nothing runs; otherwise switches force off at once, waits for the session's files, and ends
+    /// the program. From any thread but the session's.
+    static void end_program();
 
   Q_SIGNALS:
     /// Share of the session's files that is written; in the window's thread, as ended() is.
@@ -72,13 +82,17 @@ class SessionRunner : public QObject {
     struct Session {
         experiment::Plan plan;
         experiment::Live live;
-        std::atomic<bool> stop{false};
         std::atomic<char> key{0};
         std::atomic<bool> finishing{false};
     };
     SessionEnd run(Session& session, const experiment::RunOptions& options);
 
+    std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;
+    std::optional<app::NoSuspension> no_suspension_;
+    std::atomic<bool> busy_{false};  ///< its thread runs a session, or makes its files
+    QTimer alive_;                   ///< beats as long as the window answers
+    QTimer first_beat_;
     std::thread thread_;
 };
 

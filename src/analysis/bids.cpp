@@ -1,6 +1,9 @@
 #include "analysis/bids.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +11,10 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
+#include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
@@ -83,7 +88,7 @@ std::string lines(const std::vector<std::vector<std::string>>& rows) {
 
 std::vector<std::vector<std::string>> read_tsv(const std::string& file) {
     std::vector<std::vector<std::string>> rows;
-    std::ifstream in(file);
+    std::istringstream in(read_text_file(file, kMostTable));
     for (std::string line; std::getline(in, line);) {
         std::vector<std::string>& row = rows.emplace_back();
         for (size_t at = 0; at <= line.size();) {
@@ -95,16 +100,66 @@ std::vector<std::vector<std::string>> read_tsv(const std::string& file) {
     return rows;
 }
 
+enum class Known { stays, replaced };
+
 /// Adds a row to a table, made with its header when it is not there.
 void add_row(const std::string& file, const std::vector<std::string>& header,
-             const std::vector<std::string>& row) {
-    auto rows = fs::exists(file) ? read_tsv(file) : std::vector<std::vector<std::string>>{header};
-    const bool known = std::any_of(rows.begin(), rows.end(),
-                                   [&](const auto& r) { return !r.empty() && r[0] == row[0]; });
-    if (known) return;
-    rows.push_back(row);
+             const std::vector<std::string>& row, Known known) {
+    auto rows = is_there(file) ? read_tsv(file) : std::vector<std::vector<std::string>>{header};
+    const auto same = [&](const auto& r) { return !r.empty() && r[0] == row[0]; };
+    const auto found = std::find_if(rows.begin(), rows.end(), same);
+    if (found == rows.end()) {
+        rows.push_back(row);
+    } else if (known == Known::stays) {
+        return;
+    } else {
+        *found = row;
+    }
     write_file(lines(rows), file);
 }
+
+/// One export at a time gives a data set's runs their numbers, and adds rows to its tables.
+class DataSetLock {
+  public:
+    explicit DataSetLock(const std::string& folder)
+        : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        // a file system without locks has none to wait for
+        if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+    }
+    ~DataSetLock() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    DataSetLock(const DataSetLock&) = delete;
+    DataSetLock& operator=(const DataSetLock&) = delete;
+
+  private:
+    int descriptor_;
+};
+
+/// A folder for files in the making: what a killed export left there goes with the next one.
+class Staging {
+  public:
+    explicit Staging(const std::string& folder) : path_(part_name(folder + "/.export")) {
+        remove_dead_parts(folder + "/.export");
+        std::error_code failed;
+        fs::create_directories(path_, failed);
+        if (failed) {
+            throw Error({folder, 0}, "", "cannot be made: " + failed.message(),
+                        "Name another folder.");
+        }
+    }
+    ~Staging() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Staging(const Staging&) = delete;
+    Staging& operator=(const Staging&) = delete;
+
+    const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
 
 class Exporter {
   public:
@@ -121,24 +176,31 @@ class Exporter {
         }
     }
 
-    std::string run(const std::function<void(double)>& progress) {
+    Exported run(const std::function<void(double)>& progress) {
         recording::RawLogReader log(session_.raw_log());
-        std::error_code failed;
-        fs::create_directories(folder_, failed);
-        if (failed)
-            throw Error({folder_, 0}, "", "cannot be made: " + failed.message(),
-                        "Name another folder.");
+        session_.check_log(info_, log.head());
         fingers_ = log.head().fingers;
         tick_ = log.head().tick;
-        while (fs::exists(file(fingers_.front(), "motion.tsv"))) ++run_;
+        if (fingers_.empty()) {
+            throw Error({session_.raw_log(), 0}, "", "has no finger, whose motion it would be",
+                        "Give another session.");
+        }
+        const Staging staging(folder_);
+        making_ = staging.path();
         write_motion(log, progress);
         for (size_t f = 0; f < fingers_.size(); ++f) {
             write_channels(fingers_[f], channels_[f]);
             write_description(fingers_[f], channels_[f]);
         }
-        write_events();
+        const bool events = write_events();
+        const DataSetLock lock(data_set_);
+        while (is_there(file(fingers_.front(), "motion.tsv"))) ++run_;
         write_data_set();
-        return folder_;
+        give_names(events);
+        Exported out{folder_, {}};
+        if (log.health().damaged(info_.ticks))
+            out.log = recording::describe(log.health(), info_.ticks, info_.planned());
+        return out;
     }
 
   private:
@@ -147,13 +209,18 @@ class Exporter {
         return fmt::format("{}/{}_tracksys-{}_run-{:02}_{}", folder_, stem(), label(finger), run_,
                            what);
     }
+    std::string events_file() const {
+        return fmt::format("{}/{}_run-{:02}_events.tsv", folder_, stem(), run_);
+    }
+    /// The same while it is made.
+    std::string making(const std::string& finger, const std::string& what) const {
+        return fmt::format("{}/{}_{}", making_, label(finger), what);
+    }
 
     void write_motion(recording::RawLogReader& log, const std::function<void(double)>& progress) {
-        std::vector<std::string> parts;
         std::vector<std::ofstream> out;
         for (const std::string& finger : fingers_) {
-            parts.push_back(file(finger, "motion.tsv") + ".part");
-            out.emplace_back(parts.back());
+            out.emplace_back(making(finger, "motion.tsv"));
             channels_.push_back(channels_of(finger));
         }
         std::string line;
@@ -169,12 +236,25 @@ class Exporter {
         }
         for (size_t f = 0; f < fingers_.size(); ++f) {
             out[f].close();
-            std::error_code failed;
-            if (out[f]) fs::rename(parts[f], file(fingers_[f], "motion.tsv"), failed);
-            if (out[f] && !failed) continue;
-            for (const std::string& part : parts) fs::remove(part, failed);
+            if (out[f]) continue;
             throw Error({file(fingers_[f], "motion.tsv"), 0}, "", "cannot be written",
                         "Check the folder's permissions and the disk's space.");
+        }
+    }
+
+    /// The first finger's motion is last: where it is, all of the run is.
+    void give_names(bool events) const {
+        const auto name = [](const std::string& from, const std::string& to) {
+            std::error_code failed;
+            fs::rename(from, to, failed);
+            if (!failed) return;
+            throw Error({to, 0}, "", "cannot be written: " + failed.message(),
+                        "Check the folder's permissions and the disk's space.");
+        };
+        if (events) name(making_ + "/events.tsv", events_file());
+        for (size_t f = fingers_.size(); f-- > 0;) {
+            for (const char* what : {"channels.tsv", "channels.json", "motion.json", "motion.tsv"})
+                name(making(fingers_[f], what), file(fingers_[f], what));
         }
     }
 
@@ -185,7 +265,7 @@ class Exporter {
         for (const Channel& c : channels)
             rows.push_back({c.name, c.component, c.type, c.point, c.unit,
                             fmt::format("{:g}", 1 / tick_), "global"});
-        write_file(lines(rows), file(finger, "channels.tsv"));
+        write_file(lines(rows), making(finger, "channels.tsv"));
         const Json levels{
             {"reference_frame",
              {{"Levels",
@@ -194,7 +274,7 @@ class Exporter {
                   {"RotationRule", "right-hand"},
                   {"RotationOrder", "n/a"},
                   {"Description", "x to the right, y away from the person, z up"}}}}}}}};
-        write_file(levels.dump(2) + "\n", file(finger, "channels.json"));
+        write_file(levels.dump(2) + "\n", making(finger, "channels.json"));
     }
 
     void write_description(const std::string& finger, const std::vector<Channel>& channels) {
@@ -215,25 +295,26 @@ class Exporter {
                   {"RecordingType", "continuous"},
                   {"RecordingDuration", static_cast<double>(ticks_) * tick_}};
         for (const auto& [type, count] : counts) json[type + "ChannelCount"] = count;
-        write_file(json.dump(2) + "\n", file(finger, "motion.json"));
+        write_file(json.dump(2) + "\n", making(finger, "motion.json"));
     }
 
-    /// Of all tracking systems, on their common time.
-    void write_events() {
+    /// Of all tracking systems, on their common time; false without any.
+    bool write_events() {
         const std::string events = session_.file("events.csv");
-        if (!fs::exists(events)) return;
+        if (!is_there(events)) return false;
         const CsvFile csv(events);
         std::vector<std::vector<std::string>> rows{
             {"onset", "duration", "trial_type", "trial", "value"}};
         for (size_t i = 0; i < csv.rows(); ++i)
             rows.push_back({csv.text(i, "time_s"), "n/a", csv.text(i, "event"),
                             csv.text(i, "trial"), csv.text(i, "detail")});
-        write_file(lines(rows), fmt::format("{}/{}_run-{:02}_events.tsv", folder_, stem(), run_));
+        write_file(lines(rows), making_ + "/events.tsv");
+        return true;
     }
 
     void write_data_set() {
         const auto top = [&](const char* name) { return (fs::path(data_set_) / name).string(); };
-        if (!fs::exists(top("dataset_description.json"))) {
+        if (!is_there(top("dataset_description.json"))) {
             const Json json{{"Name", info_.title},
                             {"BIDSVersion", "1.9.0"},
                             {"DatasetType", "raw"},
@@ -242,13 +323,13 @@ class Exporter {
         }
         const recording::Participant& p = info_.participant;
         add_row(top("participants.tsv"), {"participant_id", "age", "sex", "handedness"},
-                {subject_, p.age, p.sex, p.handedness});
+                {subject_, p.age, p.sex, p.handedness}, Known::stays);
         const std::string scans =
             (fs::path(data_set_) / subject_ / (subject_ + "_scans.tsv")).string();
         for (const std::string& finger : fingers_) {
             const std::string name = fs::path(file(finger, "motion.tsv")).filename().string();
             add_row(scans, {"filename", "acq_time"},
-                    {"motion/" + name, info_.started.substr(0, 19)});
+                    {"motion/" + name, info_.started.substr(0, 19)}, Known::replaced);
         }
     }
 
@@ -258,6 +339,7 @@ class Exporter {
     std::string subject_;
     std::string task_;
     std::string folder_;
+    std::string making_;  // folder of files in the making
     int run_ = 1;
     std::vector<std::string> fingers_;
     std::vector<std::vector<Channel>> channels_;  // by finger
@@ -267,8 +349,8 @@ class Exporter {
 
 }  // namespace
 
-std::string export_bids(const recording::SessionFolder& session, const std::string& data_set,
-                        const std::function<void(double)>& progress) {
+Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
+                     const std::function<void(double)>& progress) {
     return Exporter(session, data_set).run(progress);
 }
 

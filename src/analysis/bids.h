@@ -6,14 +6,21 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "recording/session.h"
 
 namespace dihaptic::analysis {
 
-/// Returns the folder of the session's files. Throws Error when the session has not ended, or a
-/// file cannot be written.
-std::string export_bids(const recording::SessionFolder& session, const std::string& data_set,
-                        const std::function<void(double)>& progress);
+struct Exported {
+    std::string folder;            ///< of the session's files
+    std::vector<std::string> log;  ///< what is wrong with raw.log, in sentences
+};
+
+/// The files get their names when all of them are whole, that of the first finger's motion last:
+/// without it there is no such run. Throws Error when the session has not ended, or a file cannot
+/// be written.
+Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
+                     const std::function<void(double)>& progress);
 
 }  // namespace dihaptic::analysis

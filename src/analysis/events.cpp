@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
+#include <iterator>
 
 #include "servo/settings.h"
 
@@ -15,42 +15,36 @@ std::string listed(const std::vector<std::string>& names, int32_t i) {
     return at < names.size() ? names[at] : std::to_string(i);
 }
 
-EventFinder::Tuned tuned(const servo::Frame& frame) {
-    // k h / 2 is no number of its own
-    const double damping = std::isnan(frame.damping) ? -1 : frame.damping;
-    return {static_cast<double>(frame.coupling),
-            frame.stiffness,
-            damping,
-            frame.smoothing,
-            static_cast<double>(frame.solver),
-            static_cast<double>(frame.proxy),
-            frame.friction_scale};
-}
-
 template <class E>
 std::string choice(double value) {
     return std::string(enum_name(static_cast<E>(static_cast<int>(value))));
 }
 
-/// One of `tuned`, as settings have it.
-std::pair<const char*, std::string> setting(size_t which, double value) {
-    switch (which) {
-        case 0:
-            return {"coupling.kind", choice<haptics::CouplingKind>(value)};
-        case 1:
-            return {"coupling.stiffness_N_m", fmt::format("{:g}", value)};
-        case 2:
-            return {"coupling.damping_Ns_m", value < 0 ? "k h / 2" : fmt::format("{:g}", value)};
-        case 3:
-            return {"coupling.smoothing", fmt::format("{:g}", value)};
-        case 4:
-            return {"dynamics.solver", choice<dynamics::Solver>(value)};
-        case 5:
-            return {"proxy.kind", choice<scene::ProxyKind>(value)};
-        default:
-            return {"friction, times the scene's", fmt::format("{:g}", value)};
-    }
+std::string number(double value) {
+    return fmt::format("{:g}", value);
 }
+
+/// What can be changed while a session runs, as settings have it.
+struct Knob {
+    const char* key;
+    double (*of)(const servo::Frame& frame);  ///< enums by their index
+    std::string (*said)(double value);
+};
+const Knob kKnobs[] = {
+    {"coupling.kind", [](const servo::Frame& f) { return static_cast<double>(f.coupling); },
+     choice<haptics::CouplingKind>},
+    {"coupling.stiffness_N_m", [](const servo::Frame& f) { return f.stiffness; }, number},
+    // not a number where it is k h / 2, and that equals nothing
+    {"coupling.damping_Ns_m",
+     [](const servo::Frame& f) { return std::isnan(f.damping) ? -1 : f.damping; },
+     [](double value) { return value < 0 ? "k h / 2" : number(value); }},
+    {"coupling.smoothing", [](const servo::Frame& f) { return f.smoothing; }, number},
+    {"dynamics.solver", [](const servo::Frame& f) { return static_cast<double>(f.solver); },
+     choice<dynamics::Solver>},
+    {"proxy.kind", [](const servo::Frame& f) { return static_cast<double>(f.proxy); },
+     choice<scene::ProxyKind>},
+    {"friction, times the scene's", [](const servo::Frame& f) { return f.friction_scale; }, number},
+};
 
 }  // namespace
 
@@ -59,7 +53,8 @@ EventFinder::EventFinder(const recording::LogHead& head, int object,
     : head_(head),
       object_(object),
       phases_(std::move(phases)),
-      touching_(head.fingers.size() * (head.bodies.size() + head.fingers.size()), 0) {}
+      touching_(head.fingers.size() * (head.bodies.size() + head.fingers.size()), 0),
+      tuned_(std::size(kKnobs)) {}
 
 std::string EventFinder::name(int body) const {
     const auto i = static_cast<size_t>(body);
@@ -119,20 +114,24 @@ void EventFinder::add(const servo::Frame& frame) {
         supported_ = on_support;
     }
     seen_ = true;
-    const Tuned values = tuned(frame);
-    if (frame.sequence == 0) tuned_ = last_ = values;
-    for (size_t i = 0; i < values.size(); ++i) {
+    for (size_t i = 0; i < tuned_.size(); ++i) {
+        const Knob& knob = kKnobs[i];
+        const double value = knob.of(frame);
+        Tuned& tuned = tuned_[i];
+        if (frame.sequence == 0) tuned.told = value;
         // what is eased in is told of when it has arrived
-        if (values[i] != last_[i] || values[i] == tuned_[i]) continue;
-        const auto [key, value] = setting(i, values[i]);
-        say("setting", fmt::format("{}: {} -> {}", key, setting(i, tuned_[i]).second, value));
-        tuned_[i] = values[i];
+        if (value == tuned.last && value != tuned.told) {
+            say("setting",
+                fmt::format("{}: {} -> {}", knob.key, knob.said(tuned.told), knob.said(value)));
+            tuned.told = value;
+        }
+        tuned.last = value;
     }
-    last_ = values;
+    if ((frame.status & servo::kPaused) != 0) say("paused", "force off");
     if ((frame.status & servo::kResumed) != 0) say("went on", "after a pause");
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {
         const auto flag = static_cast<servo::Status>(1u << bit);
-        if (flag == servo::kResumed) continue;
+        if (flag == servo::kPaused || flag == servo::kResumed) continue;
         if ((frame.status & flag) != 0 && (status_ & flag) == 0)
             say("limit", servo::describe(flag).what);
     }

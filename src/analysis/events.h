@@ -2,7 +2,6 @@
 // the object, phases, and what the servo could not do as asked.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -22,9 +21,6 @@ struct Event {
 
 class EventFinder {
   public:
-    /// What can be changed while a session runs, in numbers: events.cpp has their names.
-    using Tuned = std::array<double, 7>;
-
     /// `object`: index of the body whose lift-off counts, or -1. `phases` names the phases.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
@@ -46,8 +42,11 @@ class EventFinder {
     bool perturbed_ = false;
     int phase_ = -1;
     uint32_t status_ = 0;
-    Tuned tuned_{};  // as it was last told of
-    Tuned last_{};   // in the last frame
+    struct Tuned {
+        double told = 0;
+        double last = 0;  // in the last frame
+    };
+    std::vector<Tuned> tuned_;  // what can be changed while a session runs
     std::vector<Event> events_;
 };
 

@@ -101,8 +101,8 @@ double threshold(const Signals& signals, const Signal& rate) {
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// When a digit touches, by a force that may end early, and when it lets go after `replaced`; none:
-/// it does not.
+/// When a digit touches, by the force of all of its samples or of the first of them, and when it
+/// lets go after `replaced`; none: it does not.
 std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
                             const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
@@ -220,10 +220,11 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     const Signals signals(trace, gravity);
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
 
-    lift.mark = "paused";
     if (std::any_of(trace.samples().begin(), trace.samples().end(),
-                    [](const GraspTrace::Sample& s) { return s.resumed; }))
+                    [](const GraspTrace::Sample& s) { return s.resumed; })) {
+        lift.mark = "paused";
         return lift;
+    }
 
     const auto top = std::max_element(signals.height.begin(), signals.height.end());
     const size_t lifted = find_lift_off(trace, signals, *top / 2);
@@ -241,7 +242,6 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
         if (const auto onset = load_onset(signals, signals.digit_load[f], *at))
             onsets.push_back(*onset);
     }
-    lift.mark = "no touch";
     if (!touched) return lift;
     lift.touch = time(*touched);
 

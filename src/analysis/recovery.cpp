@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "base/field_table.h"
+#include "base/regular_file.h"
+#include "base/text_file.h"
 #include "recording/raw_log.h"
 #include "servo/settings.h"
 
@@ -14,8 +15,7 @@ namespace {
 
 /// A file whose last line does not end.
 bool is_cut(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    return in.seekg(-1, std::ios::end) && in.get() != '\n';
+    return is_there(file) && !read_bytes(file, kMostTable).ends_with('\n');
 }
 
 /// Every setting of settings.yaml, with the origin that settings.csv still has for it.
@@ -28,8 +28,13 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
     } catch (const Error&) {
         return;  // said where the inputs' checksums are
     }
-    Table was = read_settings(folder);
-    if (is_cut(folder.file("settings.csv")) && !was.rows.empty()) was.rows.pop_back();
+    Table was;
+    try {
+        was = read_settings(folder);
+        if (is_cut(folder.file("settings.csv")) && !was.rows.empty()) was.rows.pop_back();
+    } catch (const Error&) {
+        was.rows.clear();  // all of it is lost
+    }
     Table table = list_fields(settings, {});
     size_t lost = 0;
     for (auto& row : table.rows) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -17,15 +16,14 @@
 #include "analysis/lifts.h"
 #include "analysis/trials.h"
 #include "base/plural.h"
+#include "base/regular_file.h"
+#include "recording/log_scene.h"
 #include "recording/nwb.h"
-#include "recording/raw_log.h"
 #include "recording/showings.h"
 #include "scene/scene.h"
 
 namespace dihaptic::analysis {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -62,13 +60,13 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
 
 /// Of the object; nothing is known when scene.yaml is not what it was, or cannot be read.
 ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
-                     const recording::Setup& setup) {
-    if (name.empty() || !folder.changed(setup.inputs, Severity::warning).empty()) return {};
+                     const recording::LogHead& head) {
+    if (name.empty() || !folder.changed(head.inputs, Severity::warning).empty()) return {};
     try {
         Diagnostics diagnostics;
         const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
         const int i = scene.find(name);
-        if (diagnostics.has_errors() || i < 0) return {};
+        if (diagnostics.has_errors() || i < 0 || !recording::fits(head, scene)) return {};
         const scene::Body& object = scene.bodies[static_cast<size_t>(i)];
         ObjectFacts facts;
         facts.mass = scene::mass(object);
@@ -286,12 +284,15 @@ Table as_intervals(const Table& events) {
 
 /// The latest time that a table of a session tells of [s].
 double last_time(const std::string& file, const std::string& column) {
-    if (!fs::exists(file)) return 0;
-    const CsvFile table(file);
-    double last = 0;
-    // a cell without a number is no time
-    for (size_t i = 0; i < table.rows(); ++i) last = std::max(last, table.number(i, column));
-    return last;
+    try {
+        const CsvFile table(file);
+        double last = 0;
+        // a cell without a number is no time
+        for (size_t i = 0; i < table.rows(); ++i) last = std::max(last, table.number(i, column));
+        return last;
+    } catch (const Error&) {
+        return 0;  // what cannot be read tells of nothing
+    }
 }
 
 /// What was made of a log before it was damaged is worth more than what can be made of it now.
@@ -337,13 +338,31 @@ void add_note(recording::SessionInfo& info, const std::string& note) {
         info.notes.push_back(note);
 }
 
-Table read_settings(const recording::SessionFolder& folder) {
+namespace {
+
+Table no_settings() {
     Table table;
     table.columns = {{"setting", "name and unit"},
                      {"value", "as used"},
                      {"origin", "file and line, or default"}};
+    return table;
+}
+
+/// Of a damaged session they may be lost: the rest of it is not.
+Table settings_left(const recording::SessionFolder& folder) {
+    try {
+        return read_settings(folder);
+    } catch (const Error&) {
+        return no_settings();
+    }
+}
+
+}  // namespace
+
+Table read_settings(const recording::SessionFolder& folder) {
+    Table table = no_settings();
     const std::string file = folder.file("settings.csv");
-    if (!fs::exists(file)) return table;
+    if (!is_there(file)) return table;
     for (std::vector<std::string>& row : read_csv(file)) {
         row.resize(3);
         table.rows.push_back({row[0], row[1], row[2]});
@@ -387,7 +406,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     content.phases = phase_table(figures);
     const Table events = event_table(reading.events, recording::Showings(folder));
     content.events = as_intervals(events);
-    content.settings = read_settings(folder);
+    content.settings = settings_left(folder);
     recording::write_nwb(folder, content, part(0.4, 1));
     SessionFigures out = figures;
     if (reading.trials) out.trials = with_earlier(content.trials, folder);
@@ -397,6 +416,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     if (!reading.lifts.empty()) write_csv(lift_table(reading.lifts), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
+    folder.sync();  // all of them are on the disk before the state says so
     folder.write_info(info);
     return out;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <numbers>
 
+#include "base/regular_file.h"
 #include "servo/displayed.h"
 
 namespace dihaptic::analysis {
@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kList = "trial-list.csv";
 constexpr const char* kBefore = "trials-before.csv";
 constexpr const char* kInterrupted = "interrupted";
+constexpr double kMostPhases = 1e6;
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -40,7 +41,7 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
 }
 
 bool has_trials(const recording::SessionFolder& folder) {
-    return std::filesystem::exists(folder.file(kList));
+    return is_there(folder.file(kList));
 }
 
 TrialFinder::TrialFinder(const recording::SessionFolder& folder,
@@ -50,18 +51,24 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
     if (first == list_[0].size()) return;
     for (size_t i = 1; i < list_.size(); ++i) {
         const auto& row = list_[i];
+        if (row.size() <= first) {
+            throw Error({folder.file(kList), static_cast<int>(i) + 1}, "reach_finger",
+                        "is missing: the line is cut off",
+                        "Put back the list that the session was recorded with.");
+        }
         const auto number = [&](size_t k) {
             return first + k < row.size() ? std::strtod(row[first + k].c_str(), nullptr) : kNaN;
         };
         const auto vector = [&](size_t k) { return Vec3(number(k), number(k + 1), number(k + 2)); };
         ReachPlan reach;
-        const auto finger = std::find(fingers.begin(), fingers.end(), row.at(first));
+        const auto finger = std::find(fingers.begin(), fingers.end(), row[first]);
         reach.finger = finger == fingers.end() ? 0 : static_cast<size_t>(finger - fingers.begin());
         reach.distance = number(1) * 1e-3;
         reach.from_W = vector(2) * 1e-3;
         reach.to_W = vector(5) * 1e-3;
         reach.axis_W = vector(8);
-        reach.phase = static_cast<int>(number(11));
+        const double phase = number(11);
+        reach.phase = phase >= 0 && phase < kMostPhases ? static_cast<int>(phase) : -1;
         reach.extent = first + 12 < row.size() && row[first + 12] == "extent";
         reaches_.push_back(reach);
     }
@@ -174,10 +181,15 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
 }
 
 Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
-    if (!std::filesystem::exists(folder.file(kBefore))) return own;
+    if (!is_there(folder.file(kBefore))) return own;
     const auto before = read_csv(folder.file(kBefore));
     const size_t outcome = column(before, "outcome");
     const size_t number = column(before, "session_num");
+    if (outcome == before[0].size() || number == before[0].size() ||
+        std::max(outcome, number) >= own.columns.size()) {
+        throw Error({folder.file(kBefore), 1}, "", "has no columns 'outcome' and 'session_num'",
+                    "Put the trials.csv of the session that this one goes on with in its place.");
+    }
     Table table{own.columns, {}};
     double session = 1;
     for (size_t i = 1; i < before.size(); ++i) {

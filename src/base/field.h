@@ -27,6 +27,10 @@
 
 namespace dihaptic {
 
+/// Which way a limit is tighter, of settings that are limits: whoever set it first may be outdone
+/// that way only. `fixed`: neither way.
+enum class Tighter { none, less, more, fixed };
+
 /// What a field's value must be. A vector's components each obey it.
 struct Field {
     Quantity quantity = Quantity::none;
@@ -34,6 +38,7 @@ struct Field {
     double max = std::numeric_limits<double>::infinity();
     bool above_min = false;  ///< the minimum itself is not allowed
     bool is_required = false;
+    Tighter tighter = Tighter::none;
 
     static constexpr Field number() { return {}; }
     static constexpr Field text() { return {}; }
@@ -59,6 +64,11 @@ struct Field {
     /// Both bounds included. Limits of what makes sense on a tabletop catch slips of the unit that
     /// would otherwise surface as a simulation that diverges.
     constexpr Field within(double low, double high) const { return at_least(low).at_most(high); }
+    constexpr Field tighter_when(Tighter way) const {
+        Field f = *this;
+        f.tighter = way;
+        return f;
+    }
     constexpr Field required() const {
         Field f = *this;
         f.is_required = true;

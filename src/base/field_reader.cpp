@@ -106,6 +106,12 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
         return std::nullopt;
     }
     const double si = value * given.to_si;
+    if (!std::isfinite(si)) {
+        diagnostics_.error(given.node->place, given.key,
+                           fmt::format("is too large a number: {}", shortened(text)),
+                           "Correct the value, or its unit.");
+        return std::nullopt;
+    }
     const bool too_low = field.above_min ? si <= field.min : si < field.min;
     if (too_low || si > field.max) {
         const double low = field.min / given.to_si;

@@ -1,8 +1,10 @@
 #include "base/node.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/text_file.h"
 
@@ -80,6 +82,50 @@ Node convert(const YAML::Node& in, const std::string& file, size_t& count, int d
     return out;
 }
 
+/// Where documents start, from 0.
+class DocumentStarts final : public YAML::EventHandler {
+  public:
+    std::vector<int> lines;
+
+  private:
+    void OnDocumentStart(const YAML::Mark&) override { lines.push_back(-1); }
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { see(mark); }
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { see(mark); }
+    void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  const std::string&) override {
+        see(mark);
+    }
+    void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {
+        see(mark);
+    }
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {
+        see(mark);
+    }
+    void OnMapEnd() override {}
+    void see(const YAML::Mark& mark) {
+        if (lines.back() < 0) lines.back() = mark.line;
+    }
+};
+
+/// Throws Error where a second one starts. YAML::LoadAll() reads all of them, without end where a
+/// stray comma is none.
+void check_single(const std::string& text, const std::string& file) {
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    DocumentStarts starts;
+    while (starts.lines.size() < 2 && parser.HandleNextDocument(starts)) {
+    }
+    if (starts.lines.size() < 2) return;
+    throw Error({file, std::max(0, starts.lines[1]) + 1}, "",
+                "a second YAML document starts here (after '---', or after a bracket that closed "
+                "the first)",
+                "Keep one document a file.");
+}
+
 YAML::Node emit(const Node& node) {
     YAML::Node out;
     switch (node.kind) {
@@ -108,14 +154,9 @@ YAML::Node emit(const Node& node) {
 
 Node parse_yaml(const std::string& text, const std::string& file) {
     try {
-        const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-        if (documents.size() > 1) {
-            throw Error({file, std::max(0, documents[1].Mark().line) + 1}, "",
-                        "a second YAML document starts here (after '---')",
-                        "Keep one document a file.");
-        }
+        check_single(text, file);
         size_t count = 0;
-        Node root = documents.empty() ? Node{} : convert(documents.front(), file, count);
+        Node root = convert(YAML::Load(text), file, count);
         root.place.file = file;
         if (root.place.line == 0) root.place.line = 1;
         return root;
@@ -126,7 +167,7 @@ Node parse_yaml(const std::string& text, const std::string& file) {
 }
 
 Node read_yaml(const std::string& file) {
-    return parse_yaml(read_text_file(file), file);
+    return parse_yaml(read_text_file(file, kMostYaml), file);
 }
 
 std::string to_yaml(const Node& node) {

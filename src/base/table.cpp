@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 
 #include "base/diagnostics.h"
@@ -63,16 +62,16 @@ void write_csv(const Table& table, const std::string& file) {
 }
 
 std::vector<std::vector<std::string>> read_csv(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error({file, 0}, "", "cannot be read", "Check the name and the folder.");
+    const std::string text = read_text_file(file, kMostTable);
     std::vector<std::vector<std::string>> rows;
     std::string cell;
     std::vector<std::string> row;
     bool quoted = false;
-    for (char c = 0; in.get(c);) {
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
         if (quoted) {
-            if (c == '"' && in.peek() == '"') {
-                cell += static_cast<char>(in.get());
+            if (c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+                cell += text[++i];
             } else if (c == '"') {
                 quoted = false;
             } else {
@@ -95,11 +94,15 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
         row.push_back(std::move(cell));
         rows.push_back(std::move(row));
     }
+    if (rows.empty()) {
+        throw Error({file, 0}, "", "is empty, without the line that names its columns",
+                    "Put a backup of it in its place; dihaptic recover makes a session's tables "
+                    "anew from raw.log.");
+    }
     return rows;
 }
 
 CsvFile::CsvFile(const std::string& file) : rows_(read_csv(file)) {
-    if (rows_.empty()) return;
     header_ = std::move(rows_.front());
     rows_.erase(rows_.begin());
 }

@@ -28,7 +28,8 @@ std::string to_csv(const Table& table);
 /// Writes the table, replacing the file as a whole. Throws Error when it cannot.
 void write_csv(const Table& table, const std::string& file);
 
-/// Rows of cells, the header first. Throws Error when the file cannot be read.
+/// Rows of cells, the header first: there is one at least. Throws Error when the file is empty or
+/// cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
 
 /// A CSV file by the names of its columns. Cells that a short row, or the file, does not have are

@@ -5,17 +5,22 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "base/diagnostics.h"
+#include "base/disk.h"
+#include "base/regular_file.h"
 
 namespace dihaptic {
 namespace {
 
-constexpr uintmax_t kLargest = 500'000'000;  // bytes: ten minutes of ten fingers at 5 kHz fit
+constexpr std::string_view kPart = ".part";
 
 /// Bytes of the UTF-8 character that starts at i; 0 when it is none, or a control character that
 /// has no place in a text.
@@ -57,39 +62,19 @@ void check_encoding(const std::string& text, const std::string& file) {
 
 }  // namespace
 
-std::string read_text_file(const std::string& file) {
-    namespace fs = std::filesystem;
-    std::error_code ignored;
-    if (fs::is_directory(file, ignored))
-        throw Error({file, 0}, "", "is a folder", "Name a file in it.");
-    errno = 0;
-    std::ifstream in(file, std::ios::binary);
-    if (!in && errno == EACCES) {
-        throw Error({file, 0}, "", "cannot be read: you have no permission to",
-                    "Give yourself the permission, e.g. chmod u+r.");
-    }
-    if (!in) {
-        throw Error({file, 0}, "",
-                    std::string("cannot be read: ") + std::strerror(errno != 0 ? errno : EIO),
-                    "Check the name and the folder.");
-    }
-    if (const uintmax_t size = fs::file_size(file, ignored); !ignored && size > kLargest) {
-        throw Error({file, 0}, "", fmt::format("is {} MB large", size / 1'000'000),
-                    "No scene, rig, experiment or movement is: check that it is the right file.");
-    }
-    std::ostringstream out;
-    if (in.peek() != std::ifstream::traits_type::eof()) out << in.rdbuf();
-    if (in.bad() || out.fail())
-        throw Error({file, 0}, "", "cannot be read", "Check the disk and the permissions.");
-    std::string text = out.str();
+std::string read_text_file(const std::string& file, int64_t most) {
+    std::string text = read_bytes(file, most);
     if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
     check_encoding(text, file);
     return text;
 }
 
-void check_writable(const std::string& file) {
+void check_output(const std::string& file, const std::string& input, const std::string& what) {
     namespace fs = std::filesystem;
     std::error_code ignored;
+    if (fs::equivalent(file, input, ignored)) {
+        throw Error({file, 0}, "", fmt::format("is {} itself", what), "Name another file.");
+    }
     if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
         throw Error({file, 0}, "", "cannot be written: it is a folder, or no file",
                     "Name another file.");
@@ -100,16 +85,45 @@ void check_writable(const std::string& file) {
                 "Name a file in a folder that is there, and that you may write to.");
 }
 
-void write_file(const std::string& text, const std::string& file) {
+std::string part_name(const std::string& file) {
+    return fmt::format("{}.{}{}", file, getpid(), kPart);
+}
+
+void remove_dead_parts(const std::string& file) {
     namespace fs = std::filesystem;
-    const std::string part = fmt::format("{}.{}.part", file, getpid());
+    const fs::path whole(file);
+    const std::string start = whole.filename().string() + ".";
+    const std::string folder = whole.parent_path().empty() ? "." : whole.parent_path().string();
+    std::error_code failed;
+    std::vector<fs::path> dead;
+    for (fs::directory_iterator i(folder, failed), end; !failed && i != end; i.increment(failed)) {
+        const std::string name = i->path().filename().string();
+        if (!name.starts_with(start) || !name.ends_with(kPart)) continue;
+        const char* const last = name.data() + name.size() - kPart.size();
+        int process = 0;
+        const auto [rest, status] = std::from_chars(name.data() + start.size(), last, process);
+        if (status == std::errc() && rest == last && process > 0 && kill(process, 0) != 0 &&
+            errno == ESRCH)
+            dead.push_back(i->path());
+    }
+    for (const fs::path& part : dead) fs::remove_all(part, failed);
+}
+
+void write_file(const std::string& text, const std::string& file, Keep keep) {
+    namespace fs = std::filesystem;
+    const std::string part = part_name(file);
     errno = 0;
     std::ofstream out(part, std::ios::binary);
     out << text;
     out.close();
+    if (out && keep == Keep::at_once) sync_to_disk(part);
     std::error_code failed;
     if (out) fs::rename(part, file, failed);
-    if (out && !failed) return;
+    if (out && !failed) {
+        const fs::path folder = fs::path(file).parent_path();
+        if (keep == Keep::at_once) sync_to_disk(folder.empty() ? "." : folder.string());
+        return;
+    }
     const std::string why = failed ? failed.message() : std::strerror(errno);
     fs::remove(part, failed);
     throw Error({file, 0}, "", "cannot be written: " + why,

@@ -1,6 +1,7 @@
 #include "contact/body_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dihaptic::contact {
 namespace {
@@ -43,10 +44,14 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
     y_.resize(bodies);
     rows_.resize(contacts);
     edges_.clear();
+    finite_ = true;
     for (size_t i = 0; i < bodies; ++i) {
         root_[i].setZero();
         root_[i].template topLeftCorner<3, 3>() = root(problem.bodies[i].inverse_mass);
         root_[i].template bottomRightCorner<3, 3>() = root(problem.bodies[i].inverse_inertia);
+        // a root has no trace of what was no number
+        finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum() +
+                                           problem.bodies[i].inverse_inertia.sum());
     }
     for (size_t j = 0; j < contacts; ++j) {
         const ProblemContact& contact = problem.contacts[j];
@@ -82,6 +87,8 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
         row.Ht_b *= row.unit;
         row.q *= row.unit;
         row.law.mu = contact.friction;
+        // one sum has what is no number, or would overflow, in any of its parts
+        finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
         const double normal = diagonal[0] * row.unit * row.unit;
         const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
         row.law.a_n = normal > 0 ? 1 / normal : 1;

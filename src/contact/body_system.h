@@ -28,6 +28,8 @@ class BodySystem {
     bool assemble(const ContactProblem& problem) noexcept;
 
     size_t size() const noexcept { return rows_.size(); }
+    /// Whether all of the problem's contacts are of numbers that can be computed with.
+    bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
     const Vec& q(size_t j) const noexcept { return rows_[j].q; }
     /// Impulse over scaled impulse.
@@ -90,6 +92,7 @@ class BodySystem {
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;
     BlockLu lu_;
+    bool finite_ = true;
 };
 
 extern template class BodySystem<3>;

@@ -25,8 +25,8 @@ struct Polygon {
         const double pitch = 2 * std::numbers::pi / directions;
         double turns = (std::atan2(x[1], x[0]) - angle) / pitch;
         turns -= std::floor(turns / directions) * directions;
-        const int i = static_cast<int>(turns);
-        return i < directions ? i : 0;
+        // also of what is no number there is one, whose index exists
+        return turns >= 0 && turns < directions ? static_cast<int>(turns) : 0;
     }
 
     struct Projection {

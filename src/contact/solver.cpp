@@ -130,8 +130,16 @@ struct BodyMemory {
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail) {
         if (!system.assemble(problem)) return false;
         solver.r.resize(r.size());
+        if (!system.is_finite()) {
+            for (Impulse& impulse : r) impulse.setZero();
+            for (auto& impulse : solver.r) impulse.setZero();
+            system.body_velocity(solver.r);
+            stats.missed = stats.refused = true;
+            return true;
+        }
         const auto spin_unit = [&](size_t j) { return problem.contacts[j].torsion_radius; };
         for (size_t j = 0; j < r.size(); ++j) {
+            if (!r[j].allFinite()) r[j].setZero();
             solver.r[j].template head<3>() = r[j].head<3>() / system.unit(j);
             if constexpr (D == 4) {
                 solver.r[j][3] = spin_unit(j) > 0 ? r[j][3] / (spin_unit(j) * system.unit(j)) : 0;
@@ -191,6 +199,10 @@ Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const Delas
     memory.reserve(system.size(), std::min<size_t>(system.size(), ContactSolvers::kLemkeContacts));
     memory.r.assign(system.size(), Vec3::Zero());
     stats = {};
+    if (!problem.W.allFinite() || !problem.q.allFinite() || !problem.mu.allFinite()) {
+        stats.missed = stats.refused = true;
+        return Eigen::VectorXd::Zero(problem.q.size());
+    }
     solve_system(solver, polygon, system, memory, stats, detail);
     Eigen::VectorXd out(problem.q.size());
     for (size_t j = 0; j < system.size(); ++j)

@@ -32,6 +32,7 @@ struct SolveStats {
     double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
     bool fallback = false;  ///< another solver than the one asked for answered
     bool missed = false;    ///< so did that: the best impulses found are in use
+    bool refused = false;   ///< the problem held what is no number: there are no impulses
 
     /// Of several problems of one step: the worst of each.
     void join(const SolveStats& other) noexcept {
@@ -39,6 +40,7 @@ struct SolveStats {
         residual = std::max(residual, other.residual);
         fallback = fallback || other.fallback;
         missed = missed || other.missed;
+        refused = refused || other.refused;
     }
 };
 
@@ -61,7 +63,8 @@ class ContactSolvers {
     static constexpr int kLemkeContacts = 60;
 
     /// Solves from the start in r; leaves the impulses in r. Not for sequential_impulse. False:
-    /// more than what was reserved; nothing is changed.
+    /// more than what was reserved; nothing is changed. A problem with what is no number in it is
+    /// refused before any solver starts: SolveStats::refused.
     bool solve(Solver solver, const PolygonSettings& polygon, const ContactProblem& problem,
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept;
     /// Change of a body's velocity by the impulses of the last solve: linear [m/s], angular

@@ -1,6 +1,47 @@
 #include "devices/device_group.h"
 
+#include <algorithm>
+
 namespace dihaptic::devices {
+namespace {
+
+/// Of the limit: what rounding alone takes a limited force beyond it is left as it is.
+constexpr double kRounding = 1e-9;
+
+/// Returns whether `v` had to be made smaller.
+bool clamp(Vec3& v, double most) noexcept {
+    if (!v.allFinite()) v.setZero();
+    const double size = v.norm();
+    if (size <= most * (1 + kRounding)) return false;
+    v *= most / size;
+    return true;
+}
+
+}  // namespace
+
+DeviceGroup::DeviceGroup(std::vector<DeviceInfo> infos)
+    : infos_(std::move(infos)), told_(infos_.size()) {
+    for (const DeviceInfo& info : infos_) outputs_.push_back({info.peak_force, info.peak_torque});
+}
+
+void DeviceGroup::write(std::span<const Wrench> wrenches_D) noexcept {
+    assert(active_ && wrenches_D.size() == infos_.size());
+    for (size_t i = 0; i < told_.size(); ++i) {
+        told_[i] = wrenches_D[i];
+        const bool force = clamp(told_[i].force, outputs_[i].most_force);
+        const bool torque = clamp(told_[i].torque, outputs_[i].most_torque);
+        outputs_[i].clamped = force || torque;
+    }
+    do_write(told_);
+}
+
+void DeviceGroup::limit(int device, double force, double torque) noexcept {
+    const DeviceInfo& info = infos_[static_cast<size_t>(device)];
+    Output& output = outputs_[static_cast<size_t>(device)];
+    output.most_force = std::min(force, info.peak_force);
+    output.most_torque = std::min(torque, info.peak_torque);
+    do_limit(device, force, torque);
+}
 
 std::string in_words(const Error& error) {
     const Problem& first = error.problems().front();

@@ -55,7 +55,9 @@ struct Reading {
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
-    std::string serial;                                           ///< "" if it tells none
+    std::string serial;  ///< "" if it tells none
+    bool simulated =
+        false;  ///< it holds no person's hand: that it waits for its force harms nobody
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     double continuous_force =
         std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
@@ -112,6 +114,7 @@ class DeviceGroup {
 
     void activate() {
         assert(!active_);
+        for (Output& output : outputs_) output.clamped = false;
         do_activate();
         active_ = true;
     }
@@ -123,13 +126,17 @@ class DeviceGroup {
     void read(Time now, std::span<Reading> readings) noexcept {
         assert(active_ && readings.size() == infos_.size());
         do_read(now, readings);
+        for (size_t i = 0; i < readings.size(); ++i) {
+            if (outputs_[i].clamped) readings[i].status |= kForceClamped;
+        }
     }
     /// Forces and torques on the endpoints, in the axes of D, to hold until the next write; one for
-    /// each device. Torques are zero for devices that render none.
-    void write(std::span<const Wrench> wrenches_D) noexcept {
-        assert(active_ && wrenches_D.size() == infos_.size());
-        do_write(wrenches_D);
-    }
+    /// each device. Torques are zero for devices that render none. No device is ever told more than
+    /// its peak, or limit(): what is larger is scaled down to it, which shows in the next reading,
+    /// and what is no number is zero.
+    void write(std::span<const Wrench> wrenches_D) noexcept;
+    /// What a device may be told from now on, if its peak is not less [N], [N*m].
+    void limit(int device, double force, double torque) noexcept;
     /// What the maker's library last said of a device, in words; "" if nothing. Not in the cycle.
     virtual std::string explain(int /*device*/) const { return ""; }
     /// Whether the devices say when a tick is due; then pace() is called.
@@ -149,7 +156,7 @@ class DeviceGroup {
     }
 
   protected:
-    explicit DeviceGroup(std::vector<DeviceInfo> infos) : infos_(std::move(infos)) {}
+    explicit DeviceGroup(std::vector<DeviceInfo> infos);
 
   private:
     virtual void do_activate() = 0;
@@ -158,8 +165,18 @@ class DeviceGroup {
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_pace(const std::function<bool()>&) {}
     virtual void do_stop() noexcept {}
+    /// Of a group with another one behind it, in whose measure the limit holds too.
+    virtual void do_limit(int /*device*/, double /*force*/, double /*torque*/) noexcept {}
+
+    struct Output {
+        double most_force;   // [N]
+        double most_torque;  // [N*m]
+        bool clamped = false;
+    };
 
     std::vector<DeviceInfo> infos_;
+    std::vector<Output> outputs_;
+    std::vector<Wrench> told_;
     bool active_ = false;
 };
 

@@ -30,14 +30,14 @@ struct Settings {
         v("solver", solver);
         v("every", every, Field::number().at_least(1).at_most(100));
         v("iterations", iterations, Field::number().at_least(1).at_most(100000));
-        v("tolerance", tolerance, Field::of(Quantity::speed).at_least(0));
+        v("tolerance", tolerance, Field::of(Quantity::speed).within(0, 1));
         v("friction_directions", friction_directions,
           Field::number().at_least(4).at_most(contact::kMostDirections));
         v("friction_frame", friction_frame);
         v("warm_start", warm_start);
         v("penetration_recovery", penetration_recovery, Field::number().at_least(0).at_most(1));
         v("sleeping", sleeping);
-        v("max_contacts", max_contacts, Field::number().at_least(0).at_most(1000000));
+        v("max_contacts", max_contacts, Field::number().within(0, 100000));
     }
 };
 

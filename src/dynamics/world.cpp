@@ -186,6 +186,27 @@ std::span<const size_t> World::stepped() const {
     return impl_->awake;
 }
 
+bool World::diverged() const noexcept {
+    return impl_->diverged;
+}
+
+void World::mend() noexcept {
+    Impl& w = *impl_;
+    w.diverged = false;
+    for (size_t i = 0; i < w.items.size(); ++i) {
+        Impl::Item& item = w.items[i];
+        item.force.setZero();
+        item.torque.setZero();
+        if (w.is_sound(i)) continue;
+        // a proxy's place follows from its handle
+        const Pose X_WB = i < w.scene.bodies.size() ? w.scene.bodies[i].pose() : Pose{};
+        set_pose({static_cast<int>(i)}, X_WB);
+    }
+    for (const size_t i : w.can_move) w.wake(i, states_);
+    w.collision->forget();
+    w.point_contacts.forget();
+}
+
 void World::set_solver(Solver solver) noexcept {
     impl_->settings.solver = solver;
 }
@@ -273,6 +294,7 @@ void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     item.body->updateInertiaTensor();
     item.body->setLinearVelocity({0, 0, 0});
     item.body->setAngularVelocity({0, 0, 0});
+    if (!impl_->is_sound(i)) impl_->diverged = true;  // no step looks at what is fixed
     if (item.can_move) impl_->wake(i, states_);
     impl_->read_state(i, states_[i]);
 }

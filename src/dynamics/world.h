@@ -45,7 +45,13 @@ enum class StepStatus : unsigned {
     ok = 0,
     contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts()
                               ///< leaves the rest out. Raise dynamics.max_contacts.
+    diverged = 1u << 1,       ///< a place or a speed is no number, or has no more to do with this
+                              ///< world: no step does anything from then on, until mend()
 };
+
+/// Nothing that belongs to an experiment is as far away or as fast: what falls for half a day is
+/// 1e10 m away. Beyond, squares of squares overflow [m], [m/s], [rad/s].
+constexpr double kBeyond = 1e12;
 
 /// What a point may meet in one step.
 constexpr size_t kMostPointContacts = 6;
@@ -142,6 +148,11 @@ class World {
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;
+    /// Whether a step found that the world has diverged.
+    bool diverged() const noexcept;
+    /// After it has, between two steps: what is nowhere is put back to where the scene has it, at
+    /// rest, and what contacts remember is forgotten.
+    void mend() noexcept;
 
   private:
     struct Impl;

@@ -69,6 +69,7 @@ struct World::Impl {
     ManifoldProblem problem;
     contact::ContactSolvers solvers;
     ProblemWatcher watcher;
+    bool diverged = false;
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
@@ -80,7 +81,11 @@ struct World::Impl {
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
+    /// Whether a body is where and as fast as a body can be.
+    bool is_sound(size_t i) const;
+    bool all_sound() const;
     void integrate_loads(double h, const Vec3& gravity);
+    void update_bounds(double h);
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds);
     void group_contacts();
     contact::SolveStats solve(double h);

@@ -17,8 +17,20 @@ constexpr double kKnocked = 1e-3;
 
 StepStatus World::step(double h) noexcept {
     Impl& w = *impl_;
+    const auto diverge = [&] {
+        w.diverged = true;
+        contacts_.clear();
+        stats_ = {};
+        return StepStatus::diverged;
+    };
+    if (w.diverged) return diverge();
     w.collect_awake(states_);
     w.integrate_loads(h, gravity_);
+    if (!w.all_sound()) {  // before anything is looked up by where it is
+        for (const size_t i : w.awake) w.read_state(i, states_[i]);
+        return diverge();
+    }
+    w.update_bounds(h);
     w.collision->find_contacts(h);
     w.collect_awake(states_);  // some may have woken
     w.prepare_contacts(w.collision->manifolds());
@@ -26,6 +38,7 @@ StepStatus World::step(double h) noexcept {
     w.point_contacts.take(w.collision->manifolds());
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
+    if (stats_.refused || !w.all_sound()) return diverge();
 
     StepStatus status = w.collision->overflowed() ? StepStatus::contacts_full : StepStatus::ok;
     contacts_.clear();
@@ -100,9 +113,28 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         // what contacts are looked for ahead of
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
-        if (item.is_point) continue;
-        for (const auto& part : item.parts) collision->update_bounds(*part, h);
     }
+}
+
+void World::Impl::update_bounds(double h) {
+    for (const size_t i : awake) {
+        if (items[i].is_point) continue;
+        for (const auto& part : items[i].parts) collision->update_bounds(*part, h);
+    }
+}
+
+bool World::Impl::is_sound(size_t i) const {
+    const btRigidBody& body = *items[i].body;
+    const btTransform& X = body.getWorldTransform();
+    const btMatrix3x3& R = X.getBasis();
+    const double size = X.getOrigin().length2() + body.getLinearVelocity().length2() +
+                        body.getAngularVelocity().length2() + R[0].length2() + R[1].length2() +
+                        R[2].length2();
+    return size <= kBeyond * kBeyond;  // false too when it is no number
+}
+
+bool World::Impl::all_sound() const {
+    return std::all_of(awake.begin(), awake.end(), [&](size_t i) { return is_sound(i); });
 }
 
 contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodyState>& states) {
@@ -112,7 +144,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
     }
     group_contacts();
     contact::SolveStats stats = solve(h);
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMostPasses && all_sound(); ++pass) {
         for (const size_t i : awake) {
             if (items[i].is_point) continue;
             btRigidBody& body = *items[i].body;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiment/plan.h"
+#include "experiment/safety_limits.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -43,12 +44,12 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::string check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
+Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
     try {
         switch (kind_of(file)) {
             case FileKind::rig:
                 rig::read_rig(file, diagnostics);
-                return "rig";
+                return {"rig", {}};
             case FileKind::scene:
             case FileKind::experiment: {
                 Request request;
@@ -57,21 +58,22 @@ std::string check_file(const std::string& file, Diagnostics& diagnostics, const 
                 request.participant = "1";
                 const Plan plan = make_plan(request);
                 diagnostics.add(plan.warnings);
-                return kind_of(file) == FileKind::scene ? "scene" : "experiment";
+                return {kind_of(file) == FileKind::scene ? "scene" : "experiment",
+                        describe_safety(plan)};
             }
             case FileKind::movement:
                 check_movement(file, diagnostics);
-                return "movement";
+                return {"movement", {}};
             case FileKind::unknown:
                 diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
                                   "A scene has 'bodies:', a rig 'devices:', an experiment "
                                   "'scene:'; a movement ends in .csv.");
-                return "unknown";
+                return {"unknown", {}};
         }
     } catch (const Error& e) {
         diagnostics.add(e.problems());
     }
-    return "";
+    return {};
 }
 
 }  // namespace dihaptic::experiment

@@ -31,7 +31,7 @@ struct MovementSpec {
         v("block", block, Field::text().required());
         v("squeeze", squeeze, Field::length().within(0, 0.1));
         v("width", width, Field::length().within(1e-3, 1));
-        v("grasp_at", grasp_at, Field::of(Quantity::time).at_least(0));
+        v("grasp_at", grasp_at, Field::of(Quantity::time).within(0, hand::kLongestScript));
         if constexpr (requires { v.place(); }) place = v.place_of("block");
     }
 };

@@ -68,6 +68,13 @@ std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) 
     return next;
 }
 
+double Live::abandoned() const noexcept {
+    const Clock::rep last = alive_.load(std::memory_order_relaxed);
+    if (last == kNever) return 0;
+    const double silence = seconds(Clock::now().time_since_epoch() - Clock::duration(last));
+    return silence > kLongestSilence ? silence : 0;
+}
+
 void Live::tell(const std::string& why) {
     const std::lock_guard lock(told_guard_);
     told_ = why;

@@ -33,11 +33,13 @@ struct Live {
     /// And a sample of curves.
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
-    Latest<servo::Frame> frame;       ///< the newest; its `sequence` is -1 before the first
-    std::atomic<bool> paused{false};  ///< as long as it is, time stands still and no force acts
-    std::atomic<bool> ended{false};   ///< the session is to end, in order
-    std::atomic<bool> skip{false};    ///< the trial that runs is to end, in the next tick
-    std::atomic<double> done{0};      ///< share of the trials that are over
+    Latest<servo::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
+    /// As long as it is, time stands still and no force acts, from the next tick on. A trial that
+    /// it interrupts begins anew.
+    std::atomic<bool> paused{false};
+    std::atomic<bool> ended{false};  ///< the session is to end, in order
+    std::atomic<bool> skip{false};   ///< the trial that runs is to end, in the next tick
+    std::atomic<double> done{0};     ///< share of the trials that are over
     Latest<std::optional<dynamics::Solver>> solver;  ///< from the next step on
     /// To be had soon: stiffness and damping go there in kEase, so that what is held stays held.
     Latest<std::optional<haptics::Tuning>> tuning;
@@ -69,13 +71,22 @@ struct Live {
     /// The oldest sample that was not taken yet.
     std::optional<CurveSample> take_sample() { return samples_.pop(); }
 
+    using Clock = std::chrono::steady_clock;
+    /// Whoever watches may hang, and with it every key that switches force off: once it has called
+    /// this it must go on to, and force is off when it has not for longer than kLongestSilence.
+    void note_alive() noexcept {
+        alive_.store(Clock::now().time_since_epoch().count(), std::memory_order_relaxed);
+    }
+    static constexpr double kLongestSilence = 1;  // [s]
+    /// In the tick: how long whoever watches has been silent, if that is too long; otherwise 0 [s].
+    double abandoned() const noexcept;
+
     /// From the session's thread: why it paused by itself, and what to do. `paused` is set then;
     /// whoever takes it back lets the session go on.
     void tell(const std::string& why);
     /// What was told since the last call; "": nothing.
     std::string take_told();
 
-    using Clock = std::chrono::steady_clock;
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
     /// From one other thread: the oldest showing that was not taken yet.
@@ -83,6 +94,9 @@ struct Live {
 
   private:
     void note_zero(Time now) noexcept;
+
+    static constexpr Clock::rep kNever = 0;
+    std::atomic<Clock::rep> alive_{kNever};  // when note_alive() was called last
 
     std::mutex told_guard_;
     std::string told_;

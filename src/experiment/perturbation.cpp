@@ -35,7 +35,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Regio
     };
     if (spec.visual) {
         const VisualSpec& visual = *spec.visual;
-        Map& map = map_.emplace();
+        Map& map = map_.emplace(Map{});
         map.moves = moves_of(visual, diagnostics);
         map.object = scene.object_index();
         map.about = region(visual.about, visual.place, "about");
@@ -75,7 +75,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Regio
     }
     if (spec.field) {
         const ForceFieldSpec& given = *spec.field;
-        ForceField& field = field_.emplace();
+        ForceField& field = field_.emplace(ForceField{});
         field.kind = given.kind;
         field.damping = given.damping;
         field.stiffness = given.stiffness;

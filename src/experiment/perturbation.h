@@ -50,7 +50,7 @@ struct VisualSpec {
         v("moves", moves, Field::text().required());
         v("about", about, Field::text().required());
         v("scale", scale, Field::number().within(-10, 10));
-        v("axis", axis);
+        v("axis", axis, Field::number().within(-1000, 1000));
         v("angle", angle, Field::of(Quantity::angle).within(-6.3, 6.3));
         v("toward", toward);
         v("size", size, Field::number().within(0.1, 10));
@@ -100,7 +100,7 @@ struct ForceFieldSpec {
         v("on", on, Field::text().required());
         v("damping", damping, Field::of(Quantity::damping).within(-1000, 1000));
         v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5));
-        v("axis", axis);
+        v("axis", axis, Field::number().within(-1000, 1000));
         v("from", from);
         v("to", to);
         if constexpr (requires { v.place(); }) place = v.place();

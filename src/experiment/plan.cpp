@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 
+#include "base/regular_file.h"
 #include "base/table.h"
+#include "base/text_file.h"
 #include "experiment/plan_checks.h"
+#include "experiment/safety_limits.h"
 #include "experiment/task_director.h"
 #include "experiment/task_hand.h"
 
@@ -143,7 +147,12 @@ Plan make_plan(const Request& request) {
     overlay(plan, plan.scene.settings, diagnostics);
     overlay(plan, plan.rig.settings, diagnostics);
     overlay(plan, experiment.settings, diagnostics);
-    for (const std::string& text : request.set) overlay(plan, setting(text), diagnostics);
+    std::vector<Node> typed;
+    for (const std::string& text : request.set) typed.push_back(setting(text));
+    for (const Node& one : typed) overlay(plan, one, diagnostics);
+    SafetySources safety{plan.rig.settings, {&plan.scene.settings, &experiment.settings}};
+    for (const Node& one : typed) safety.others.push_back(&one);
+    limit_safety(plan, safety, diagnostics);
 
     if (plan.scene.hand.kind != Node::Kind::null)
         read_fields(plan.hand, plan.scene.hand, diagnostics);
@@ -193,10 +202,45 @@ Plan make_plan(const Request& request) {
     return plan;
 }
 
+namespace {
+
+uint64_t seed_of(const recording::SessionInfo& info, const recording::SessionFolder& folder) {
+    uint64_t seed = 0;
+    const char* const last = info.seed.data() + info.seed.size();
+    const auto [end, status] = std::from_chars(info.seed.data(), last, seed);
+    if (status == std::errc() && end == last) return seed;
+    throw Error({folder.file("session.yaml"), 0}, "seed", "is no whole number",
+                "Put it back as it was; raw.log has it in its first lines.");
+}
+
+/// How each attempt at a trial ended: trials.csv has a row for each, in the order in which they
+/// were made.
+std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
+    const auto bad = [&](const char* what) {
+        return Error({file, 0}, "", what,
+                     "Make it anew from raw.log: dihaptic recover, on the session's folder.");
+    };
+    if (read_bytes(file, kMostTable).empty()) throw bad("is empty");
+    if (!read_bytes(file, kMostTable).ends_with('\n')) throw bad("is cut off in its last line");
+    const CsvFile trials(file);
+    if (!trials.has("outcome")) throw bad("has no column 'outcome'");
+    std::vector<int> out;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const std::string outcome = trials.text(i, "outcome");
+        const auto same = [&](const TaskPlan::Outcome& o) { return o.name == outcome; };
+        const auto found = std::find_if(plan.outcomes.begin(), plan.outcomes.end(), same);
+        if (found != plan.outcomes.end())
+            out.push_back(static_cast<int>(found - plan.outcomes.begin()));
+    }
+    return out;
+}
+
+}  // namespace
+
 Plan make_rest(const std::string& session, recording::SessionInfo& info) {
     const auto folder = recording::SessionFolder::open(session);
     info = folder.read_info();
-    if (!fs::exists(folder.file("task.yaml"))) {
+    if (!is_there(folder.file("task.yaml"))) {
         throw Error({session, 0}, "", "has no trials that could go on",
                     "Run the experiment again; dihaptic recover makes the files of what there is.");
     }
@@ -206,7 +250,7 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
     Plan plan;
     plan.file = info.experiment;
     plan.title = info.title;
-    plan.seed = std::stoull(info.seed);
+    plan.seed = seed_of(info, folder);
     plan.resumes = folder.path();
     plan.scene_folder = folder.path();
     plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
@@ -221,16 +265,7 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
     diagnostics.throw_if_errors();
     made->trials = read_trial_list(task, folder.file("trial-list.csv"));
     plan.task = made;
-
-    // trials.csv has a row for each attempt, in the order in which they were made
-    const CsvFile trials(folder.file("trials.csv"));
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        const std::string outcome = trials.text(i, "outcome");
-        const auto same = [&](const TaskPlan::Outcome& o) { return o.name == outcome; };
-        const auto found = std::find_if(made->outcomes.begin(), made->outcomes.end(), same);
-        if (found != made->outcomes.end())
-            plan.done.push_back(static_cast<int>(found - made->outcomes.begin()));
-    }
+    plan.done = attempts_made(*made, folder.file("trials.csv"));
     if (TaskDirector(*made, plan.seed, plan.settings.tick(), plan.done).share() >= 1) {
         throw Error({session, 0}, "", "is complete: every trial is done",
                     "Run the experiment again for another session.");
@@ -255,7 +290,7 @@ void apply_setting(servo::Settings& settings, const std::string& text) {
     diagnostics.throw_if_errors();
 }
 
-std::unique_ptr<servo::Servo> make_servo(const Plan& plan) {
+std::unique_ptr<servo::Servo> make_servo(const Plan& plan, const std::string& keeper) {
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);
     devices::Context context;
     context.tick = plan.settings.tick();
@@ -263,8 +298,14 @@ std::unique_ptr<servo::Servo> make_servo(const Plan& plan) {
     context.impedance = plan.hand.impedance;
     context.tremor = plan.hand.tremor;
     context.seed = plan.seed;
+    std::optional<keeper::Keeping> keeping;
+    if (!keeper.empty()) {
+        // a tick more than the servo allows itself, as its own watchdog has it
+        const double silence = plan.settings.safety.max_pause + plan.settings.tick();
+        keeping = {keeper, silence, plan.settings.real_time_priority};
+    }
     return std::make_unique<servo::Servo>(plan.scene, plan.settings,
-                                          rig::make_devices(plan.rig, fingers, context),
+                                          rig::make_devices(plan.rig, fingers, context, keeping),
                                           rig::poses(plan.rig, fingers), rig::wall_box(plan.rig));
 }
 

@@ -71,7 +71,8 @@ Plan make_plan(const Request& request);
 /// there is nothing left, or it has no trials.
 Plan make_rest(const std::string& session, recording::SessionInfo& info);
 
-/// Servo on the plan's rig.
-std::unique_ptr<servo::Servo> make_servo(const Plan& plan);
+/// Servo on the plan's rig. `keeper`: the program that owns its devices if they are real; "": this
+/// one does.
+std::unique_ptr<servo::Servo> make_servo(const Plan& plan, const std::string& keeper = "");
 
 }  // namespace dihaptic::experiment

@@ -13,6 +13,9 @@
 
 namespace dihaptic::experiment {
 
+/// Shares are 0 to 1 and their logarithms a few units: levels beyond are slips.
+constexpr double kFurthestLevel = 100;
+
 struct StaircaseSpec {
     int down_after = 1;
     double start = 1;
@@ -26,11 +29,11 @@ struct StaircaseSpec {
     template <class Visitor>
     void visit(Visitor& v) {
         v("down_after", down_after, Field::number().within(1, 10));
-        v("start", start, Field::number().required());
-        v("steps_up", steps_up, Field::number().positive().required());
-        v("down_over_up", down_over_up, Field::number().positive());
-        v("lowest", lowest, Field::number());
-        v("highest", highest, Field::number());
+        v("start", start, Field::number().within(-kFurthestLevel, kFurthestLevel).required());
+        v("steps_up", steps_up, Field::number().within(1e-6, kFurthestLevel).required());
+        v("down_over_up", down_over_up, Field::number().within(0.01, 100));
+        v("lowest", lowest, Field::number().within(-kFurthestLevel, kFurthestLevel));
+        v("highest", highest, Field::number().within(-kFurthestLevel, kFurthestLevel));
         v("reversals", reversals, Field::number().within(0, 1000));
         v("skipped_reversals", skipped_reversals, Field::number().within(0, 1000));
     }
@@ -47,12 +50,13 @@ struct QuestSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("prior_mean", prior_mean, Field::number().required());
-        v("prior_sd", prior_sd, Field::number().positive().required());
+        v("prior_mean", prior_mean,
+          Field::number().within(-kFurthestLevel, kFurthestLevel).required());
+        v("prior_sd", prior_sd, Field::number().within(1e-6, kFurthestLevel).required());
         v("target", target, Field::number().within(0, 1));
-        v("slope", slope, Field::number().positive());
+        v("slope", slope, Field::number().within(1e-3, 1000));
         v("blind", blind, Field::number().within(0, 1));
-        v("grain", grain, Field::number().positive());
+        v("grain", grain, Field::number().within(1e-6, 10));
         v("cells", cells, Field::number().within(2, 10000));
     }
 };
@@ -72,8 +76,8 @@ struct GridSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("from", from, Field::number().required());
-        v("to", to, Field::number().required());
+        v("from", from, Field::number().within(-1e4, 1e4).required());
+        v("to", to, Field::number().within(-1e4, 1e4).required());
         v("count", count, Field::number().within(1, 1000).required());
     }
 };

@@ -1,11 +1,12 @@
 #include "experiment/replay.h"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
 
 #include "base/field_writer.h"
-#include "recording/raw_log.h"
+#include "recording/log_scene.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -52,6 +53,19 @@ uint32_t reported(uint32_t status) {
     return out;
 }
 
+/// What is read of the log goes to the scene's fingers and bodies, and their devices, one to one.
+void check(const recording::LogHead& head, const scene::Scene& scene, const std::string& file) {
+    recording::check_fits(head, scene, file);
+    const auto holds = [](const recording::DeviceRecord& device, const std::string& finger) {
+        return device.finger == finger;
+    };
+    if (std::equal(head.devices.begin(), head.devices.end(), head.fingers.begin(),
+                   head.fingers.end(), holds))
+        return;
+    throw Error({file, 0}, "devices", "are not those of the session's fingers, in order",
+                "Put this session's own log back.");
+}
+
 std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& setup,
                                                         const devices::Context& context) {
     std::vector<devices::DeviceConfig> configs;
@@ -65,6 +79,8 @@ std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& 
         options("peak_torque", device.peak_torque, Field::of(Quantity::torque));
         options("continuous_torque", device.continuous_torque, Field::of(Quantity::torque));
         options("scale", device.scale);
+        options("simulated", device.simulated);
+        if (device.damping) options("damping", *device.damping, Field::of(Quantity::damping));
         configs.push_back({device.finger, {}, options.take()});
     }
     return devices::find_backend("replay")->make(configs, context);
@@ -88,6 +104,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     servo::Settings settings;
     read_fields(settings, read_yaml(folder.file("settings.yaml")), diagnostics);
     diagnostics.throw_if_errors();
+    check(head, scene, folder.raw_log());
 
     const servo::Frame* recorded = log.next();
     devices::Context context;
@@ -112,6 +129,9 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
                                          servo::Commands& commands) {
         commands.force_off = (recorded->status & servo::kStopped) != 0;
+        commands.rest = (recorded->status & servo::kPaused) != 0;
+        // for how long is not known any more, and changes nothing
+        commands.abandoned = (recorded->status & servo::kAbandoned) != 0 ? 1 : 0;
         commands.tuning = {
             static_cast<haptics::CouplingKind>(recorded->coupling), recorded->stiffness,
             std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
@@ -127,6 +147,8 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
         if (recorded->status & servo::kResumed) servo.resume();
+        servo.note_timing(recorded->lateness, recorded->tick_duration,
+                          (recorded->status & servo::kOverrun) != 0);
         if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)
             result.first_difference = seconds(recorded->time);
         ++result.ticks;
@@ -138,13 +160,12 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     result.interrupted = stop.load();
     if (result.interrupted) return result;
 
-    while (log.next() != nullptr) continue;  // for what is missing after the first gap
-    const recording::LogHealth& health = log.health();
+    const recording::LogHealth& health = log.read_to_end();  // for what is missing after a gap
     result.log = recording::describe(health, info.ticks, head.planned());
     // of a session that was recovered it is known that it has no end; of others that is news
-    const bool recovered = info.state == recording::SessionState::recovered;
-    result.damaged = !health.gaps.empty() || health.last_tick + 1 < info.ticks ||
-                     (!recovered && health.damaged(info.ticks));
+    const bool endless = info.state == recording::SessionState::recovered && !health.complete;
+    result.damaged = !health.gaps.empty() || !health.strays.empty() ||
+                     health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));
     if (progress) progress(1);
     return result;
 }

@@ -15,7 +15,7 @@ struct ReplayResult {
     double first_difference = -1;  ///< session time [s]
     double elapsed = 0;
     bool interrupted = false;
-    bool damaged = false;           ///< the log has less than the session's state says
+    bool damaged = false;           ///< the log is not what the session's state says
     std::vector<std::string> log;   ///< what is missing of it, in sentences
     std::vector<Problem> warnings;  ///< about the session's other files
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <condition_variable>
 #include <filesystem>
+#include <random>
 #include <thread>
 
+#include "base/field_writer.h"
 #include "base/plural.h"
 #include "experiment/frozen_inputs.h"
 #include "experiment/outward.h"
@@ -43,6 +45,18 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
     head.fingers = scene::finger_names(scene);
     for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
     return head;
+}
+
+/// On the virtual clock the same session is the same file, and has the same identity: it comes from
+/// what the session depends on. On the real clock no two are the same.
+std::string identity_of(const recording::Setup& setup, const Plan& plan, bool real) {
+    if (real) {
+        std::random_device random;
+        return fmt::format("{:08x}{:08x}", random(), random());
+    }
+    std::string text = to_yaml(write_fields(setup));
+    for (const int outcome : plan.done) text += fmt::format("{} ", outcome);
+    return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
 }
 
 /// Whether a trigger comes to a simulated session in this tick: what is waited for comes once a
@@ -154,7 +168,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     if (const int object = plan.scene.object_index(); object >= 0) {
         info.object = plan.scene.bodies[static_cast<size_t>(object)].name;
     }
-    const auto servo = make_servo(plan);
+    const auto servo = make_servo(plan, options.keeper);
     for (int i = 0; i < servo->devices().size(); ++i) {
         const devices::DeviceInfo& device = servo->devices().info(i);
         recording::DeviceRecord record{plan.scene.fingers[static_cast<size_t>(i)].name,
@@ -170,6 +184,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             record.continuous_force = device.continuous_force;
         if (std::isfinite(device.continuous_torque))
             record.continuous_torque = device.continuous_torque;
+        record.simulated = device.simulated;
+        if (servo->real()) record.damping = servo->damping();
         info.devices.push_back(record);
     }
     if (!plan.task) info.phases = phases_of(*plan.driver);
@@ -186,13 +202,15 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
                                          100 * plan.movement->bridged_share));
     }
     info.inputs = freeze_inputs(plan, folder);
+    info.identity = identity_of(info, plan, real);
     folder.write_info(info);
 
     recording::Recorder recorder(
         folder.raw_log(), log_head(plan.scene, plan.settings, info),
-        real ? recording::Writing::in_thread : recording::Writing::in_place);
+        real ? recording::Writing::in_thread : recording::Writing::in_place, options.sync);
     result.lock.emplace(folder);
-    std::optional<Outward> outward;  // others must not take a rehearsal for a session
+    if (real || options.sync > 0) folder.sync();  // what it is about, before it begins
+    std::optional<Outward> outward;               // others must not take a rehearsal for a session
     if (plan.seeing) plan.seeing->restart();
     try {
         if (real && !plan.rig.outlets.empty())
@@ -252,6 +270,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         commands.force_off = real && stop.load(std::memory_order_relaxed);
         if (live == nullptr) return;
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
+        commands.rest = live->paused.load(std::memory_order_relaxed);
+        commands.abandoned = live->abandoned();
         commands.solver = live->solver.read();
         commands.tuning = live->tune(servo->settings().coupling.tuning(), plan.settings.tick());
         if (plan.settings.proxy.changeable && last.sequence >= 0)
@@ -278,8 +298,15 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         if (const std::string said = servo->devices().explain(static_cast<int>(device));
             fault.device >= 0 && !said.empty())
             out += " Its driver says: " + said;
-        if (fault.kind != haptics::FaultKind::stopped)
-            out += " The second before it is in fault.csv.";
+        const bool stopped = fault.kind == haptics::FaultKind::stopped;
+        if (!stopped) out += " The second before it is in fault.csv.";
+        if (live != nullptr) return out;  // who steers knows how it goes on
+        if (plan.task) {
+            out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
+                               folder.path());
+        } else if (!stopped) {
+            out += " Then start the session again.";
+        }
         return out;
     };
     const auto share = [&] {
@@ -298,19 +325,20 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
             showings.flush();
         });
         if (real) {
-            const std::atomic<bool> never{false};  // the director stops it, by a fault
-            const std::atomic<bool>& paused = live != nullptr ? live->paused : never;
+            const std::atomic<bool> never{false};  // the director stops it, with a last tick
             Time first{0};
             while (true) {
-                servo::run_real(*servo, director, sink, first, whole, paused, result.timing, stuck);
+                servo::run_real(*servo, director, sink, first, whole, never, result.timing, stuck);
                 servo->rest();
                 if (live == nullptr) break;
                 if (servo->fault() && !stop) {
                     info.notes.push_back(describe_fault());
                     if (task) task->interrupt();
                     live->tell(info.notes.back());
-                } else if (servo->stopped()) {
+                } else if (!servo->resting()) {
                     break;
+                } else if (task) {
+                    task->interrupt();
                 }
                 first = result.timing.reached + servo->period();
                 if (first > whole || !wait_to_go_on(*servo, *live, stop)) break;
@@ -347,6 +375,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         result.stall = servo::describe(*result.timing.stall);
         info.notes.push_back(result.stall);
     }
+
+    if (result.timing.pauses > 0) info.notes.push_back(servo::describe_pauses(result.timing));
 
     if (progress && !result.interrupted) progress(1);
 

@@ -18,6 +18,7 @@ struct RunOptions {
     Clock clock = Clock::virtual_clock;
     std::string out = "sessions";  ///< folder that session folders are made in
     std::string command;           ///< as typed, for the record
+    double sync = 0;  ///< how often raw.log is synchronised to the disk [s]; 0: at its end alone
     recording::Participant participant;
     std::atomic<char>* keys = nullptr;  ///< the operator's newest key, until a tick takes it
     /// Called from another thread when a call to the devices never returns, and run_session() thus
@@ -26,6 +27,9 @@ struct RunOptions {
     /// On active devices, before the first tick and without force: returns what is to be warned of.
     /// What it throws ends the session, of which nothing stays.
     std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
+    /// The program that owns real devices (keeper::program()): force goes when this one dies. "":
+    /// this process owns them.
+    std::string keeper;
     Live* live = nullptr;  ///< real clock only: who watches and steers; outlives the run
 };
 

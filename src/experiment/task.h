@@ -54,7 +54,7 @@ struct Exit {
         v("body", body);
         v("finger", finger);
         v("height", height, Field::length().within(1e-4, 10));
-        v("speed", speed, Field::of(Quantity::speed).positive());
+        v("speed", speed, Field::of(Quantity::speed).positive().at_most(100));
         v("hold", hold, Field::of(Quantity::time).within(0, 3600));
         v("key", key);
         v("button", button, Field::number().within(0, 31));
@@ -229,8 +229,8 @@ struct ReachMeasure {
         v("from", from, Field::text().required());
         v("to", to, Field::text().required());
         v("during", during, Field::text().required());
-        v("distance", distance, Field::length().positive());
-        v("axis", axis);
+        v("distance", distance, Field::length().within(1e-4, 10));
+        v("axis", axis, Field::number().within(-1000, 1000));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -222,6 +222,10 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
 std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
     const auto rows = read_csv(file);
     std::vector<Trial> out;
+    if (rows.size() < 2) {
+        throw Error({file, 0}, "", "has no trial",
+                    "Put back the list that the session was recorded with.");
+    }
     for (size_t i = 1; i < rows.size(); ++i) {
         const auto& row = rows[i];
         const auto bad = [&](const char* column) {

@@ -28,12 +28,12 @@ struct Impedance {
     template <class Visitor>
     void visit(Visitor& v) {
         v("mass", mass, Field::of(Quantity::mass).within(0, 100));
-        v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
-        v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(1e-3, 1e5));
+        v("damping", damping, Field::of(Quantity::damping).within(0, 1e4));
         v("stiffness_per_force", stiffness_per_force,
-          Field::of(Quantity::stiffness_per_force).at_least(0));
-        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).positive());
-        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).at_least(0));
+          Field::of(Quantity::stiffness_per_force).within(0, 1e5));
+        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).within(1e-4, 1000));
+        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).within(0, 10));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -65,7 +65,7 @@ struct FingerPlace {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
-        v("side", side);
+        v("side", side, Field::number().within(-kFarthest, kFarthest));
         v("offset", offset, Field::length().within(-kFarthest, kFarthest));
         v("centre", centre, Field::length().within(-kFarthest, kFarthest));
         v("aperture", aperture, Field::length().within(0, kFarthest));

@@ -111,6 +111,8 @@ class DualSpring {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
         return {f_H_W_, onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm()};
     }
+    /// Begins at the handle, where the spring is not stretched.
+    void place() noexcept { f_H_W_.setZero(); }
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
 

@@ -14,20 +14,35 @@ double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
 
 }  // namespace
 
+/// A window ends with a step of the world, until which nothing is judged.
+void EnergyGuard::count_windows(bool stepped, double h) noexcept {
+    window_ += h;
+    if (!stepped || window_ < kActiveWindow) return;
+    const double generated = *std::min_element(in_window_.begin(), in_window_.end());
+    const bool over = generated > budget_;
+    windows_ = over ? windows_ + 1 : 0;
+    fed_ = over ? fed_ + generated : 0;
+    in_window_ = {};
+    window_ = 0;
+}
+
 Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W,
                           double stored, bool stepped, double h, unsigned& flags) noexcept {
     const bool finite = asked_W.force.allFinite() && asked_W.torque.allFinite();
-    if (mode_ == EnergyGuardMode::off || !finite) return {};
+    if (!finite) return {};
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
                            work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
     const bool slack = asked_W.is_zero();
     // what does not act gets nothing, and keeps what it did not give, as far as it stays stretched
     if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
-        for (size_t i = 0; i < generated_.size(); ++i)
+        for (size_t i = 0; i < generated_.size(); ++i) {
             generated_[i] = std::max(0.0, generated_[i] + since_step_[i]);
+            in_window_[i] += since_step_[i];
+        }
         since_step_ = {};
     }
+    count_windows(stepped, h);
     if (started_) {
         const bool was_slack = asked_.is_zero();
         const auto by_proxy = [&](const Wrench& w) {
@@ -48,6 +63,7 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
+    if (mode_ == EnergyGuardMode::off) generated_ = {};  // feeding() counts on
     const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
     flags |= kEnergyGenerated;

@@ -26,6 +26,11 @@ constexpr double kMostEnergyDamping = 5;
 /// The same against turning [N*m*s/rad].
 constexpr double kMostEnergyTurnDamping = 0.004;
 
+/// A coupling that generates kEnergyBudget in each of so many windows in a row is active, whatever
+/// the guard's mode: that is a watt for 50 ms, more than a hand takes without being shaken.
+constexpr double kActiveWindow = 0.01;  // [s]
+constexpr int kActiveWindows = 5;
+
 class EnergyGuard {
   public:
     /// `budget` [J].
@@ -39,10 +44,18 @@ class EnergyGuard {
     Wrench watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W, double stored,
                  bool stepped, double h, unsigned& flags) noexcept;
 
+    /// What the coupling generated in the last windows, when it did so in all of them, or else 0
+    /// [J].
+    double feeding() const { return windows_ >= kActiveWindows ? fed_ : 0; }
+    /// Forgets all that it saw: what comes next may be elsewhere.
+    void restart() noexcept { *this = EnergyGuard(mode_, budget_); }
+
     /// Generated within the window, and not dissipated since [J].
     double generated() const { return *std::min_element(generated_.begin(), generated_.end()); }
 
   private:
+    void count_windows(bool stepped, double h) noexcept;
+
     EnergyGuardMode mode_;
     double budget_;
     bool started_ = false;
@@ -54,6 +67,11 @@ class EnergyGuard {
     // generated [J]: the proxy's work by the force at the end of the tick, and by the one held
     std::array<double, 2> since_step_{};
     std::array<double, 2> generated_{};
+    // for feeding(): the window that is being filled
+    std::array<double, 2> in_window_{};  // [J]
+    double window_ = 0;                  // [s]
+    int windows_ = 0;                    // so far in a row that were above the budget
+    double fed_ = 0;                     // in these [J]
 };
 
 }  // namespace dihaptic::haptics

@@ -26,6 +26,7 @@ void Finger::retune(const CouplingSettings& coupling) noexcept {
     } else {
         std::visit([&](auto& of) { of.retune(coupling.tuning()); }, coupling_);
     }
+    if (turn_) turn_->retune(coupling);
 }
 
 std::span<const contact::Contact> Finger::contacts() const noexcept {
@@ -43,6 +44,7 @@ void Finger::place(World& world, const Handle& handle) noexcept {
     if (turn_) X_WP.R = turn_->wanted(handle);
     world.set_pose(proxy_, X_WP);
     R_TP_ = X_WP.R;
+    if (auto* dual = std::get_if<DualSpring>(&coupling_)) dual->place();
     if (auto* point = std::get_if<PointProxy>(&coupling_)) point->place(world, handle.p_WH);
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->place(world, handle.p_WH);
 }

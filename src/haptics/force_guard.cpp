@@ -33,11 +33,23 @@ Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share, unsigne
     if (allowed && share < 1 && !felt.is_zero()) flags |= kSoftStarted;
     Wrench limited{limiter_.limit(share * felt.force, tick_, flags), Vec3::Zero()};
     if (torque_limiter_) limited.torque = torque_limiter_->limit(share * felt.torque, tick_, flags);
+    chatter_.add(limited.force, tick_);
     if (allowed) return limited;
     flags |= kSwitchedOff;
+    drop();
+    return {};
+}
+
+void ForceGuard::drop() noexcept {
     limiter_.drop();
     if (torque_limiter_) torque_limiter_->drop();
-    return {};
+}
+
+void ForceGuard::restart() noexcept {
+    limiter_.restart();
+    if (torque_limiter_) torque_limiter_->restart();
+    energy_.restart();
+    chatter_ = {};
 }
 
 }  // namespace dihaptic::haptics

@@ -8,6 +8,7 @@
 
 #include <limits>
 
+#include "haptics/chatter.h"
 #include "haptics/energy_guard.h"
 #include "haptics/limiter.h"
 #include "haptics/workspace_wall.h"
@@ -29,6 +30,7 @@ enum GuardFlags : unsigned {
     kPushedInward = 1u << 16,  ///< the handle was pushed back into the workspace
     kSoftStarted = 1u << 17,   ///< the force was still rising
     kSwitchedOff = 1u << 18,   ///< nobody held the dead-man switch
+    kRiseBounded = 1u << 19,   ///< the force was kept from rising while ticks were late
 };
 
 class ForceGuard {
@@ -46,6 +48,14 @@ class ForceGuard {
     /// The part of both that the device may be told. `allowed`: by the dead-man switch, without
     /// which it is zero at once; `share`: of SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept;
+    /// Zero was sent in place of what limit() gave: force rises again from there.
+    void drop() noexcept;
+    /// After a pause: force begins at zero, and what the coupling generated before is forgotten.
+    void restart() noexcept;
+    /// Energy that the coupling has gone on feeding into the hand, EnergyGuard::feeding() [J].
+    double feeding() const { return energy_.feeding(); }
+    /// Amplitude of a force that alternates from tick to tick, Chatter::amplitude() [N].
+    double chatter() const { return chatter_.amplitude(); }
     /// Energy that the coupling generated, as EnergyGuard counts it [J].
     double generated() const { return energy_.generated(); }
 
@@ -55,6 +65,7 @@ class ForceGuard {
     WorkspaceWall wall_;
     Limiter limiter_;
     std::optional<Limiter> torque_limiter_;  // of a device that renders torque
+    Chatter chatter_;
 };
 
 }  // namespace dihaptic::haptics

@@ -1,5 +1,9 @@
 #include "haptics/limiter.h"
 
+#include <algorithm>
+
+#include "haptics/settings.h"
+
 namespace dihaptic::haptics {
 
 Vec3 Limiter::limit(const Vec3& asked, double h, unsigned& flags) noexcept {
@@ -20,8 +24,10 @@ Vec3 Limiter::limit(const Vec3& asked, double h, unsigned& flags) noexcept {
         flags |= kHeatLimited;
     }
     const Vec3 change = force - last_;
-    if (const double size = change.norm(); size > max_rate_ * h) {
-        force = last_ + change * (max_rate_ * h / size);
+    const bool falls = force.squaredNorm() < last_.squaredNorm();
+    const double most = h * (falls ? std::max(max_rate_, max_force_ / kLongestFall) : max_rate_);
+    if (const double size = change.norm(); size > most) {
+        force = last_ + change * (most / size);
         flags |= kRateLimited;
     }
     last_ = force;

@@ -13,6 +13,7 @@ class RotationalCoupling {
     RotationalCoupling(const CouplingSettings& settings, double inertia, const Quat& R_HP)
         : settings_(settings), inertia_(inertia), R_HP_(R_HP) {}
 
+    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
     /// R_WP of a proxy that follows without a lag.
     Quat wanted(const Handle& handle) const noexcept { return handle.R_WH * R_HP_; }
     /// Folds spring and damper into the proxy's inertia and angular velocity. `share`: of Onset;

@@ -63,19 +63,19 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
             return "";
         case FaultKind::bad_reading:
             what = which + "gave a position or a velocity that is not a number";
-            remedy = "Look at its cables and its calibration, then start the session again.";
+            remedy = "Look at its cables and its calibration.";
             break;
         case FaultKind::not_answering:
             what = which + "does not answer";
-            remedy = "Look at its power and its cables, then start the session again.";
+            remedy = "Look at its power and its cables.";
             break;
         case FaultKind::uncalibrated:
             what = which + "lost its calibration";
-            remedy = "Calibrate it as its maker says, then start the session again.";
+            remedy = "Calibrate it as its maker says.";
             break;
         case FaultKind::device_fault:
             what = which + "reports a fault of its own";
-            remedy = "Let it cool, switch it off and on, then start the session again.";
+            remedy = "Let it cool, switch it off and on.";
             break;
         case FaultKind::too_fast:
             what = which + fmt::format("moved at {:.3g} m/s, and {:g} m/s are allowed", fault.value,
@@ -90,11 +90,14 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
             remedy = "Look at its cables and the encoders of its gimbal.";
             break;
         case FaultKind::late:
+            if (fault.value < 0) {
+                what = fmt::format("the clock went back by {:.3g} ms", -fault.value * 1e3);
+                remedy = "Report it as a bug, with the session's folder.";
+                break;
+            }
             what = fmt::format("nothing answered the hands for {:.0f} ms, and {:g} ms are allowed",
                                fault.value * 1e3, fault.limit * 1e3);
-            remedy =
-                "Close other programs, or look for a device that blocks; then start the session "
-                "again.";
+            remedy = "Close other programs, or look for a device that blocks.";
             break;
         case FaultKind::not_finite:
             what = (fault.device < 0 ? "" : fmt::format("for the {} ", finger)) +
@@ -103,9 +106,40 @@ std::string describe(const Fault& fault, const std::string& finger, const std::s
                 "Look for an extreme mass, stiffness or damping, or report the session's folder as "
                 "a bug.";
             break;
+        case FaultKind::keeps_late:
+            what = fmt::format(
+                "so many ticks came late, {:.0f} ms on average, that not even {:g} N/m could be "
+                "rendered calmly",
+                fault.value * 1e3, fault.limit);
+            remedy = "Close other programs, or lower the rate.";
+            break;
+        case FaultKind::diverged:
+            what = "the simulation diverged: the place or the speed of a body is not a number";
+            remedy =
+                "Look for an extreme mass, stiffness or damping, or report the session's folder as "
+                "a bug.";
+            break;
+        case FaultKind::active:
+            what = (fault.device < 0 ? "" : fmt::format("the {}'s ", finger)) +
+                   fmt::format(
+                       "coupling went on feeding energy into the hand, {:.2g} J more than "
+                       "was put in",
+                       fault.value);
+            remedy = "Soften the coupling, raise its damping, or give its body more mass.";
+            break;
+        case FaultKind::chatters:
+            what = (fault.device < 0 ? "" : fmt::format("the {}'s ", finger)) +
+                   fmt::format("force went on alternating from tick to tick, by {:.1f} N",
+                               fault.value);
+            remedy = "Soften the coupling, raise its damping, or give its body more mass.";
+            break;
+        case FaultKind::abandoned:
+            what = fmt::format("the window has not answered for {:.1f} s", fault.value);
+            remedy = "Close other programs.";
+            break;
         case FaultKind::stopped:
             what = "it was stopped by the operator";
-            remedy = "What was done until then is recorded; start the session again to go on.";
+            remedy = "What was done until then is recorded.";
             break;
     }
     return fmt::format("force is off since {:.3f} s: {}. {}", seconds(fault.time), what, remedy);

@@ -19,8 +19,13 @@ enum class FaultKind {
     device_fault,     ///< the device reports that something in it is broken
     too_fast,         ///< the handle moved faster than `max_speed`, or jumped
     turned_too_fast,  ///< or turned faster than kMostTurning
-    late,             ///< no force was computed for longer than `max_pause`
+    late,             ///< no force was computed for longer than `max_pause`, or `max_late`
+    keeps_late,       ///< so many ticks were late that the loop holds nothing any more
     not_finite,       ///< the force that was computed is not a number
+    diverged,         ///< the place or the speed of something in the world is not a number
+    active,           ///< a coupling went on feeding energy into a hand
+    chatters,         ///< a force went on alternating from tick to tick
+    abandoned,        ///< whoever watches the session, a window, does not answer any more
     stopped,          ///< the operator switched force off
 };
 
@@ -35,7 +40,8 @@ struct Fault {
     explicit operator bool() const { return kind != FaultKind::none; }
 };
 
-/// One sentence, and what to do. `finger` held the device, a `model`.
+/// One sentence, and what to do about the cause; how the session goes on is whoever runs it to say.
+/// `finger` held the device, a `model`.
 std::string describe(const Fault& fault, const std::string& finger, const std::string& model);
 
 /// Keeps the first fault: those after it are its consequences.

@@ -11,6 +11,12 @@
 
 namespace dihaptic::haptics {
 
+/// The stiffest admittance displays render some 5e4 N/m and 1e3 N*s/m; no hand is asked to bear
+/// more than a kilonewton.
+constexpr double kMostStiffness = 1e5;  // [N/m]
+constexpr double kMostDamping = 1000;   // [N*s/m]
+constexpr double kMostForce = 1000;     // [N]
+
 enum class CouplingKind { implicit, dual_spring, velocity_impulse };
 constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
@@ -50,22 +56,24 @@ struct CouplingSettings {
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind);
-        v("stiffness", stiffness, Field::of(Quantity::stiffness).positive());
-        v("damping", damping, Field::of(Quantity::damping).at_least(0));
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(1, kMostStiffness));
+        v("damping", damping, Field::of(Quantity::damping).within(0, kMostDamping));
         v("stiffness_share", stiffness_share, Field::number().positive().at_most(1));
         v("damping_share", damping_share, Field::number().within(0, 1));
         if constexpr (requires { v.diagnostics(); }) {
             one_of_two(v, "stiffness", Quantity::stiffness, stiffness_share);
             one_of_two(v, "damping", Quantity::damping, damping_share);
         }
-        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).positive());
-        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).at_least(0));
+        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).within(1e-4, 1000));
+        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).within(0, 10));
         v("onset", onset, Field::of(Quantity::time).within(0, 1));
-        v("body_mass", body_mass, Field::of(Quantity::mass).positive());
-        v("body_damping_along", body_damping_along, Field::of(Quantity::damping).at_least(0));
-        v("body_damping_across", body_damping_across, Field::of(Quantity::damping).at_least(0));
-        v("free_stiffening", free_stiffening, Field::number().at_least(1));
-        v("smoothing", smoothing, Field::number().positive().at_most(1));
+        v("body_mass", body_mass, Field::of(Quantity::mass).within(1e-4, 10));
+        v("body_damping_along", body_damping_along,
+          Field::of(Quantity::damping).within(0, kMostDamping));
+        v("body_damping_across", body_damping_across,
+          Field::of(Quantity::damping).within(0, kMostDamping));
+        v("free_stiffening", free_stiffening, Field::number().within(1, 100));
+        v("smoothing", smoothing, Field::number().within(0.001, 1));
     }
 
     Tuning tuning() const { return {kind, stiffness, damping, smoothing}; }
@@ -117,7 +125,7 @@ struct ProxySettings {
         v("kind", kind);
         v("friction", friction);
         v("sliding_friction", sliding_friction, Field::number().within(0, 1));
-        v("popthrough", popthrough, Field::of(Quantity::force).positive());
+        v("popthrough", popthrough, Field::of(Quantity::force).within(0.01, kMostForce));
         v("changeable", changeable);
     }
 
@@ -129,6 +137,14 @@ constexpr auto enum_names(EnergyGuardMode) {
     return std::array{"off", "warn", "act"};
 }
 
+/// In what time any force has fallen to zero when nothing asks for it any more: a slower slew limit
+/// would go on pushing a hand that has left everything for longer than it takes to notice [s]. The
+/// Limiter sees to it.
+constexpr double kLongestFall = 0.1;
+/// What brings a Premium's 8.5 N down in that time, and the sigma.7's 0.4 N*m.
+constexpr double kLeastForceRate = 85;  // [N/s]
+constexpr double kLeastTorqueRate = 4;  // [N*m/s]
+
 /// What no force may exceed, whatever computed it, and what switches force off.
 struct SafetySettings {
     std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
@@ -138,6 +154,11 @@ struct SafetySettings {
     double max_speed = 10;             ///< of a handle; a hand that throws reaches a few m/s [m/s]
     /// From one tick to the next, longer than any tick: so long a force may be held [s].
     double max_pause = 0.04;
+    /// Of a tick, after when it was due; unset: only `max_pause` counts [s].
+    std::optional<double> max_late;
+    /// Of handle and hand, that the stiffness is judged by which a late loop holds; unset: what the
+    /// devices tell, or that of a loose hand [N*s/m].
+    std::optional<double> hand_damping;
     /// In which the device's motors warm, and cool: of the order of a small motor's winding [s].
     double heating_time = 10;
     double workspace_stiffness = 500;  ///< of the wall where a device's reach ends; 0: none [N/m]
@@ -156,19 +177,26 @@ struct SafetySettings {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("max_force", max_force, Field::of(Quantity::force).positive());
-        v("max_force_rate", max_force_rate, Field::of(Quantity::force_rate).positive());
-        v("max_torque", max_torque, Field::of(Quantity::torque).positive());
-        v("max_torque_rate", max_torque_rate, Field::of(Quantity::torque_rate).positive());
-        v("max_speed", max_speed, Field::of(Quantity::speed).positive());
-        v("max_pause", max_pause, Field::of(Quantity::time).within(0.02, 1));
-        v("heating_time", heating_time, Field::of(Quantity::time).within(1, 1000));
+        const auto limit = [](Quantity quantity, double low, double high,
+                              Tighter way = Tighter::less) {
+            return Field::of(quantity).within(low, high).tighter_when(way);
+        };
+        v("max_force", max_force, limit(Quantity::force, 0.01, kMostForce));
+        v("max_force_rate", max_force_rate, limit(Quantity::force_rate, kLeastForceRate, 1e6));
+        v("max_torque", max_torque, limit(Quantity::torque, 1e-4, 100));
+        v("max_torque_rate", max_torque_rate, limit(Quantity::torque_rate, kLeastTorqueRate, 1e5));
+        v("max_speed", max_speed, limit(Quantity::speed, 1e-3, 100));
+        v("max_pause", max_pause, limit(Quantity::time, 0.02, 1));
+        v("max_late", max_late, limit(Quantity::time, 1e-4, 1));
+        v("hand_damping", hand_damping, limit(Quantity::damping, 0.1, 100, Tighter::fixed));
+        v("heating_time", heating_time, limit(Quantity::time, 1, 1000));
         v("workspace_stiffness", workspace_stiffness,
-          Field::of(Quantity::stiffness).within(0, 2000));
-        v("soft_start", soft_start, Field::of(Quantity::time).within(0, 10));
+          limit(Quantity::stiffness, 0, 2000, Tighter::more));
+        v("soft_start", soft_start, limit(Quantity::time, 0, 10, Tighter::more));
+        // one that the rig asks for stays what it is
         v("dead_man_finger", dead_man_finger);
         v("dead_man_button", dead_man_button, Field::number().within(0, 31));
-        v("energy_guard", energy_guard);
+        v("energy_guard", energy_guard, Field::number().tighter_when(Tighter::more));
     }
 };
 

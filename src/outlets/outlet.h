@@ -50,9 +50,10 @@ class Outlet {
 
     /// An event code, 1 to 255, of the tick at `at`. Throws Error when it cannot be sent.
     virtual void mark(int code, Clock::time_point at) = 0;
-    /// A value for each of About::channels.
+    /// A value for each of About::channels. Throws Error when they cannot be sent.
     virtual void sample(std::span<const float>, Clock::time_point) {}
     /// Called about every millisecond. Returns the trigger that came in since, 1 to 255; 0: none.
+    /// Throws Error when none can come in any more.
     virtual int tend(Clock::time_point) { return 0; }
 };
 

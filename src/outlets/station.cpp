@@ -55,8 +55,8 @@ void Station::call(Line& line, const Call& call) {
         call(*line.outlet);
     } catch (const Error& e) {
         failures_.push_back(
-            fmt::format("{}: {} From here on it got no event codes; they are all "
-                        "in events.csv.",
+            fmt::format("{}: {} From here on nothing went to it or came from it; all event codes "
+                        "are in events.csv.",
                         line.kind, e.what()));
         line.outlet.reset();
     }

@@ -76,13 +76,13 @@ struct Traits {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        const Field time = Field::of(Quantity::time).at_least(0);
+        const Field time = Field::of(Quantity::time).within(0, 60);
         const Field share = Field::number().within(0, 1);
-        const Field angle = Field::of(Quantity::angle).at_least(0);
+        const Field angle = Field::of(Quantity::angle).within(0, 7);
         v("id", id);
         v("objects", objects);
         v("visual_delay", visual_delay, Field::of(Quantity::time).within(0, 1));
-        v("visual_noise", visual_noise, Field::length().at_least(0));
+        v("visual_noise", visual_noise, Field::length().within(0, 1));
         v("reaction_time", reaction_time, time);
         v("reaction_noise", reaction_noise, share);
         v("tempo", tempo, Field::number().within(0.1, 10));
@@ -98,11 +98,11 @@ struct Traits {
         v("gain_retention", gain_retention, share);
         v("gain_learning", gain_learning, share);
         v("safety_margin", safety_margin, Field::number().within(0, 0.95));
-        v("least_grip", least_grip, Field::of(Quantity::force).at_least(0));
-        v("peak_grip", peak_grip, Field::number().at_least(1));
+        v("least_grip", least_grip, Field::of(Quantity::force).within(0, 100));
+        v("peak_grip", peak_grip, Field::number().within(1, 10));
         v("preload_time", preload_time, time);
         v("load_time", load_time, time.positive());
-        v("load_time_rise", load_time_rise, Field::number().at_least(0));
+        v("load_time_rise", load_time_rise, Field::number().within(0, 10));
         v("reflex_latency", reflex_latency, Field::of(Quantity::time).within(0, 1));
         v("reflex_noise", reflex_noise, time);
         v("weight_learning", weight_learning, share);
@@ -110,8 +110,8 @@ struct Traits {
         v("skin_time", skin_time, Field::of(Quantity::time).within(0, 1));
         v("mass_retention", mass_retention, share);
         v("mass_learning", mass_learning, share);
-        v("answer_bias", answer_bias);
-        v("answer_sd", answer_sd, Field::number().positive());
+        v("answer_bias", answer_bias, Field::number().within(-10, 10));
+        v("answer_sd", answer_sd, Field::number().positive().at_most(10));
         v("answer_lapse", answer_lapse, Field::number().within(0, 0.5));
         v("hesitation_rate", hesitation_rate, share);
         v("hesitation_time", hesitation_time, time);

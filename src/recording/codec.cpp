@@ -1,6 +1,5 @@
 #include "recording/codec.h"
 
-#include <bit>
 #include <cstring>
 
 namespace dihaptic::recording {
@@ -8,7 +7,6 @@ namespace {
 
 using servo::Frame;
 
-static_assert(std::endian::native == std::endian::little, "the log is little-endian");
 static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
 
 /// What a field takes in the log.

@@ -14,24 +14,72 @@ int64_t LogHealth::missing() const {
     return sum;
 }
 
-bool LogHealth::damaged(int64_t ticks) const {
-    return !complete || tail_bytes > 0 || last_tick + 1 < ticks ||
-           std::any_of(gaps.begin(), gaps.end(),
-                       [](const Gap& gap) { return gap.damaged_bytes > 0; });
+void LogHealth::note(Stray::Kind kind, int64_t count, int64_t bytes) {
+    const auto same = [&](const Stray& stray) { return stray.kind == kind; };
+    auto found = std::find_if(strays.begin(), strays.end(), same);
+    if (found == strays.end()) found = strays.insert(found, {kind, 0, 0, last_time});
+    found->count += count;
+    found->bytes += bytes;
 }
+
+bool LogHealth::damaged(int64_t ticks) const {
+    return !complete || written != frames || !strays.empty() || tail_bytes > 0 || tail_chunks > 0 ||
+           last_tick + 1 < ticks || std::any_of(gaps.begin(), gaps.end(), [](const Gap& gap) {
+               return gap.damaged_bytes > 0 || gap.chunks > 0;
+           });
+}
+
+namespace {
+
+std::string why(const Gap& gap) {
+    if (gap.damaged_bytes > 0)
+        return counted(gap.damaged_bytes, "byte") + " of the log are damaged there";
+    if (gap.chunks > 0) return counted(gap.chunks, "chunk") + " of the log gone there";
+    return "the recorder could not keep up";
+}
+
+std::string describe(const Stray& stray) {
+    const std::string chunks = counted(stray.count, "chunk");
+    const std::string bytes = counted(stray.bytes, "byte");
+    const double from = seconds(stray.from);
+    switch (stray.kind) {
+        case Stray::Kind::moved:
+            return fmt::format(
+                "{} of the log not in place, from {:.3f} s on: used in the order of their numbers",
+                chunks, from);
+        case Stray::Kind::doubled:
+            return fmt::format("{} of the log there twice, from {:.3f} s on: used once", chunks,
+                               from);
+        case Stray::Kind::foreign:
+            return fmt::format("{} of another session in the log ({}), from {:.3f} s on: left out",
+                               chunks, bytes, from);
+        case Stray::Kind::after_end:
+            return fmt::format("{} behind the log's end mark, at {:.3f} s: left out", bytes, from);
+        case Stray::Kind::no_chunk:
+            return fmt::format("{} in the log that no recorder wrote, from {:.3f} s on: left out",
+                               bytes, from);
+        case Stray::Kind::no_frame:
+            return fmt::format(
+                "{} of the log with a right checksum and what is no frame, from {:.3f} s on: used "
+                "up to that",
+                chunks, from);
+        case Stray::Kind::backwards:
+            break;
+    }
+    return fmt::format("{} in the log no later than the one before, from {:.3f} s on: left out",
+                       counted(stray.count, "frame"), from);
+}
+
+}  // namespace
 
 std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double planned) {
     constexpr size_t kMostGaps = 10;  // more say no more
     std::vector<std::string> out;
     for (size_t i = 0; i < health.gaps.size() && i < kMostGaps; ++i) {
         const Gap& gap = health.gaps[i];
-        const std::string why =
-            gap.damaged_bytes > 0
-                ? fmt::format("{} of the log are damaged there", counted(gap.damaged_bytes, "byte"))
-                : "the recorder could not keep up";
         out.push_back(fmt::format("{} missing from tick {} on, between {:.3f} s and {:.3f} s: {}",
                                   counted(gap.ticks, "tick"), gap.first, seconds(gap.before),
-                                  seconds(gap.after), why));
+                                  seconds(gap.after), why(gap)));
     }
     if (health.gaps.size() > kMostGaps) {
         out.push_back(
@@ -39,6 +87,7 @@ std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double
                         counted(static_cast<int64_t>(health.gaps.size() - kMostGaps), "more gap"),
                         counted(health.missing(), "tick")));
     }
+    for (const Stray& stray : health.strays) out.push_back(describe(stray));
     const int64_t at_end = ticks - 1 - health.last_tick;
     const double end = seconds(health.last_time);
     if (at_end > 0) {
@@ -50,6 +99,14 @@ std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double
                                   counted(health.tail_bytes, "byte"),
                                   health.unfinished ? "an unfinished chunk" : "damaged",
                                   counted(health.tail_ticks, "tick")));
+    }
+    if (health.tail_chunks > 0) {
+        out.push_back(fmt::format("{} gone before the log's end mark, after {:.3f} s",
+                                  counted(health.tail_chunks, "chunk"), end));
+    }
+    if (health.complete && health.written >= 0 && health.written != health.frames) {
+        out.push_back(fmt::format("the log's end mark tells of {}; {} were read",
+                                  counted(health.written, "frame"), health.frames));
     }
     if (!health.complete && ticks == 0) {
         const std::string plan = planned > 0 ? fmt::format(" of {:.3f} s planned", planned) : "";

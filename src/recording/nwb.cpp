@@ -392,6 +392,8 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
 }
 
 int64_t ticks_in_nwb(const SessionFolder& folder) {
+    std::error_code unreadable;  // HDF5 would wait for a pipe
+    if (!std::filesystem::is_regular_file(folder.nwb(), unreadable)) return -1;
     return hdf5::rows_of(folder.nwb(), "acquisition/status/data");
 }
 

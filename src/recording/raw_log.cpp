@@ -3,38 +3,22 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 
+#include "base/disk.h"
 #include "base/field_reader.h"
 #include "base/field_writer.h"
+#include "recording/frame_check.h"
 
 namespace dihaptic::recording {
 namespace {
 
-constexpr char kMagic[] = "DIHAPTIC LOG 1\n";
-constexpr size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr uint32_t kHead = 0x44414548;  // "HEAD"
-constexpr uint32_t kData = 0x41544144;  // "DATA"
-constexpr uint32_t kDone = 0x454E4F44;  // "DONE"
-constexpr uint32_t kMostPayload = 1u << 28;
-
-struct ChunkHeader {
-    uint32_t kind;
-    uint32_t size;
-    uint32_t checksum;
-};
-
-uint32_t checksum(uint32_t kind, std::span<const std::byte> payload) {
-    const auto size = static_cast<uint32_t>(payload.size());
-    uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(&kind), sizeof(kind));
-    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(&size), sizeof(size));
-    return static_cast<uint32_t>(
-        crc32_z(crc, reinterpret_cast<const Bytef*>(payload.data()), payload.size()));
-}
+/// A chunk that a disk kept waiting is written at this length [bytes].
+constexpr size_t kLongChunk = 8u << 20;
 
 void write_all(int descriptor, const void* data, size_t size, const std::string& file) {
     const char* at = static_cast<const char*>(data);
@@ -52,6 +36,31 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
     }
 }
 
+/// Names become parts of other files' names, and counts the sizes of what is read.
+void check_head(const LogHead& head, const std::string& file) {
+    constexpr size_t kMost = 65535;  // bodies are counted by two bytes
+    constexpr size_t kLongestName = 200;
+    const auto check = [&](const char* key, const std::vector<std::string>& names) {
+        std::set<std::string> all;
+        bool good = names.size() <= kMost;
+        for (const std::string& name : names) {
+            good = good && !name.empty() && name.size() <= kLongestName && name != "." &&
+                   all.insert(name).second && std::none_of(name.begin(), name.end(), [](char c) {
+                       return c == '/' || static_cast<unsigned char>(c) < ' ';
+                   });
+        }
+        if (good) return;
+        throw Error({file, 0}, key, "are not what a session can have: too many, or no names",
+                    "Put a backup of the log in its place.");
+    };
+    check("fingers", head.fingers);
+    check("bodies", head.bodies);
+    check("devices", head.turning_fingers());
+    if (head.devices.size() <= head.fingers.size()) return;
+    throw Error({file, 0}, "devices", "are more than the fingers that they hold",
+                "Put a backup of the log in its place.");
+}
+
 }  // namespace
 
 RawLogWriter::RawLogWriter(const std::string& file, const LogHead& head) : file_(file) {
@@ -63,8 +72,10 @@ RawLogWriter::RawLogWriter(const std::string& file, const LogHead& head) : file_
     Node text = write_fields(head);
     text.set("schema", Node::of(schema()));
     const std::string yaml = to_yaml(text);
-    write_all(descriptor_, kMagic, kMagicSize, file_);
-    write_chunk(kHead, std::as_bytes(std::span(yaml)));
+    const auto bytes = std::as_bytes(std::span(yaml));
+    session_ = session_of(bytes);
+    write_all(descriptor_, kFirstLine.data(), kFirstLine.size(), file_);
+    write_chunk(kHead, bytes);
 }
 
 RawLogWriter::~RawLogWriter() {
@@ -83,6 +94,7 @@ void RawLogWriter::add(std::span<const std::byte> frame) {
     chunk_.insert(chunk_.end(), bytes.begin(), bytes.end());
     chunk_.insert(chunk_.end(), frame.begin(), frame.end());
     ++frames_;
+    if (chunk_.size() >= kLongChunk) flush();
 }
 
 void RawLogWriter::flush() {
@@ -91,38 +103,38 @@ void RawLogWriter::flush() {
     chunk_.clear();
 }
 
+void RawLogWriter::sync() const {
+    sync_to_disk(descriptor_, file_);
+}
+
 void RawLogWriter::finish() {
     flush();
     write_chunk(kDone, std::as_bytes(std::span(&frames_, 1)));
-    ::fsync(descriptor_);
+    sync();
     ::close(descriptor_);
     descriptor_ = -1;
 }
 
 void RawLogWriter::write_chunk(uint32_t kind, std::span<const std::byte> payload) {
-    const ChunkHeader header{kind, static_cast<uint32_t>(payload.size()), checksum(kind, payload)};
+    ChunkHeader header{kind, static_cast<uint32_t>(payload.size()), session_, number_++, 0};
+    header.checksum = checksum(header, payload);
     write_all(descriptor_, &header, sizeof(header), file_);
     write_all(descriptor_, payload.data(), payload.size(), file_);
 }
 
-RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std::ios::binary) {
-    const std::string remedy = "Give a session's folder, or its raw.log.";
-    if (!in_) throw Error({file, 0}, "", "cannot be read", remedy);
-    in_.seekg(0, std::ios::end);
-    size_ = in_.tellg();
-    in_.seekg(0);
-    char magic[kMagicSize] = {};
-    in_.read(magic, kMagicSize);
-    if (!in_ || std::memcmp(magic, kMagic, kMagicSize) != 0)
-        throw Error({file, 0}, "", "is not a log of Dihaptic", remedy);
-    end_ = kMagicSize;
-    if (!read_chunk_at(end_) || kind_ != kHead)
-        throw Error({file, 0}, "", "has no readable head", "Nothing of it can be recovered.");
+RawLogReader::RawLogReader(const std::string& file) : file_(file), chunks_(file) {
+    read_head();
+    check_head(head_, file);
+    layout_ = head_.layout();
+}
+
+void RawLogReader::read_head() {
+    const std::vector<std::byte>& bytes = chunks_.head();
     const Node text =
-        parse_yaml({reinterpret_cast<const char*>(chunk_.data()), chunk_.size()}, file);
+        parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
     const Node* recorded = text.find("schema");
     if (recorded == nullptr || recorded->scalar != schema()) {
-        throw Error({file, 0}, "",
+        throw Error({file_, 0}, "",
                     "was written by another version of Dihaptic, whose frames differ",
                     "Read it with that version; session.yaml names it.");
     }
@@ -131,79 +143,83 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), in_(file, std
     Diagnostics diagnostics;
     read_fields(head_, fields, diagnostics);
     diagnostics.throw_if_errors();
-    chunk_.clear();
 }
 
-bool RawLogReader::read_chunk_at(int64_t at) {
-    ChunkHeader header{};
-    in_.clear();
-    in_.seekg(at);
-    in_.read(reinterpret_cast<char*>(&header), sizeof(header));
-    const int64_t left = size_ - at - static_cast<int64_t>(sizeof(header));
-    if (!in_.good() || header.size > kMostPayload || header.size > left) return false;
-    chunk_.resize(header.size);
-    at_ = 0;
-    in_.read(reinterpret_cast<char*>(chunk_.data()), header.size);
-    if (in_.fail() || checksum(header.kind, chunk_) != header.checksum) {
-        chunk_.clear();
+const LogHealth& RawLogReader::read_to_end() {
+    while (next() != nullptr) continue;
+    return health_;
+}
+
+/// The next chunk's records; false at the log's end.
+bool RawLogReader::read_chunk() {
+    const Chunk* chunk = chunks_.next();
+    if (chunk == nullptr) {
+        note_end();
         return false;
     }
-    kind_ = header.kind;
-    skipped_ += at - end_;
-    end_ = at + static_cast<int64_t>(sizeof(header)) + header.size;
+    damaged_ += chunk->damaged;
+    gone_ += chunk->missing;
+    using Place = Chunk::Place;
+    if (chunk->place == Place::after_end) {
+        health_.note(Stray::Kind::after_end, 1, damaged_ + chunk->bytes);
+        damaged_ = 0;
+    } else if (chunk->place == Place::foreign || chunk->kind == kHead) {
+        // only logs of version 1, whose chunks name no session, show a second head here
+        const bool doubled = chunk->place == Place::doubled;
+        health_.note(doubled ? Stray::Kind::doubled : Stray::Kind::foreign, 1, chunk->bytes);
+    } else if (chunk->place == Place::doubled) {
+        health_.note(Stray::Kind::doubled, 1, chunk->bytes);
+    } else {
+        if (chunk->place == Place::moved) health_.note(Stray::Kind::moved, 1, chunk->bytes);
+        if (chunk->kind == kDone) {
+            note_done(*chunk);
+        } else {
+            rest_ = chunk->payload;
+        }
+    }
     return true;
 }
 
-int64_t RawLogReader::find_kind(int64_t from) {
-    constexpr int64_t kBlock = 1 << 16;
-    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may lie across two blocks
-    std::string block;
-    for (; from + kOverlap < size_; from += kBlock - kOverlap) {
-        block.resize(static_cast<size_t>(std::min(kBlock, size_ - from)));
-        in_.clear();
-        in_.seekg(from);
-        in_.read(block.data(), static_cast<std::streamsize>(block.size()));
-        size_t found = std::string::npos;
-        for (const uint32_t kind : {kData, kDone}) {
-            const std::string_view letters(reinterpret_cast<const char*>(&kind), sizeof(kind));
-            found = std::min(found, block.find(letters));
-        }
-        if (found != std::string::npos) return from + static_cast<int64_t>(found);
+void RawLogReader::note_done(const Chunk& chunk) {
+    if (chunk.payload.size() != sizeof(health_.written)) {
+        health_.note(Stray::Kind::no_frame, 1, chunk.bytes);
+    } else {
+        std::memcpy(&health_.written, chunk.payload.data(), chunk.payload.size());
     }
-    return -1;
+    health_.complete = true;
+    health_.tail_bytes = damaged_;
+    health_.tail_ticks = ticks_in(damaged_);
+    health_.tail_chunks = gone_;
+    damaged_ = gone_ = 0;
 }
 
-bool RawLogReader::read_chunk() {
-    for (int64_t at = end_; at >= 0; at = find_kind(at + 1)) {
-        if (read_chunk_at(at)) return true;
-    }
+void RawLogReader::note_end() {
     ended_ = true;
-    note_tail(size_ - end_);
-    note_unfinished_chunk();
-    return false;
-}
-
-void RawLogReader::note_tail(int64_t bytes) {
+    const int64_t bytes = damaged_ + chunks_.tail();
+    if (bytes == 0) return;
+    if (health_.complete) {
+        health_.note(Stray::Kind::after_end, 0, bytes);
+        return;
+    }
+    int64_t wanted = 0;
+    health_.unfinished = chunks_.tail_is_unfinished(wanted);
     health_.tail_bytes = bytes;
-    health_.tail_ticks = ticks_in(bytes);
+    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // as many as it was to have
 }
 
 int64_t RawLogReader::ticks_in(int64_t bytes) const {
     return health_.frames == 0 ? 0 : bytes * health_.frames / frame_bytes_;
 }
 
-void RawLogReader::note_unfinished_chunk() {
-    ChunkHeader header{};
-    in_.clear();
-    in_.seekg(end_);
-    in_.read(reinterpret_cast<char*>(&header), sizeof(header));
-    const int64_t there = size_ - end_ - static_cast<int64_t>(sizeof(header));
-    const bool known = header.kind == kData || header.kind == kDone;
-    if (there < 0) {
-        health_.unfinished = size_ > end_;
-    } else if (known && header.size <= kMostPayload && header.size > there) {
-        health_.unfinished = true;
-        health_.tail_ticks = ticks_in(header.size);  // as many as it was to have
+/// What is not known of bodies is NaN: of all, or of those that this frame does not have.
+void RawLogReader::forget_bodies(bool all) {
+    const Vec3 unknown = Vec3::Constant(servo::kUnmeasured);
+    for (size_t i = 0; i < frame_.bodies.size(); ++i) {
+        if (!all &&
+            std::find(frame_.changed.begin(), frame_.changed.end(), i) != frame_.changed.end())
+            continue;
+        servo::BodyFrame& body = frame_.bodies[i];
+        body = {{Quat(Eigen::Vector4d::Constant(servo::kUnmeasured)), unknown}, unknown, unknown};
     }
 }
 
@@ -214,45 +230,49 @@ void RawLogReader::note_frame() {
     health_.left_out += (frame_.time - last) / period - missing - 1;
     if (missing > 0) {
         health_.gaps.push_back(
-            {health_.last_tick + 1, missing, health_.last_time, frame_.time, skipped_});
-        // bodies that are not in this frame may have moved in those that are missing
-        for (size_t i = 0; i < frame_.bodies.size(); ++i) {
-            if (std::find(frame_.changed.begin(), frame_.changed.end(), i) != frame_.changed.end())
-                continue;
-            servo::BodyFrame& body = frame_.bodies[i];
-            const Vec3 unknown = Vec3::Constant(servo::kUnmeasured);
-            body = {
-                {Quat(Eigen::Vector4d::Constant(servo::kUnmeasured)), unknown}, unknown, unknown};
-        }
+            {health_.last_tick + 1, missing, health_.last_time, frame_.time, damaged_, gone_});
+        forget_bodies(false);  // those may have moved
+    } else if (damaged_ > 0) {
+        health_.note(Stray::Kind::no_chunk, 0, damaged_);
     }
-    skipped_ = 0;
+    damaged_ = gone_ = 0;
     ++health_.frames;
     health_.last_tick = frame_.sequence;
     health_.last_time = frame_.time;
 }
 
-const servo::Frame* RawLogReader::next() {
-    while (at_ >= chunk_.size()) {
-        if (ended_ || !read_chunk()) return nullptr;
-        if (kind_ == kData) continue;
-        chunk_.clear();
-        if (kind_ != kDone) continue;
-        health_.complete = ended_ = true;
-        note_tail(skipped_);
-    }
+/// The next record; false when it is no frame of this session that can follow the one before.
+bool RawLogReader::read_frame() {
     uint32_t length = 0;
-    const std::span<const std::byte> rest = std::span(chunk_).subspan(at_);
-    if (rest.size() >= sizeof(length)) std::memcpy(&length, rest.data(), sizeof(length));
-    const bool fits = rest.size() >= sizeof(length) + length;
-    if (!fits || !decode(rest.subspan(sizeof(length), length), head_.layout(), frame_)) {
-        throw Error({file_, 0}, "",
-                    "holds a record that is no frame, in a chunk whose checksum is right",
-                    "It was written by a faulty program: report it.");
+    if (rest_.size() >= sizeof(length)) std::memcpy(&length, rest_.data(), sizeof(length));
+    const bool fits = rest_.size() >= sizeof(length) + length;
+    if (!fits || !decode(rest_.subspan(sizeof(length), length), layout_, frame_) ||
+        !is_possible(frame_, layout_)) {
+        health_.note(Stray::Kind::no_frame, 1, static_cast<int64_t>(rest_.size()));
+        rest_ = {};
+        return false;
     }
-    at_ += sizeof(length) + length;
+    rest_ = rest_.subspan(sizeof(length) + length);
     frame_bytes_ += static_cast<int64_t>(sizeof(length) + length);
-    note_frame();
-    return &frame_;
+    if (health_.frames == 0 ||
+        (frame_.sequence > health_.last_tick && frame_.time > health_.last_time))
+        return true;
+    health_.note(Stray::Kind::backwards, 1, static_cast<int64_t>(sizeof(length) + length));
+    return false;
+}
+
+const servo::Frame* RawLogReader::next() {
+    while (true) {
+        while (rest_.empty()) {
+            if (ended_ || !read_chunk()) return nullptr;
+        }
+        if (!read_frame()) {
+            forget_bodies(true);
+            continue;
+        }
+        note_frame();
+        return &frame_;
+    }
 }
 
 }  // namespace dihaptic::recording

@@ -1,26 +1,25 @@
 // raw.log: what is written while a session runs. Append-only, in chunks that each carry a checksum,
-// so that whatever was written before a crash can be read after it.
+// their session and their number (chunk.h), so that whatever was written before a crash can be read
+// after it, and nothing else is taken for it.
 //
-//   "DIHAPTIC LOG 1\n", then chunks:
-//   chunk   u32 kind, u32 bytes of payload, u32 CRC-32 of kind, bytes and payload, payload
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h)
 //           done: i64 number of frames                   last chunk of a session that ended
 //
-// A damaged chunk is left out: the reader goes on at the next one, which it knows by its kind,
-// spelt out, and its checksum. The first frame of a chunk that was written in place has all bodies;
-// what is not known of a body after a gap is NaN.
+// A damaged chunk is left out: the reader goes on at the next one. The first frame of a chunk that
+// was written in place has all bodies; what is not known of a body after a gap is NaN.
 //
-// It holds nothing but what the session computed, so that the same session gives the same file.
+// It holds nothing but what the session computed, so that the same session gives the same file. On
+// the real clock no two are the same, and the head's identity is random.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <optional>
 #include <string>
 
 #include "base/field.h"
+#include "recording/chunk_reader.h"
 #include "recording/codec.h"
 #include "recording/log_health.h"
 #include "recording/setup.h"
@@ -48,7 +47,7 @@ struct LogHead : Setup {
     }
     template <class Visitor>
     void visit(Visitor& v) {
-        v("tick", tick, Field::of(Quantity::time).positive().required());
+        v("tick", tick, Field::of(Quantity::time).within(1e-6, 1).required());
         v("fingers", fingers);
         v("bodies", bodies);
         Setup::visit(v);
@@ -67,7 +66,10 @@ class RawLogWriter {
     void add(std::span<const std::byte> frame);
     /// Hands the chunk to the operating system: from here on it survives the end of this program.
     void flush();
-    /// Writes the mark of a session that ended, and syncs the disk.
+    /// Puts what was handed over on the disk: from there on it survives a loss of power. From any
+    /// thread until finish(). Throws Error when the disk fails.
+    void sync() const;
+    /// Writes the mark of a session that ended, and synchronises.
     void finish();
 
     int64_t frames() const { return frames_; }
@@ -77,13 +79,15 @@ class RawLogWriter {
 
     std::string file_;
     int descriptor_ = -1;
+    uint64_t session_ = 0;
+    uint32_t number_ = 0;  // of the next chunk
     std::vector<std::byte> chunk_;
     int64_t frames_ = 0;
 };
 
 class RawLogReader {
   public:
-    /// Throws Error when the file is no log, or one of another version.
+    /// Throws Error when the file is no log, or one whose frames differ.
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
@@ -91,31 +95,32 @@ class RawLogReader {
     const servo::Frame* next();
     /// What was found so far; the end is known after next() gave null.
     const LogHealth& health() const { return health_; }
+    /// Reads what is left, for what it tells of the log.
+    const LogHealth& read_to_end();
     /// Share of the file that was read.
-    double share() const { return static_cast<double>(end_) / static_cast<double>(size_); }
+    double share() const { return chunks_.share(); }
 
   private:
+    void read_head();
     bool read_chunk();
-    bool read_chunk_at(int64_t at);
-    int64_t find_kind(int64_t from);
+    bool read_frame();
+    void note_done(const Chunk& chunk);
+    void note_end();
     void note_frame();
-    void note_tail(int64_t bytes);
-    void note_unfinished_chunk();
+    void forget_bodies(bool all);
     int64_t ticks_in(int64_t bytes) const;
 
     std::string file_;
-    std::ifstream in_;
-    int64_t size_ = 0;
-    int64_t end_ = 0;      // of the last whole chunk
-    int64_t skipped_ = 0;  // bytes between it and the one before
+    ChunkReader chunks_;
     LogHead head_;
-    uint32_t kind_ = 0;
-    std::vector<std::byte> chunk_;
-    size_t at_ = 0;
+    Layout layout_;
+    std::span<const std::byte> rest_;  // of the chunk's records
+    bool ended_ = false;
     servo::Frame frame_;
     LogHealth health_;
+    int64_t damaged_ = 0;      // bytes since the last frame
+    int64_t gone_ = 0;         // chunks since the last frame
     int64_t frame_bytes_ = 0;  // of all frames read
-    bool ended_ = false;
 };
 
 }  // namespace dihaptic::recording

@@ -19,7 +19,7 @@ constexpr size_t kMostRing = 64u << 20;
 
 }  // namespace
 
-Recorder::Recorder(const std::string& file, const LogHead& head, Writing writing)
+Recorder::Recorder(const std::string& file, const LogHead& head, Writing writing, double sync)
     : log_(file, head),
       writing_(writing),
       encoded_(most_bytes(head.layout(), most_contacts(head))),
@@ -27,11 +27,24 @@ Recorder::Recorder(const std::string& file, const LogHead& head, Writing writing
                 ? 0
                 : std::min(kMostRing, ring_frames(head) * encoded_.size())) {
     if (writing_ == Writing::in_thread) thread_ = std::thread([this] { run(); });
+    if (sync > 0) {
+        sync_thread_ =
+            std::thread([this, sync] { keep_synced(std::chrono::duration<double>(sync)); });
+    }
 }
 
 Recorder::~Recorder() {
-    done_.store(true);
+    join();
+}
+
+void Recorder::join() {
+    {
+        const std::lock_guard lock(done_mutex_);
+        done_.store(true);
+    }
+    done_condition_.notify_all();
     if (thread_.joinable()) thread_.join();
+    if (sync_thread_.joinable()) sync_thread_.join();
 }
 
 void Recorder::record(const servo::Frame& frame) {
@@ -68,10 +81,24 @@ void Recorder::run() {
     }
 }
 
+void Recorder::keep_synced(std::chrono::duration<double> every) {
+    try {
+        std::unique_lock lock(done_mutex_);
+        while (!done_condition_.wait_for(lock, every, [this] { return done_.load(); })) {
+            lock.unlock();
+            log_.sync();
+            lock.lock();
+        }
+    } catch (...) {
+        sync_error_ = std::current_exception();
+        failed_.store(true);
+    }
+}
+
 void Recorder::finish() {
-    done_.store(true);
-    if (thread_.joinable()) thread_.join();
+    join();
     if (error_) std::rethrow_exception(error_);
+    if (sync_error_) std::rethrow_exception(sync_error_);
     log_.finish();
 }
 

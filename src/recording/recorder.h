@@ -3,8 +3,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "base/ring.h"
@@ -24,7 +27,9 @@ constexpr Time kWriteEvery = std::chrono::milliseconds(5);
 
 class Recorder {
   public:
-    Recorder(const std::string& file, const LogHead& head, Writing writing);
+    /// `sync`: how often what was written is synchronised to the disk, in a thread of its own,
+    /// which a slow disk may keep waiting [s]; 0: at the end alone.
+    Recorder(const std::string& file, const LogHead& head, Writing writing, double sync = 0);
     ~Recorder();
 
     /// Records a frame; one with more contacts than there is room for is dropped and counted. In a
@@ -42,6 +47,8 @@ class Recorder {
   private:
     void drain();
     void run();
+    void keep_synced(std::chrono::duration<double> every);
+    void join();
 
     RawLogWriter log_;
     Writing writing_;
@@ -54,7 +61,11 @@ class Recorder {
     std::atomic<bool> failed_{false};
     std::atomic<bool> done_{false};
     std::exception_ptr error_;
+    std::exception_ptr sync_error_;
     std::thread thread_;
+    std::mutex done_mutex_;  // for the wait of the thread that synchronises
+    std::condition_variable done_condition_;
+    std::thread sync_thread_;
 };
 
 }  // namespace dihaptic::recording

@@ -11,10 +11,11 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
+#include "base/disk.h"
 #include "base/field_writer.h"
+#include "base/regular_file.h"
 #include "base/text_file.h"
 
 namespace dihaptic::recording {
@@ -24,10 +25,13 @@ namespace {
 /// What session.yaml ends with (YAML's mark of a document's end): without it, it was cut off.
 constexpr const char* kEnd = "...\n";
 
+/// What can be read of it.
 std::string text_of(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
+    try {
+        return read_bytes(file, kMostYaml);
+    } catch (const Error&) {
+        return "";
+    }
 }
 
 std::string iso(const std::tm& local) {
@@ -53,7 +57,7 @@ SessionFolder SessionFolder::open_with(const std::string& path, const char* file
         fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
     while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
     SessionFolder session(folder.empty() ? "." : folder);
-    if (!fs::exists(session.file(file), unreadable)) {
+    if (!is_there(session.file(file))) {
         throw Error({path, 0}, "", fmt::format("is not a session: there is no {}", file),
                     "Give the folder that 'dihaptic run' printed at its end.");
     }
@@ -120,10 +124,15 @@ SessionInfo SessionFolder::read_info() const {
 
 SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostics) const {
     std::string why;
+    std::optional<SessionInfo> whole;
     try {
-        return read_info();
+        whole = read_info();
     } catch (const Error& e) {
         why = e.problems().front().what;
+    }
+    if (whole) {
+        check_log(*whole, setup);
+        return *whole;
     }
     // the whole lines that can be read; a line that was cut may say something else than it did
     SessionInfo info;
@@ -159,21 +168,40 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
     return info;
 }
 
+void SessionFolder::check_log(const SessionInfo& info, const Setup& setup) const {
+    // sessions of earlier programs have none
+    if (info.identity.empty() || setup.identity.empty() || info.identity == setup.identity) return;
+    throw Error({raw_log(), 0}, "", "is of another session than session.yaml beside it",
+                "Put this session's own log back, or the session.yaml of the log's.");
+}
+
 void SessionFolder::write_info(const SessionInfo& info) const {
-    write_file(to_yaml(write_fields(info)) + kEnd, file("session.yaml"));
+    write_file(to_yaml(write_fields(info)) + kEnd, file("session.yaml"), Keep::at_once);
+}
+
+void SessionFolder::sync() const {
+    std::error_code failed;
+    for (fs::directory_iterator i(path_, failed), end; !failed && i != end; i.increment(failed)) {
+        if (i->is_regular_file(failed)) sync_to_disk(i->path().string());
+    }
+    // its name stands in the folder above, and that one's may be as new
+    for (fs::path folder = fs::absolute(path_, failed); !folder.empty() && !failed;
+         folder = folder.parent_path()) {
+        sync_to_disk(folder.string());
+        if (folder == folder.root_path()) break;
+    }
 }
 
 InputFile SessionFolder::input(const std::string& name) const {
-    std::ifstream in(file(name), std::ios::binary);
-    std::vector<char> block(1 << 16);
+    const RegularFile in(file(name));
+    std::vector<std::byte> block(1 << 16);
     uLong crc = crc32_z(0, nullptr, 0);
-    while (in) {
-        in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()),
-                      static_cast<size_t>(in.gcount()));
+    for (int64_t at = 0; at < in.size();) {
+        const size_t read = in.read(at, block);
+        if (read == 0) break;
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()), read);
+        at += static_cast<int64_t>(read);
     }
-    if (!in.eof() || in.bad())
-        throw Error({file(name), 0}, "", "cannot be read", "Check the name and the folder.");
     return {name, fmt::format("{:08x}", crc)};
 }
 
@@ -201,7 +229,7 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
 }
 
 SessionLock::SessionLock(const SessionFolder& folder)
-    : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC)) {
+    : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     // a file system without locks has none to wait for
     if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;

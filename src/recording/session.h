@@ -84,9 +84,14 @@ class SessionFolder {
 
     SessionInfo read_info() const;
     /// What is left of session.yaml, completed from the log's head; what that cannot tell is warned
-    /// of.
+    /// of. Throws Error when the log is of another session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
+    /// Throws Error when that log is of another session than session.yaml.
+    void check_log(const SessionInfo& info, const Setup& setup) const;
+    /// After a loss of power too there is the old one or the new.
     void write_info(const SessionInfo& info) const;
+    /// Returns once all of its files are on the disk, and their names, and its own.
+    void sync() const;
 
     /// A frozen input as it is now; throws Error when it cannot be read.
     InputFile input(const std::string& name) const;

@@ -35,6 +35,9 @@ struct DeviceRecord {
     double peak_torque = 0;                   ///< [N*m]
     std::optional<double> continuous_torque;  ///< [N*m]
     double scale = 1;  ///< of the world over the hand's movement, in forces and lengths above too
+    bool simulated = false;  ///< so that late ticks were no fault
+    /// That what was held in late ticks was judged by; unset: they softened nothing [N*s/m].
+    std::optional<double> damping;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -47,6 +50,8 @@ struct DeviceRecord {
         v("peak_torque", peak_torque, Field::of(Quantity::torque));
         v("continuous_torque", continuous_torque, Field::of(Quantity::torque));
         v("scale", scale);
+        v("simulated", simulated);
+        v("damping", damping, Field::of(Quantity::damping));
     }
 };
 
@@ -63,6 +68,7 @@ struct InputFile {
 };
 
 struct Setup {
+    std::string identity;  ///< one of a kind, in session.yaml and in raw.log: they belong together
     std::string title;
     std::string experiment;  ///< name of the file
     std::string clock;       ///< virtual or real
@@ -79,6 +85,7 @@ struct Setup {
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("identity", identity);
         v("title", title);
         v("experiment", experiment);
         v("clock", clock);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/regular_file.h"
 #include "base/table.h"
 
 namespace dihaptic::recording {
@@ -21,7 +22,9 @@ void ShowingsWriter::add(const Showing& showing) {
 
 Showings::Showings(const SessionFolder& folder) {
     const std::string file = folder.file("shown.csv");
-    if (!std::filesystem::exists(file)) return;
+    std::error_code unreadable;
+    // a kill may have come before its first line
+    if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return;
     const CsvFile table(file);
     for (size_t i = 0; i < table.rows(); ++i) {
         const double tick = table.number(i, "tick");

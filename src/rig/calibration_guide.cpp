@@ -189,10 +189,8 @@ std::string Together::describe() const {
 }
 
 Problem Together::warning(const Rig& rig) const {
-    Diagnostics diagnostics;
-    diagnostics.warning(rig.calibrated->place, "together", describe(),
-                        "Calibrate the rig again: dihaptic calibrate.");
-    return diagnostics.problems().front();
+    return {Severity::warning, rig.calibrated->place, "together", describe(),
+            "Calibrate the rig again: dihaptic calibrate."};
 }
 
 std::vector<Together> check_together(const Rig& rig, const std::vector<std::string>& fingers,
@@ -216,8 +214,8 @@ std::vector<Together> check_together(const Rig& rig, const std::vector<std::stri
             fmt::format("Hold the endpoints of {} and {} together.", pair.first, pair.second));
         way.wait();
         int taken = 0;
-        way.sample([&](bool) {
-            pair.apart += (p_W(first) - p_W(other)).norm() / kHeld;
+        way.sample([&, a = first, b = other](bool) {
+            pair.apart += (p_W(a) - p_W(b)).norm() / kHeld;
             return ++taken < kHeld;
         });
         pair.agrees = std::abs(pair.apart - pair.before) <=

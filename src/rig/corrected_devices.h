@@ -7,7 +7,8 @@
 //
 // so that a wall of k [N/m] in the world is one of k under the hand too: f' = k (s p') / s. Torques
 // and angles stay as they are. What a device can do is told in the world's measure: s times its
-// forces, its reach and its speeds (README.md).
+// forces, its reach and its speeds (README.md). A calibration's stretch makes some forces larger
+// than what was limited before: the device's own limit is the last, in the hand's measure.
 #pragma once
 
 #include "rig/correction.h"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <exception>
 #include <thread>
 
@@ -31,12 +30,11 @@ void DeviceReader::check() const {
 
 void DeviceReader::repeat(const std::function<bool()>& each) {
     using Clock = std::chrono::steady_clock;
-    static const Clock::time_point begin = Clock::now();
     std::exception_ptr failure;
     const auto once = [&] {
         try {
             if (devices_.active()) {
-                tick(Clock::now() - begin);
+                tick(Clock::now() - begin_);
                 check();
             }
             return each();

@@ -1,6 +1,7 @@
 // Devices that are only read: no force is ever written but zero.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <vector>
@@ -33,6 +34,7 @@ class DeviceReader {
     std::vector<std::string> fingers_;
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> none_;
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace dihaptic::rig

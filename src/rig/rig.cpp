@@ -169,19 +169,12 @@ std::string picture_of(const std::string& calibration_file) {
 }  // namespace
 
 void check_calibration_file(const std::string& rig_file, const std::string& file) {
-    namespace fs = std::filesystem;
     if (picture_of(file) == file) {
         throw Error({file, 0}, "", "is a name for the picture beside it",
                     "Name the calibration *.yaml.");
     }
-    for (const std::string& out : {file, picture_of(file)}) {
-        std::error_code ignored;
-        if (fs::equivalent(out, rig_file, ignored)) {
-            throw Error({out, 0}, "calibration", "is the rig file itself",
-                        "Give the calibration a file of its own.");
-        }
-        check_writable(out);
-    }
+    for (const std::string& out : {file, picture_of(file)})
+        check_output(out, rig_file, "the rig file");
 }
 
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
@@ -192,13 +185,17 @@ std::string store_calibration(const Rig& rig, const CalibrationResult& result,
     return picture;
 }
 
+std::string calibration_line(const std::string& rig_file, const std::string& calibration_file) {
+    const auto folder = std::filesystem::path(rig_file).parent_path();
+    return fmt::format(
+        "calibration: {}",
+        std::filesystem::path(calibration_file).lexically_proximate(folder).string());
+}
+
 void name_calibration(const std::string& rig_file, const std::string& calibration_file) {
     std::string text = read_text_file(rig_file);
     if (!text.empty() && text.back() != '\n') text += '\n';
-    const auto folder = std::filesystem::path(rig_file).parent_path();
-    text +=
-        fmt::format("calibration: {}\n",
-                    std::filesystem::path(calibration_file).lexically_proximate(folder).string());
+    text += calibration_line(rig_file, calibration_file) + "\n";
     write_file(text, rig_file);
 }
 
@@ -258,7 +255,8 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
 
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
-                                                   const devices::Context& context) {
+                                                   const devices::Context& context,
+                                                   const std::optional<keeper::Keeping>& keeping) {
     std::vector<devices::DeviceConfig> configs;
     const devices::Backend* backend = nullptr;
     for (const std::string& finger : fingers) {
@@ -268,7 +266,9 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     }
     if (backend == nullptr)
         throw Error(rig.place, "devices", "there are none", "List at least one device.");
-    auto group = backend->make(configs, context);
+    auto group = backend->real && keeping
+                     ? keeper::keep_devices({backend->name, configs, context.tick, *keeping})
+                     : backend->make(configs, context);
     std::vector<Adjustment> adjustments;
     bool adjusted = false;
     for (size_t i = 0; i < fingers.size(); ++i) {

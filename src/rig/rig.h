@@ -2,6 +2,7 @@
 #pragma once
 
 #include "devices/device_group.h"
+#include "keeper/kept_devices.h"
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
 
@@ -23,7 +24,7 @@ struct Device {
         v("finger", finger, Field::text().required());
         v("backend", backend, Field::text().required());
         v("position", position, Field::length().within(-100, 100));
-        v("rotation", rotation, Field::of(Quantity::angle));
+        v("rotation", rotation, Field::of(Quantity::angle).within(-100, 100));
         v("scale", scale, Field::number().within(0.1, 10));
         v("options", options);
         if constexpr (requires { v.place(); }) place = v.place();
@@ -104,7 +105,9 @@ void check_calibration_file(const std::string& rig_file, const std::string& file
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file);
 
-/// Adds a line to a rig file that names no calibration, so that it uses this one.
+/// What a rig file says to use a calibration.
+std::string calibration_line(const std::string& rig_file, const std::string& calibration_file);
+/// Adds that line to a rig file that names none.
 void name_calibration(const std::string& rig_file, const std::string& calibration_file);
 
 /// Whether its devices are real: they keep real time, and move a person's hand.
@@ -122,11 +125,12 @@ constexpr int kOldCalibration = 30;  // days
 /// The rig without calibration and scales: its devices as they report themselves.
 Rig uncorrected(const Rig& rig);
 
-/// The devices for the scene's fingers, in the fingers' order, corrected and scaled. Throws Error
-/// when a finger has none, or when the calibration is of other devices.
-std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
-                                                   const std::vector<std::string>& fingers,
-                                                   const devices::Context& context);
+/// The devices for the scene's fingers, in the fingers' order, corrected and scaled. `keeping`: how
+/// a process of their own owns them, if they are real; none: this process does. Throws Error when a
+/// finger has none, or when the calibration is of other devices.
+std::unique_ptr<devices::DeviceGroup> make_devices(
+    const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
+    const std::optional<keeper::Keeping>& keeping = {});
 /// The fingers that hold a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The device that a finger holds. Throws Error when it holds none.

@@ -1,30 +1,26 @@
 #include "scene/pieces.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <sstream>
 
-#include "base/temporary_folder.h"
+#include "base/companion.h"
+#include "base/regular_file.h"
 #include "base/text_file.h"
 
 namespace dihaptic::scene {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kFirstLine = "dihaptic pieces 1";
 constexpr const char* kProgram = "dihaptic-decompose";
+constexpr int64_t kLargestFile = 1'000'000'000;  // bytes
+/// Meshes with thousands of dents take minutes, and who waits can cancel.
+constexpr CompanionLimits kLimits{
+    .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kLargestFile};
 
 /// FNV-1a.
 class Fingerprint {
@@ -86,15 +82,15 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
     return hulls;
 }
 
-/// The whole file; nothing when it cannot be read.
-std::string content(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
-
 std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
-    const std::string text = content(file);
+    if (!is_there(file)) return std::nullopt;
+    const std::string text = [&]() -> std::string {
+        try {
+            return read_bytes(file, kLargestFile);
+        } catch (const Error&) {
+            return "";  // they are cut anew
+        }
+    }();
     const std::string head = fmt::format("{}\nmesh {:016x}\n", kFirstLine, mesh);
     const size_t end = text.rfind("end ");
     if (!text.starts_with(head) || end == std::string::npos) return std::nullopt;
@@ -105,17 +101,6 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
     return Pieces{*std::move(hulls), mesh};
 }
 
-/// dihaptic-decompose is built beside dihaptic; tests run from folders below.
-std::string program() {
-    std::error_code ignored;
-    fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (; !folder.empty(); folder = folder.parent_path()) {
-        if (fs::is_regular_file(folder / kProgram, ignored)) return (folder / kProgram).string();
-        if (folder == folder.root_path()) break;
-    }
-    return "";
-}
-
 std::string off_of(const Mesh& mesh) {
     std::string off = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.faces.size());
     for (const Vec3& v : mesh.vertices) off += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
@@ -124,52 +109,16 @@ std::string off_of(const Mesh& mesh) {
     return off;
 }
 
-/// The program while it runs; 0: it does not. Guarded, so that nobody ends another program that has
-/// got its number.
-std::mutex cutting_guard;
-pid_t cutting = 0;
-
-/// What the program wrote; nothing when it failed. Throws Error when it was cancelled.
-std::optional<std::string> run(const std::string& command, const Mesh& mesh,
-                               const std::string& file, const Place& asked_at) {
-    const TemporaryFolder folder;
-    std::string in = folder.file("mesh.off");
-    std::string out = folder.file("pieces");
-    write_file(off_of(mesh), in);
-    std::string name = command;
-    std::array<char*, 4> arguments{name.data(), in.data(), out.data(), nullptr};
-    pid_t child = 0;
-    int status = 0;
-    if (posix_spawn(&child, command.c_str(), nullptr, nullptr, arguments.data(), environ) != 0)
-        return std::nullopt;
-    {
-        const std::lock_guard lock(cutting_guard);
-        cutting = child;
-    }
-    siginfo_t ended{};
-    waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT);  // it is still there
-    {
-        const std::lock_guard lock(cutting_guard);
-        cutting = 0;
-        if (waitpid(child, &status, 0) != child) return std::nullopt;
-    }
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) {
-        throw Error(asked_at, "concave", "cutting " + file + " into convex pieces was cancelled",
-                    "Open the file again: it is cut once, and the pieces are kept.");
-    }
-    if (status != 0) return std::nullopt;
-    return content(out);
-}
-
 std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at) {
-    const std::string command = program();
-    if (command.empty()) {
-        throw Error(asked_at, "concave",
-                    fmt::format("the program {}, which cuts {} into convex pieces, is missing",
-                                kProgram, file),
-                    "Build all of Dihaptic: it lies beside the program dihaptic.");
-    }
-    const std::optional<std::string> text = run(command, mesh, file, asked_at);
+    const CompanionTask task{
+        kProgram,
+        {},
+        kLimits,
+        "cutting " + file + " into convex pieces",
+        "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out concave.",
+        asked_at,
+        "concave"};
+    const std::optional<std::string> text = run_companion(task, off_of(mesh));
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
     if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
     if (!hulls) {
@@ -183,8 +132,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
 }  // namespace
 
 void cancel_cut() noexcept {
-    const std::lock_guard lock(cutting_guard);
-    if (cutting > 0) kill(cutting, SIGTERM);
+    cancel_companions(kProgram);
 }
 
 Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {

@@ -54,7 +54,7 @@ struct Body {
         v("density", density, Field::of(Quantity::density).within(0.01, 1e5));
         v("fixed", fixed);
         v("position", position, Field::length().within(-kFurthest, kFurthest));
-        v("rotation", rotation, Field::of(Quantity::angle));
+        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
         v("friction", friction, Field::number().within(0, kMostFriction));
         v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
         v("moves", moves);
@@ -97,7 +97,7 @@ struct Finger {
         v("friction", friction, Field::number().within(0, kMostFriction));
         v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
         v("proxy", proxy);
-        v("rotation", rotation, Field::of(Quantity::angle));
+        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -27,6 +27,8 @@ constexpr auto enum_names(MeshUnit) {
 /// What lengths, radii and meshes may measure. Beyond, contacts are lost in rounding [m].
 constexpr double kSmallest = 1e-4;
 constexpr double kLargest = 100;
+/// And by how much they may be turned: beyond, a unit is wrong [rad].
+constexpr double kMostTurn = 100;
 
 struct Part;
 
@@ -38,7 +40,7 @@ struct Shape {
     Vec3 size = Vec3::Zero();  ///< box: lengths of the edges [m]
     double radius = 0;         ///< sphere, capsule, cylinder [m]
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
-    std::string file;          ///< mesh: OBJ, STL or PLY, relative to the scene file
+    std::string file;          ///< mesh: OBJ, STL, PLY or OFF, relative to the scene file
     MeshUnit unit = MeshUnit::m;
     bool concave = false;     ///< mesh: felt as it is, not as its convex hull
     std::vector<Part> parts;  ///< compound: one at least, none of them a plane or a compound
@@ -96,7 +98,7 @@ struct Part {
     void visit(Visitor& v) {
         shape.visit(v);
         v("position", position, Field::length().within(-kLargest, kLargest));
-        v("rotation", rotation, Field::of(Quantity::angle));
+        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 

@@ -35,8 +35,7 @@ StatusText describe(Status bit) {
                 "the contact solver missed its tolerance and another answered",
                 "nothing, when it is rare; otherwise choose settings: dynamics: solver: newton"};
         case kForceOff:
-            return {"force was off, after a fault",
-                    "look at the first fault, then start the session again"};
+            return {"force was off, after a fault", "look at the first fault"};
         case kBadReading:
             return {"a device gave a position or a velocity that is not a number",
                     "look at its cables and its calibration"};
@@ -49,6 +48,16 @@ StatusText describe(Status bit) {
         case kLate:
             return {"the hands were left without an answer for longer than allowed",
                     "close other programs, or look for a device that blocks"};
+        case kKeepsLate:
+            return {"ticks came late again and again",
+                    "close other programs, or lower the rate or the stiffness"};
+        case kSoftened:
+            return {
+                "the coupling was softened to what can be rendered calmly at the rate that the "
+                "loop kept",
+                "close other programs, or lower the rate"};
+        case kAbandoned:
+            return {"the window did not answer any more", "close other programs"};
         case kHeatLimited:
             return {"a force or a torque was cut to what the device's motors can bear for long",
                     "press less, or for shorter; the force comes back as they cool"};
@@ -66,6 +75,8 @@ StatusText describe(Status bit) {
                     "soften it, raise its damping, or set settings: safety: energy_guard: act"};
         case kEnergyDamped:
             return {"a damper took of that energy", "soften the coupling, or raise its damping"};
+        case kPaused:
+            return {"the session paused, and force was off", ""};
         case kResumed:
             return {"the session went on after a pause", "nothing"};
         case kForceDropped:
@@ -78,7 +89,7 @@ StatusText describe(Status bit) {
         case kDeviceFault:
             return {"a device reported a fault of its own", "let it cool, switch it off and on"};
         case kStopped:
-            return {"the operator switched force off", "start the session again to go on"};
+            return {"the operator switched force off", ""};
         case kSolverMissed:
             return {"no contact solver reached its tolerance, and the best answer was used",
                     "look at what the objects do in these ticks; report the session's folder as a "

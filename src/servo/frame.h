@@ -42,8 +42,12 @@ enum Status : uint32_t {
     kForceDropped = 1u << 23,
     kUncalibrated = 1u << 24,
     kDeviceFault = 1u << 25,
+    kKeepsLate = 1u << 26,
+    kSoftened = 1u << 27,
+    kAbandoned = 1u << 28,
+    kPaused = 1u << 29,
 };
-constexpr int kStatusBits = 26;
+constexpr int kStatusBits = 30;
 
 struct StatusText {
     std::string what;

@@ -75,7 +75,7 @@ std::string describe(const RealTime::Refusals& refusals, int priority, bool root
     if (refusals.priority != 0) {
         refused.push_back(
             fmt::format("priority {} ({})", priority, strerrorname_np(refusals.priority)));
-        limits.push_back(fmt::format("'@haptics - rtprio {}'", priority));
+        limits.push_back(fmt::format("'@haptics - rtprio {}'", priority + 1));
         options.emplace_back("--cap-add SYS_NICE");
     }
     if (refusals.memory != 0) {

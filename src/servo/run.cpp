@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "servo/suspension.h"
 #include "servo/watchdog.h"
 
 namespace dihaptic::servo {
@@ -48,6 +49,15 @@ std::string describe(const Timing& timing) {
     return fmt::format("wake-ups late by {:.0f} us median, {:.0f} us p99.9, {:.0f} us at worst",
                        timing.lateness.quantile(0.5), timing.lateness.quantile(0.999),
                        timing.lateness.quantile(1));
+}
+
+std::string describe_pauses(const Timing& timing) {
+    if (timing.pauses == 0) return "";
+    return fmt::format(
+        "the simulated devices were kept waiting for longer than allowed {}, for {:.0f} ms at "
+        "worst: real ones would have been switched off",
+        timing.pauses == 1 ? "once" : fmt::format("{} times", timing.pauses),
+        timing.longest_pause * 1e3);
 }
 
 std::string describe(const Timing::Stall& stall) {
@@ -92,6 +102,7 @@ struct RealLoop {
     Steady::time_point start;  ///< when time was, or would be, zero
     double last_tick = kUnmeasured;
     bool overrun = false;
+    Suspension suspension{Suspension::read()};
 
     /// The tick of time `now`, which was due at `due`. Returns whether there is to be another.
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
@@ -99,6 +110,10 @@ struct RealLoop {
         servo.note_timing(lateness, last_tick, overrun);
         const Frame& frame = servo.tick(now, director);
         if (sink) sink(frame);
+        if ((frame.status & kLate) != 0 && !servo.real()) {
+            ++timing.pauses;
+            timing.longest_pause = std::max(timing.longest_pause, seconds(now - timing.reached));
+        }
         const auto end = Steady::now();
         watchdog.end_tick(end);
         last_tick = seconds(end - begin);
@@ -108,10 +123,19 @@ struct RealLoop {
         return !servo.stopped();
     }
 
+    /// Time goes on while the machine is suspended, and its clock does not. In whole periods.
+    Time add_suspension() noexcept {
+        const Time asleep = suspension.since(Suspension::read());
+        const Time added = (asleep / servo.period()) * servo.period();
+        start -= added;
+        return added;
+    }
+
     void run_by_deadlines(Time first, Time last) {
         Pace pace{servo.period(), first};
         while (pace.due <= last && !stop.load(std::memory_order_relaxed)) {
             sleep_until(start + pace.due);
+            pace.due += add_suspension();
             if (!tick(pace.due, pace.due, Steady::now())) break;
             pace.end_tick(Steady::now() - start);
             overrun = pace.late;
@@ -119,7 +143,10 @@ struct RealLoop {
         timing.overruns += pace.overruns;
     }
 
-    /// Time is measured here: the devices' period is near the servo's, but their own.
+    /// Time is measured here: the devices' period is near the servo's, but their own. An overrun
+    /// is a tick that computed for longer than a period, or after which they called more than half
+    /// a period late: then the last force was held for longer than it was meant for, whoever
+    /// was slow.
     void run_by_devices(Time first, Time last) {
         Time due = first;
         bool begun = false;
@@ -127,11 +154,12 @@ struct RealLoop {
             const auto begin = Steady::now();
             if (!begun) start = begin - first;
             begun = true;
+            add_suspension();
             const Time now = begin - start;
             if (now > last || stop.load(std::memory_order_relaxed)) return false;
-            const bool on = tick(due, now, begin);
-            overrun = last_tick > seconds(servo.period());
+            overrun = last_tick > seconds(servo.period()) || now - due > servo.period() / 2;
             if (overrun) ++timing.overruns;
+            const bool on = tick(due, now, begin);
             due = now + servo.period();
             return on;
         });
@@ -149,12 +177,14 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
         auto start = Steady::now();
         // a tick more than the servo allows itself: whenever this stops the devices, a tick after
         // it is late by the servo's own clock, which is recorded
-        const Time limit = from_seconds(servo.settings().safety.max_pause) + servo.period();
+        const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
+        // simulated ones have nobody to be switched off for
+        const Time limit = servo.real() ? pause : Watchdog::kStuck;
         std::optional<Timing::Stall> stall;  // of the watchdog's thread until that has ended
         auto watchdog = std::make_unique<Watchdog>(
             limit,
             [&] {
-                const bool stopped = servo.stop_devices();
+                const bool stopped = servo.real() && servo.stop_devices();
                 stall = {Steady::now() - start, limit, stopped};
             },
             [&] {
@@ -172,7 +202,7 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             loop.run_by_deadlines(first, last);
         }
         watchdog.reset();
-        if (stall) timing.stall = stall;
+        if (stall && servo.real()) timing.stall = stall;
     });
     thread.join();
 }

@@ -44,6 +44,9 @@ struct Timing {
         bool stopped = false;  ///< the devices, which not all can be
     };
     std::optional<Stall> stall;
+    /// Ticks that came later than allowed where devices are simulated, which is told alone.
+    int64_t pauses = 0;
+    double longest_pause = 0;  ///< [s]
     RealTime::Refusals refusals;
 
     void reserve(size_t count) {
@@ -55,6 +58,9 @@ struct Timing {
 /// The wake-ups of a run in real time, in words; "" without any.
 std::string describe(const Timing& timing);
 
+/// The pauses, in a sentence; "" without any.
+std::string describe_pauses(const Timing& timing);
+
 /// What the watchdog did, in a sentence.
 std::string describe(const Timing::Stall& stall);
 
@@ -64,10 +70,11 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
                  const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
 /// The same in real time, from `first` to `last`, in a thread of its own with what RealTime gets
-/// it: a tick at each deadline of Pace, on the monotonic clock. A Watchdog stops the devices when
-/// no tick has ended for longer than `max_pause`; when the loop goes on, the next tick finds that
-/// it is late. When it never does, `stuck` is called from the watchdog's thread: this function
-/// cannot return any more, and the program had better end.
+/// it: a tick at each deadline of Pace, on the monotonic clock, to which the time is added that the
+/// machine was suspended for. A Watchdog stops real devices when no tick has ended for longer than
+/// `max_pause`; when the loop goes on, the next tick finds that it is late. When it never does,
+/// `stuck` is called from the watchdog's thread: this function cannot return any more, and the
+/// program had better end.
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
               const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});

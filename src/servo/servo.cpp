@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "haptics/late_loop.h"
+
 namespace dihaptic::servo {
 namespace {
 
@@ -28,9 +30,18 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
       devices_(std::move(devices)),
       X_0D_(std::move(X_WD)),
       turn_(X_0D_),
+      late_(period_),
+      damping_(std::numeric_limits<double>::infinity()),
+      in_force_(settings.coupling),
       soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
         const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        const haptics::SafetySettings& safety = settings.safety;
+        real_ = real_ || !info.simulated;
+        damping_ = std::min(damping_, info.damping > 0 ? info.damping : haptics::kLooseDamping);
+        if (safety.hand_damping) damping_ = *safety.hand_damping;
+        devices_->limit(static_cast<int>(i), safety.largest_force(info.peak_force, info.scale),
+                        safety.largest_torque(info.peak_torque));
         std::optional<haptics::WorkspaceBox> box;
         if (wall) {
             box = {{Quat::Identity(), wall->center()}, wall->sizes()};
@@ -68,6 +79,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
     readings_.resize(n);
     handles_.resize(n);
     unturned_.resize(n);
+    moves_.resize(n);
     device_faults_.resize(n);
     forces_.resize(n);
     sent_D_.resize(n);
@@ -114,7 +126,7 @@ void Servo::change_proxies(haptics::ProxyKind kind) noexcept {
         if (!spares_[i]) continue;
         std::swap(fingers_[i], *spares_[i]);
         world_.set_point(fingers_[i].proxy(), kind == haptics::ProxyKind::point);
-        fingers_[i].retune(settings_.coupling);
+        fingers_[i].retune(in_force_);
         fingers_[i].set_friction_scale(world_.friction_scale());
         fingers_[i].place(world_, handles_[i]);
     }
@@ -152,14 +164,21 @@ void Servo::resume() {
         active_ = false;
         devices_->activate();
         active_ = true;
+        // what was computed from no number holds none any more
+        const haptics::FaultKind kind = faults_.fault().kind;
+        anew_ = world_.diverged() || kind == haptics::FaultKind::not_finite;
+        if (world_.diverged()) world_.mend();
         faults_ = {};
     }
     for (size_t i = 0; i < guards_.size(); ++i) {
         guards_[i] = haptics::HandleGuard(settings_.safety.max_speed *
                                           devices_->info(static_cast<int>(i)).scale);
     }
+    for (haptics::ForceGuard& guard : force_guards_) guard.restart();
     soft_start_.restart();
+    late_.restart();
     stopped_ = false;
+    resting_ = false;
     resumed_ = true;
 }
 
@@ -187,15 +206,15 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     commands_.task.clear();
     commands_.stop = false;
     commands_.force_off = false;
+    commands_.rest = false;
+    commands_.abandoned = 0;
     commands_.tuning.reset();
     commands_.proxy.reset();
     commands_.friction_scale.reset();
     commands_.workspace_rate = 0;
     if (director) director(frame_, handles_, commands_);
-    if (commands_.tuning && *commands_.tuning != settings_.coupling.tuning()) {
-        settings_.coupling.set(*commands_.tuning);
-        for (haptics::Finger& finger : fingers_) finger.retune(settings_.coupling);
-    }
+    if (commands_.tuning) settings_.coupling.set(*commands_.tuning);
+    retune();
     if (commands_.proxy && *commands_.proxy != settings_.proxy.kind)
         change_proxies(*commands_.proxy);
     if (commands_.friction_scale && *commands_.friction_scale != world_.friction_scale()) {
@@ -205,39 +224,46 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     }
     turn_workspaces(commands_.workspace_rate);
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
+    if (commands_.abandoned > 0)
+        faults_.trip({haptics::FaultKind::abandoned, -1, now, commands_.abandoned});
 
-    order_bodies();
-    for (size_t i = 0; i < fingers_.size(); ++i)
-        fingers_[i].begin_tick(world_, handles_[i], settings_.step());
-    dynamics::StepStatus step = dynamics::StepStatus::ok;
-    if (steps_now()) {
-        const double h = settings_.step();
-        if (commands_.solver) world_.set_solver(*commands_.solver);
-        for (const LoadFrame& load : commands_.task.loads) {
-            if (load.body < world_.scene_size())
-                world_.apply({load.body}, load.force_W, load.torque_W);
-        }
-        for (size_t i = 0; i < fingers_.size(); ++i)
-            fingers_[i].before_step(world_, handles_[i], h);
-        step = world_.step(h);
-        for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].after_step(world_, handles_[i]);
-    }
+    const dynamics::StepStatus step = advance_world();
+    if (world_.diverged()) faults_.trip({haptics::FaultKind::diverged, -1, now});
     make_forces(now);
     devices_->write(sent_D_);
     make_frame(now, commands_, step);
     const bool grace_over = faults_.tripped() && now - faults_.fault().time >= kGrace;
-    stopped_ =
+    const bool over =
         commands_.stop || commands_.force_off || grace_over || (frame_.status & kNoMoreData) != 0;
+    resting_ = commands_.rest && !over;
+    stopped_ = over || resting_;
     return frame_;
+}
+
+dynamics::StepStatus Servo::advance_world() noexcept {
+    if (world_.diverged()) return dynamics::StepStatus::diverged;
+    order_bodies();
+    const double h = settings_.step();
+    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].begin_tick(world_, handles_[i], h);
+    if (!steps_now()) return dynamics::StepStatus::ok;
+    if (commands_.solver) world_.set_solver(*commands_.solver);
+    for (const LoadFrame& load : commands_.task.loads) {
+        if (load.body < world_.scene_size()) world_.apply({load.body}, load.force_W, load.torque_W);
+    }
+    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].before_step(world_, handles_[i], h);
+    const dynamics::StepStatus status = world_.step(h);
+    if (status == dynamics::StepStatus::diverged) return status;
+    for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].after_step(world_, handles_[i]);
+    return status;
 }
 
 void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
-    const bool late = elapsed > settings_.safety.max_pause;
+    judge_lateness(now, elapsed);
     // a device has one position a period, however near to each other two ticks come
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
-    if (late || faults_.tripped()) turn_.stop();
+    if ((real_ && late_told_ != 0) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
         haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
@@ -251,18 +277,21 @@ void Servo::measure(Time now) noexcept {
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
+        const haptics::Handle before = unturned_[i];
         unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), moved_for, fault);
+        moves_[i] = {unturned_[i].p_WH - before.p_WH,
+                     rotation_vector(unturned_[i].R_WH * before.R_WH.conjugate())};
         device_faults_[i] = fault.kind;
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
         // a hand that moved in a pause does not throw about what lies between
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
-        if (frame_.sequence < 0 || elsewhere) fingers_[i].place(world_, handles_[i]);
+        if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
     }
+    anew_ = false;
     // last: a device that says what is wrong with it says more than the pause that it made
-    if (late)
-        faults_.trip({haptics::FaultKind::late, -1, now, elapsed, settings_.safety.max_pause});
+    if (real_) faults_.trip(lateness_fault_);
 }
 
 void Servo::turn_workspaces(double rate) noexcept {
@@ -279,14 +308,21 @@ void Servo::turn_workspaces(double rate) noexcept {
 void Servo::make_forces(Time now) noexcept {
     bool asked = false;
     const bool stepped = steps_now();
+    // what shakes a simulated hand, since its machine keeps it waiting, shakes nobody
+    const bool waits = !real_ && late_.sustained() > 0;
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
-        force.flags = 0;
+        const Wrench last_0 = force.sent_0;
+        force = {};
+        force.last_0 = last_0;
+        if (world_.diverged()) continue;  // nothing follows from it any more
         force.asked_W.force = fingers_[i].force(world_, handles_[i], settings_.tick());
         force.asked_W.torque = fingers_[i].torque();
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.flags);
+        if (const double fed = force_guards_[i].feeding(); fed > 0 && !waits)
+            faults_.trip({haptics::FaultKind::active, static_cast<int>(i), now, fed});
         force.felt_W.force += field_on(i);
         force.felt_0 = turn_.unturned(force.felt_W);
         force.felt_0.force += force_guards_[i].push(unturned_[i], force.flags);
@@ -298,18 +334,25 @@ void Servo::make_forces(Time now) noexcept {
             return (reading.status & devices::kForceDropped) != 0;
         });
     const bool held = switch_held();
-    const bool allowed = held && !dropped;
-    const double share = soft_start_.share(allowed, asked, settings_.tick());
+    const bool allowed = held && !dropped && !commands_.rest;
+    const double rising = soft_start_.share(allowed, asked, settings_.tick());
+    const double share = resumed_ ? 0 : rising;  // without a soft start too
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
+        bound_rise(i, share);
         force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.flags);
         if (held) force.flags &= ~static_cast<unsigned>(haptics::kSwitchedOff);
+        if (const double by = force_guards_[i].chatter(); by > 0 && !waits)
+            faults_.trip({haptics::FaultKind::chatters, static_cast<int>(i), now, by});
         if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
     // one finger's fault is every finger's: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        if (faults_.tripped()) forces_[i].sent_0 = {};
+        if (faults_.tripped()) {
+            forces_[i].sent_0 = {};
+            force_guards_[i].drop();
+        }
         const Wrench& sent_0 = forces_[i].sent_0;
         sent_D_[i] = {X_D0_[i].R * sent_0.force, X_D0_[i].R * sent_0.torque};
         forces_[i].sent_W = turn_.turned(sent_0);

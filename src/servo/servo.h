@@ -18,6 +18,7 @@
 #include "haptics/soft_start.h"
 #include "rig/rig.h"
 #include "servo/frame.h"
+#include "servo/lateness.h"
 #include "servo/settings.h"
 #include "servo/workspace_turn.h"
 
@@ -27,8 +28,12 @@ namespace dihaptic::servo {
 struct Commands {
     int32_t trial = 0;
     int32_t phase = 0;
-    bool stop = false;                       ///< this tick is the last
-    bool force_off = false;                  ///< from this tick on, for good: the operator's wish
+    bool stop = false;       ///< this tick is the last
+    bool force_off = false;  ///< from this tick on, for good: the operator's wish
+    bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
+    /// How long whoever watches the session has not answered, if that is too long: force is off
+    /// from this tick on [s].
+    double abandoned = 0;
     std::optional<dynamics::Solver> solver;  ///< from this step on
     std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
     /// What fingers are that may change, and that the scene gives no proxy of their own, from this
@@ -65,8 +70,9 @@ class Servo {
     /// softly.
     void rest() noexcept;
     /// After rest(), before the next tick: hands may be elsewhere by now, and force comes on
-    /// softly. After a fault the devices are activated anew, and it is forgotten. Throws Error when
-    /// they cannot be.
+    /// softly, from zero in the next tick. After a fault the devices are activated anew, and it is
+    /// forgotten; bodies of a world that diverged are where the scene has them. Throws Error when
+    /// the devices cannot be activated.
     void resume();
     /// Memory for every Frame that this servo makes; only copies into it allocate nothing.
     void reserve(Frame& frame) const;
@@ -76,6 +82,8 @@ class Servo {
     /// Whether the last tick's director asked to stop, a recording ended, or a fault's grace is
     /// over; the operator's wish needs none.
     bool stopped() const { return stopped_; }
+    /// Whether the last tick's director asked for no more than a rest.
+    bool resting() const { return resting_; }
     /// Why force is off, if it is.
     const haptics::Fault& fault() const { return faults_.fault(); }
     /// Has the devices call `tick` as devices::DeviceGroup::pace() says.
@@ -86,8 +94,14 @@ class Servo {
     double generated(int finger) const {
         return force_guards_[static_cast<size_t>(finger)].generated();
     }
-    /// For whoever keeps real time: goes into the next Frame.
+    /// For whoever keeps real time: goes into the next Frame, and `max_late` is judged by it.
     void note_timing(double lateness, double last_tick, bool overrun) noexcept;
+    /// Whether devices hold a person's hand, so that a late tick may be a fault. Otherwise it is
+    /// only told.
+    bool real() const { return real_; }
+    /// Of handle and hand, that what a late loop holds is judged by: the least that a device tells
+    /// of [N*s/m].
+    double damping() const { return damping_; }
 
     Time period() const { return period_; }
     const Settings& settings() const { return settings_; }
@@ -99,6 +113,12 @@ class Servo {
 
   private:
     void measure(Time now) noexcept;
+    void judge_lateness(Time now, double elapsed) noexcept;
+    /// Has the couplings give what is asked for, and no more than the loop holds.
+    void retune() noexcept;
+    void bound_rise(size_t finger, double share) noexcept;
+    /// Bodies as ordered, proxies to their handles, and a step of the world, if it is time for one.
+    dynamics::StepStatus advance_world() noexcept;
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
     haptics::Finger make_finger(const scene::Scene& scene, size_t finger, dynamics::BodyIndex proxy,
@@ -130,6 +150,18 @@ class Servo {
     std::vector<Pose> X_D0_;
     WorkspaceTurn turn_;
     std::vector<haptics::Handle> unturned_;
+    struct Move {
+        Vec3 way = Vec3::Zero();   // [m]
+        Vec3 turn = Vec3::Zero();  // [rad]
+    };
+    std::vector<Move> moves_;  // of the unturned handles since the last tick
+    Lateness late_;
+    double elapsed_ = 0;             // since the last tick [s]
+    haptics::Fault lateness_fault_;  // of this tick, where devices are real
+    uint32_t late_told_ = 0;         // its Status, where not, too
+    bool real_ = false;
+    double damping_ = 0;
+    haptics::CouplingSettings in_force_;
     std::vector<devices::Reading> readings_;
     std::vector<haptics::Handle> handles_;
     std::vector<haptics::HandleGuard> guards_;
@@ -144,6 +176,7 @@ class Servo {
         Wrench felt_0;   // the same without the workspaces' turn, with the wall
         Wrench sent_0;
         Wrench sent_W;
+        Wrench last_0;       // what was sent in the tick before
         unsigned flags = 0;  // haptics::LimitFlags, EnergyFlags and GuardFlags
     };
     std::vector<Force> forces_;
@@ -154,8 +187,10 @@ class Servo {
     double last_tick_ = kUnmeasured;
     bool overrun_ = false;
     bool resumed_ = false;  // the next tick is the first after resume()
+    bool anew_ = false;     // in the next tick all proxies begin at their handles
     bool active_ = false;
     bool stopped_ = false;
+    bool resting_ = false;
 };
 
 }  // namespace dihaptic::servo

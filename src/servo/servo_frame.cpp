@@ -25,8 +25,16 @@ uint32_t fault_status(haptics::FaultKind kind) {
             return kTooFast;
         case haptics::FaultKind::late:
             return kLate;
+        case haptics::FaultKind::keeps_late:
+            return kKeepsLate;
         case haptics::FaultKind::not_finite:
+        case haptics::FaultKind::diverged:
             return kNotFinite;
+        case haptics::FaultKind::active:
+        case haptics::FaultKind::chatters:
+            return kEnergyGenerated;
+        case haptics::FaultKind::abandoned:
+            return kAbandoned;
         case haptics::FaultKind::stopped:
             return kStopped;
     }
@@ -51,6 +59,7 @@ uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
     if (limits & haptics::kSwitchedOff) status |= kSwitchedOff;
     if (limits & haptics::kEnergyGenerated) status |= kEnergyGenerated;
     if (limits & haptics::kEnergyDamped) status |= kEnergyDamped;
+    if (limits & haptics::kRiseBounded) status |= kSoftened;
     return status;
 }
 
@@ -63,14 +72,18 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.phase = commands.phase;
     frame_.task = commands.task;
     frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
+    if (step == dynamics::StepStatus::diverged) frame_.status |= kNotFinite;
     if (overrun_) frame_.status |= kOverrun;
     if (std::exchange(resumed_, false)) frame_.status |= kResumed;
+    if (commands.rest) frame_.status |= kPaused;
     if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
     if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     frame_.solver = static_cast<int32_t>(world_.solver());
-    const haptics::Tuning tuning = settings_.coupling.tuning();
+    if (!real_) frame_.status |= late_told_;
+    const haptics::Tuning tuning = in_force_.tuning();
+    if (tuning.stiffness < settings_.coupling.stiffness) frame_.status |= kSoftened;
     frame_.coupling = static_cast<int32_t>(tuning.kind);
     frame_.stiffness = tuning.stiffness;
     frame_.damping = tuning.damping.value_or(kUnmeasured);

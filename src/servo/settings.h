@@ -1,5 +1,5 @@
-// Every setting that scene, rig, experiment and command line may give, in one place.
-// Precedence: default < scene < rig < experiment < command line.
+// Every setting of scene, rig, experiment and command line: the later one counts, but of `safety`,
+// which is the rig's, and which the others may only tighten (experiment/safety_limits.h).
 #pragma once
 
 #include "dynamics/settings.h"

@@ -1,15 +1,34 @@
 #include "servo/watchdog.h"
 
+#include <pthread.h>
+
 #include <utility>
 
 namespace dihaptic::servo {
+namespace {
+
+/// A servo that does not sleep would otherwise keep a thread of its own priority waiting for ever
+/// where they share a processor. The servo's thread does it: the other might not come to run.
+void raise_above_this(std::thread& thread) {
+    int policy = 0;
+    sched_param priority{};
+    if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO)
+        return;
+    ++priority.sched_priority;
+    // refused: it watches as well as it can
+    pthread_setschedparam(thread.native_handle(), policy, &priority);
+}
+
+}  // namespace
 
 Watchdog::Watchdog(Time limit, std::function<void()> stop, std::function<void()> stuck)
     : limit_(limit),
       stop_(std::move(stop)),
       stuck_(std::move(stuck)),
       last_end_(Clock::now().time_since_epoch().count()),
-      thread_([this] { run(); }) {}
+      thread_([this] { run(); }) {
+    raise_above_this(thread_);
+}
 
 Watchdog::~Watchdog() {
     {

@@ -3,8 +3,8 @@
 // takes it away. It calls nothing but a stop that may be called from any thread; what the servo
 // computes is none of its business.
 //
-// Started from the servo's thread it has that one's priority. It sleeps from deadline to deadline,
-// so ticks cost it nothing.
+// Started from the servo's thread it has that one's priority and one more. It sleeps from deadline
+// to deadline, so ticks cost it nothing.
 #pragma once
 
 #include <atomic>

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/text_file.h"
 
 namespace dihaptic::view {
 namespace {
@@ -44,7 +45,8 @@ int start(const std::vector<std::string>& words, int in, int err, int& process) 
 }  // namespace
 
 Movie::Movie(const std::string& file, int width, int height, int frames_per_second)
-    : file_(file), part_(fmt::format("{}.{}", file, getpid())) {
+    : file_(file), part_(part_name(file)) {
+    remove_dead_parts(file);
     if (width % 2 != 0 || height % 2 != 0)
         throw Error(fmt::format("a video cannot be {}x{}", width, height),
                     "Give an even width and height by --size.");

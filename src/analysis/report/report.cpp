@@ -6,6 +6,7 @@
 
 #include "analysis/report/population_page.h"
 #include "analysis/report/session_page.h"
+#include "base/regular_file.h"
 #include "base/text_file.h"
 
 namespace dihaptic::analysis {
@@ -30,6 +31,7 @@ ReportResult report_session(const std::string& path, const std::string& command,
     write(result, made.fits, session.folder.file("fits.csv"));
     write(result, made.generalisation, session.folder.file("generalisation.csv"));
     write(result, made.thresholds, session.folder.file("thresholds.csv"));
+    result.log = made.log;
     result.page = session.folder.file("report.html");
     write_file(made.page.html(), result.page);
     return result;
@@ -86,9 +88,9 @@ ReportResult report_folder(const std::string& folder, const std::string& command
 
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress) {
-    const bool is_folder = fs::is_directory(path);
-    if (!is_folder || fs::exists(fs::path(path) / "session.yaml") ||
-        fs::exists(fs::path(path) / "raw.log"))
+    std::error_code unreadable;  // then it is no session, and that is said
+    const bool is_folder = fs::is_directory(path, unreadable);
+    if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, command, progress);
     return report_folder(path, command, progress);
 }

@@ -12,6 +12,7 @@ struct ReportResult {
     std::vector<std::string> tables;  ///< beside it
     int sessions = 0;
     std::vector<std::string> left_out;  ///< sessions, each with why
+    std::vector<std::string> log;       ///< what is wrong with a session's raw.log, in sentences
 };
 
 /// Of one session: report.html in its folder, with adaptation.csv and fits.csv where it has

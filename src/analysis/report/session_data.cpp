@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 
+#include "base/regular_file.h"
+
 namespace dihaptic::analysis {
 
 namespace fs = std::filesystem;
@@ -18,12 +20,12 @@ SessionData SessionData::read(const std::string& path) {
                     "If it was killed, run: dihaptic recover " + folder.path());
     }
     SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {}, {}};
-    if (fs::exists(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
+    if (is_there(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
     data.curves = adaptation_curves(data.trials);
-    if (!data.curves.empty() && fs::exists(folder.file("trial-list.csv")))
+    if (!data.curves.empty() && is_there(folder.file("trial-list.csv")))
         data.generalisation =
             find_generalisation(data.trials, CsvFile(folder.file("trial-list.csv")));
-    if (fs::exists(folder.file("procedures.csv")))
+    if (is_there(folder.file("procedures.csv")))
         data.tracks = threshold_tracks(data.trials, CsvFile(folder.file("procedures.csv")));
     return data;
 }

@@ -9,6 +9,7 @@
 
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
+#include "base/regular_file.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::analysis {
@@ -376,12 +377,11 @@ void thin(Series& series) {
 
 /// Forces and height over the whole of a short session, or over the first complete lift of a long
 /// one.
-void add_course(SessionPage& out, const SessionData& session,
+void add_course(SessionPage& out, const SessionData& session, recording::RawLogReader& log,
                 const std::function<void(double)>& progress) {
     double from = 0;
     double to = kLongest;
     std::string what = "The session";
-    recording::RawLogReader log(session.folder.raw_log());
     if (session.info.ticks * log.head().tick > kLongest) {
         if (!session.lifts) return;
         size_t i = 0;
@@ -436,6 +436,20 @@ void add_course(SessionPage& out, const SessionData& session,
             {"Height of the " + session.info.object, "time [s]", "mm", origin, {height}, marks});
 }
 
+/// What the log shows, and what is wrong with it: the tables were made when it may still have been
+/// whole.
+void add_log(SessionPage& out, const SessionData& session,
+             const std::function<void(double)>& progress) {
+    recording::RawLogReader log(session.folder.raw_log());
+    session.folder.check_log(session.info, log.head());
+    add_course(out, session, log, progress);
+    const recording::LogHealth& health = log.read_to_end();
+    if (!health.damaged(session.info.ticks)) return;
+    out.log = recording::describe(health, session.info.ticks, log.head().planned());
+    out.page.heading("The log is not whole");
+    for (const std::string& what : out.log) out.page.text(what + ".");
+}
+
 }  // namespace
 
 std::string origin_of(const SessionData& session) {
@@ -457,7 +471,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
     // a rehearsal keeps no log
-    if (std::filesystem::exists(session.folder.raw_log())) add_course(out, session, progress);
+    if (is_there(session.folder.raw_log())) add_log(out, session, progress);
     out.page.heading("Settings");
     out.page.folded_table("All settings, with where each came from", read_settings(session.folder));
     return out;

@@ -15,10 +15,11 @@ std::string origin_of(const SessionData& session);
 
 struct SessionPage {
     Page page;
-    Table adaptation{};      ///< a row a reach; empty without
-    Table fits{};            ///< a row a round
-    Table thresholds{};      ///< a row a procedure
-    Table generalisation{};  ///< a row a direction
+    Table adaptation{};              ///< a row a reach; empty without
+    Table fits{};                    ///< a row a round
+    Table thresholds{};              ///< a row a procedure
+    Table generalisation{};          ///< a row a direction
+    std::vector<std::string> log{};  ///< what is wrong with raw.log, in sentences
 };
 
 /// Throws Error when the session's log cannot be read.

@@ -184,6 +184,14 @@ TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
     EXPECT_EQ(trace.lift_off(), 400u);
 }
 
+/// Each event: ms, name, detail.
+std::vector<std::string> said_by(const EventFinder& finder) {
+    std::vector<std::string> said;
+    for (const Event& e : finder.events())
+        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
+    return said;
+}
+
 TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
     recording::LogHead head;
     head.fingers = {"thumb", "index"};
@@ -202,10 +210,7 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
         }
         finder.add(f);
     }
-    std::vector<std::string> said;
-    for (const Event& e : finder.events())
-        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
-    EXPECT_EQ(said,
+    EXPECT_EQ(said_by(finder),
               (std::vector<std::string>{
                   "0 phase reach", "10 touch thumb block", "10 touch index block", "50 phase lift",
                   "60 lift-off block",
@@ -225,10 +230,7 @@ TEST(Events, TellsWhatWasTunedOnceItHasArrived) {
         if (i == 80) f.status = servo::kResumed;
         finder.add(f);
     }
-    std::vector<std::string> said;
-    for (const Event& e : finder.events())
-        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
-    EXPECT_EQ(said,
+    EXPECT_EQ(said_by(finder),
               (std::vector<std::string>{
                   "0 phase all", "41 setting coupling.stiffness_N_m: 1000 -> 2000",
                   "61 setting coupling.damping_Ns_m: k h / 2 -> 3", "80 went on after a pause"}));

@@ -63,7 +63,7 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     testing::TemporaryFolder folder;
     const std::string set = folder.file("study");
-    const std::string motion = export_bids(session(folder.file("a"), "complete"), set, {});
+    const std::string motion = export_bids(session(folder.file("a"), "complete"), set, {}).folder;
     EXPECT_EQ(motion, set + "/sub-S07/motion");
     const std::string stem = motion + "/sub-S07_task-visuomotorrotation_tracksys-index_run-01_";
     const auto rows = lines(testing::read_file(stem + "motion.tsv"));
@@ -92,7 +92,7 @@ TEST(Bids, ASecondSessionIsAnotherRunAndReplacesNothing) {
     testing::TemporaryFolder folder;
     const std::string set = folder.file("study");
     export_bids(session(folder.file("a"), "complete"), set, {});
-    const std::string motion = export_bids(session(folder.file("b"), "complete"), set, {});
+    const std::string motion = export_bids(session(folder.file("b"), "complete"), set, {}).folder;
     for (const char* run : {"01", "02"})
         EXPECT_TRUE(fs::exists(motion + "/sub-S07_task-visuomotorrotation_tracksys-index_run-" +
                                run + "_motion.tsv"));

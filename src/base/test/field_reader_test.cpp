@@ -209,6 +209,12 @@ TEST(Node, RefusesASecondDocument) {
     }
 }
 
+TEST(Node, RefusesAStrayComma) {
+    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // it was read for ever
+    EXPECT_THROW(parse_yaml("{ a: 1 }, { b: 2 }", "comma.yaml"), Error);
+    EXPECT_EQ(parse_yaml("", "empty.yaml").kind, Node::Kind::null);
+}
+
 TEST(Node, SaysWhyAFileCannotBeRead) {
     try {
         read_yaml("/nowhere/scene.yaml");

@@ -2,6 +2,8 @@
 // must never do.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "problems.h"
 #include "testing/allocation_guard.h"
 
@@ -331,6 +333,71 @@ TEST(StewartTrinkle, SolvesItsOwnProblemWithFixedDirections) {
         EXPECT_LE(a.detail.lcp_residual, 1e-8) << i;
     }
     EXPECT_LE(fallbacks, 2);
+}
+
+TEST_P(EachSolver, RefusesWhatIsNoNumberBeforeItStarts) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    const std::vector<std::function<void(ContactProblem&, double)>> plants{
+        [](ContactProblem& p, double x) { p.bodies[0].v_W.x() = x; },
+        [](ContactProblem& p, double x) { p.bodies[0].w_W.z() = x; },
+        [](ContactProblem& p, double x) { p.bodies[0].inverse_mass(0, 0) = x; },
+        [](ContactProblem& p, double x) { p.bodies[0].inverse_inertia(1, 1) = x; },
+        [](ContactProblem& p, double x) { p.contacts[1].p_BC_W.y() = x; },
+        [](ContactProblem& p, double x) { p.contacts[1].R_WC(1, 1) = x; },
+        [](ContactProblem& p, double x) { p.contacts[1].bias = x; },
+        [](ContactProblem& p, double x) { p.contacts[1].friction = x; },
+    };
+    for (const bool torsion : {false, true}) {
+        ContactSolvers solvers;
+        solvers.reserve(4, 16, torsion);
+        for (const auto& plant : plants) {
+            for (const double x : {nan, infinite, -infinite, 1e200}) {
+                ContactProblem problem = block_on_plane({0, 0, 1}, 0.5);
+                if (torsion) problem.contacts[0].torsion_radius = 0.01;
+                plant(problem, x);
+                std::vector<Impulse> r(problem.contacts.size(), Impulse::Constant(1));
+                SolveStats stats;
+                const dihaptic::testing::AllocationGuard guard;
+                ASSERT_TRUE(solvers.solve(GetParam(), {}, problem, r, stats));
+                EXPECT_EQ(guard.count(), 0u);
+                EXPECT_TRUE(stats.missed || x == 1e200);
+                EXPECT_TRUE(stats.refused || x == 1e200);
+                if (!stats.refused) continue;
+                EXPECT_EQ(stats.iterations, 0);
+                for (const Impulse& impulse : r) EXPECT_EQ(impulse, Impulse::Zero());
+            }
+        }
+    }
+}
+
+TEST_P(EachSolver, StartsFromZeroWhereItsStartIsNoNumber) {
+    const ContactProblem problem = block_on_plane({0, 0, 1}, 0.5);
+    ContactSolvers solvers;
+    solvers.reserve(4, 16, false);
+    std::vector<Impulse> zero(problem.contacts.size(), Impulse::Zero());
+    std::vector<Impulse> r(problem.contacts.size(),
+                           Impulse::Constant(std::numeric_limits<double>::quiet_NaN()));
+    SolveStats stats, expected;
+    ASSERT_TRUE(solvers.solve(GetParam(), {}, problem, r, stats));
+    ASSERT_TRUE(solvers.solve(GetParam(), {}, problem, zero, expected));
+    EXPECT_FALSE(stats.missed);
+    for (size_t j = 0; j < r.size(); ++j) EXPECT_EQ(r[j], zero[j]);
+}
+
+TEST(Polygon, HasADirectionBeforeAnything) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const int n : {4, 8, kMostDirections}) {
+        for (const double angle : {0.0, 1.0, -7.0, 1e300, nan, infinite}) {
+            for (const double x : {0.0, 1.0, -1e-300, 1e300, nan, infinite, -infinite}) {
+                const int before = Polygon{n, angle}.before({x, -x});
+                EXPECT_GE(before, 0);
+                EXPECT_LT(before, n);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -73,6 +73,23 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
     return out;
 }
 
+/// What it can turn, if it measures orientation: what does not shall render no torque.
+void add_wrist(const Dhd& dhd, const Connection& connection, const Options& options,
+               const Place& place, DeviceInfo& info) {
+    info.measures_orientation = options.orientation && dhd.has_wrist(connection.id());
+    const bool turns = info.measures_orientation && dhd.has_active_wrist(connection.id());
+    if (!turns && options.peak_torque) {
+        throw Error(place, "peak_torque", fmt::format("{} renders no torque", info.model),
+                    "Leave it out: an active wrist does, and only with orientation.");
+    }
+    if (!turns) return;
+    const double stated = dhd.max_torque(connection.id());
+    const bool known = std::isfinite(stated) && stated > 0;
+    info.peak_torque = options.peak_torque.value_or(known ? stated : 0);
+    if (known) info.peak_torque = std::min(info.peak_torque, stated);
+    if (options.continuous_torque) info.continuous_torque = *options.continuous_torque;
+}
+
 DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
                    const Place& place) {
     DeviceInfo info;
@@ -88,6 +105,7 @@ DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& 
     }
     if (options.continuous_force) info.continuous_force = *options.continuous_force;
     info.workspace = options.workspace;
+    add_wrist(dhd, connection, options, place, info);
     return info;
 }
 
@@ -117,7 +135,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, cons
         const DeviceInfo info = info_of(dhd, connection, options[i], place);
         devices.push_back({std::move(connection), info,
                            fmt::format("the {}'s device ({})", configs[i].finger, info.model),
-                           place});
+                           place, options[i].watchdog});
     }
     return std::make_unique<Group>(dhd, std::move(devices));
 }

@@ -8,8 +8,8 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// What dhdGetStatus() gives.
-using DhdStatus = std::array<int, 17>;
+/// What dhdGetStatus() gives: 17 numbers in 3.17.5, and room for those of versions to come.
+using DhdStatus = std::array<int, 64>;
 enum DhdStatusIndex : unsigned {
     kDhdPower = 0,
     kDhdConnected = 1,
@@ -28,11 +28,14 @@ enum DhdForceOff : int {
     kDhdByDeadMan = 6,
 };
 
+/// dhdSetWatchdog() takes so many of these: its longest, and of how long each is [s]. 0 is none.
+constexpr unsigned char kDhdLongestWatchdog = 255;
+constexpr double kDhdWatchdogStep = 125e-6;
+
 /// The library's functions. They return -1 for an error; 0 and more are none: 1 means that the time
 /// guard gave the last state again, 2 that a motor gives what it can.
 struct Dhd {
     int (*device_count)() = nullptr;
-    int (*available_count)() = nullptr;
     int (*open_id)(char id) = nullptr;
     int (*close)(char id) = nullptr;
     const char* (*system_name)(char id) = nullptr;
@@ -41,9 +44,18 @@ struct Dhd {
     int (*position)(double*, double*, double*, char id) = nullptr;
     int (*velocity)(double*, double*, double*, char id) = nullptr;
     int (*set_force)(double, double, double, char id) = nullptr;
+    bool (*has_wrist)(char id) = nullptr;                        // measures orientation
+    bool (*has_active_wrist)(char id) = nullptr;                 // renders torque
+    int (*orientation)(double (*matrix)[3], char id) = nullptr;  // by rows
+    int (*angular_velocity)(double*, double*, double*, char id) = nullptr;
+    int (*set_force_and_torque)(double, double, double, double, double, double, char id) = nullptr;
     unsigned (*buttons)(char id) = nullptr;
     int (*compensate_gravity)(int on, char id) = nullptr;
-    double (*max_force)(char id) = nullptr;
+    double (*max_force)(char id) = nullptr;   // negative: not stated
+    double (*max_torque)(char id) = nullptr;  // the same
+    int (*enable_expert_mode)() = nullptr;
+    int (*disable_expert_mode)() = nullptr;
+    int (*set_watchdog)(unsigned char steps, char id) = nullptr;  // in expert mode
     int (*status)(int*, char id) = nullptr;
     const char* (*last_error)() = nullptr;
 

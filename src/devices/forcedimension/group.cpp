@@ -23,7 +23,7 @@ const char* describe_cause(int cause) {
         case kDhdByVelocity:
             return "It moved faster than its velocity threshold: move more slowly.";
         case kDhdByWatchdog:
-            return "Its watchdog had no force for too long: close other programs.";
+            return "It heard nothing for 32 ms: close other programs.";
         case kDhdBySoftware:
             return "A program switched its force off.";
         case kDhdByUsb:
@@ -85,6 +85,18 @@ Error Group::error(const Device& device, const std::string& doing) const {
             "Look at its power and its cable, and switch it off and on."};
 }
 
+/// The device's own answer to a program that dies, is stopped or hangs.
+void Group::set_watchdog(const Device& device) const {
+    dhd_.enable_expert_mode();
+    const int done = dhd_.set_watchdog(kDhdLongestWatchdog, device.connection.id());
+    const std::string said = dhd_.last_error();
+    dhd_.disable_expert_mode();
+    if (done >= 0) return;
+    throw Error(device.place, "watchdog", fmt::format("{} takes no watchdog: {}", device.who, said),
+                "Without one its force may stay on when this program dies. To go on all the same, "
+                "with a hand near its switch, set options: watchdog: no.");
+}
+
 void Group::do_activate() {
     stopped_.store(false);
     for (size_t i = 0; i < devices_.size(); ++i) {
@@ -102,26 +114,42 @@ void Group::do_activate() {
                         "Move it into all its end stops, or run its maker's calibration program.");
         }
         if (dhd_.compensate_gravity(1, id) < 0) throw error(device, "cannot bear its own weight");
-        if (dhd_.set_force(0, 0, 0, id) < 0 || dhd_.enable_force(1, id) < 0)
+        if (device.watchdog) set_watchdog(device);
+        if (tell(device, {}) < 0 || dhd_.enable_force(1, id) < 0)
             throw error(device, "cannot switch its force on");
     }
 }
 
 void Group::do_deactivate() {
     for (const Device& device : devices_) {
-        dhd_.set_force(0, 0, 0, device.connection.id());
+        tell(device, {});
         dhd_.enable_force(0, device.connection.id());
     }
+}
+
+bool Group::read_motion(const Device& device, Reading& reading) noexcept {
+    const char id = device.connection.id();
+    Vec3& p = reading.p_DH;
+    Vec3& v = reading.v_DH;
+    if (dhd_.position(&p[0], &p[1], &p[2], id) < 0 || dhd_.velocity(&v[0], &v[1], &v[2], id) < 0)
+        return false;
+    if (!device.info.measures_orientation) return true;
+    double rows[3][3] = {};
+    Vec3& w = reading.w_DH;
+    if (dhd_.orientation(rows, id) < 0 || dhd_.angular_velocity(&w[0], &w[1], &w[2], id) < 0)
+        return false;
+    Mat3 R_DH;
+    for (int row = 0; row < 3; ++row) R_DH.row(row) = Eigen::RowVector3d(rows[row]);
+    reading.R_DH = Quat(R_DH);
+    return true;
 }
 
 uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
     const char id = devices_[i].connection.id();
     Running& running = running_[i];
-    running.dropped = false;
+    running.off = false;
     DhdStatus status{};
-    if (dhd_.position(&reading.p_DH[0], &reading.p_DH[1], &reading.p_DH[2], id) < 0 ||
-        dhd_.velocity(&reading.v_DH[0], &reading.v_DH[1], &reading.v_DH[2], id) < 0 ||
-        dhd_.status(status.data(), id) < 0) {
+    if (!read_motion(devices_[i], reading) || dhd_.status(status.data(), id) < 0) {
         keep_last_error(running);
         return kNotAnswering;
     }
@@ -139,7 +167,12 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
         out |= kOutsideWorkspace;
     if (status[kDhdForce] != 0 || stopped_.load(std::memory_order_relaxed)) return out;
     if (running.cause == kDhdByUsb) return kNotAnswering;
-    running.dropped = true;
+    running.off = true;
+    // in a pause nobody says anything, and nothing was taken from the hand
+    if (running.cause == kDhdByWatchdog && running.quiet) {
+        running.cause = 0;
+        return out;
+    }
     // as long as a person wishes it off it is no fault
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return out | kForceDropped;
     return out | running.drops.status(now, true);
@@ -152,15 +185,23 @@ void Group::do_read(Time now, std::span<Reading> readings) noexcept {
     }
 }
 
+int Group::tell(const Device& device, const Wrench& wrench_D) noexcept {
+    const Vec3& f = wrench_D.force;
+    const Vec3& t = wrench_D.torque;
+    const char id = device.connection.id();
+    if (device.info.peak_torque == 0) return dhd_.set_force(f[0], f[1], f[2], id);
+    return dhd_.set_force_and_torque(f[0], f[1], f[2], t[0], t[1], t[2], id);
+}
+
 void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
     const bool stopped = stopped_.load(std::memory_order_relaxed);
     for (size_t i = 0; i < devices_.size(); ++i) {
-        const char id = devices_[i].connection.id();
         Running& running = running_[i];
-        const Vec3 force = stopped || running.dropped ? Vec3::Zero() : wrenches_D[i].force;
-        const int done = dhd_.set_force(force.x(), force.y(), force.z(), id);
+        const Wrench wrench = stopped || running.off ? Wrench{} : wrenches_D[i];
+        const int done = tell(devices_[i], wrench);
+        running.quiet = wrench.is_zero();
         running.saturated = done == 2;
-        if (running.dropped && !stopped) dhd_.enable_force(1, id);
+        if (running.off && !stopped) dhd_.enable_force(1, devices_[i].connection.id());
         // that the connection is lost shows in the next reading
         if (done < 0) keep_last_error(running);
     }

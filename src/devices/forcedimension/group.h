@@ -12,19 +12,28 @@ namespace dihaptic::devices::forcedimension {
 
 /// A device of the rig file.
 struct Options {
-    int serial = kAny;                       ///< kAny: the only one that is there
-    std::string library;                     ///< libdhd.so, where it is not found by itself
-    std::optional<double> peak_force;        ///< that it may be asked for [N]
-    std::optional<double> continuous_force;  ///< that it can hold for long [N]
-    std::optional<Vec3> workspace;           ///< edges of the box around D's origin [m]
+    int serial = kAny;                        ///< kAny: the only one that is there
+    std::string library;                      ///< libdhd.so, where it is not found by itself
+    std::optional<double> peak_force;         ///< that it may be asked for [N]
+    std::optional<double> continuous_force;   ///< that it can hold for long [N]
+    std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
+    bool orientation = true;                  ///< whether it is used, of devices that measure it
+    std::optional<double> peak_torque;        ///< that it may be asked for [N*m]
+    std::optional<double> continuous_torque;  ///< that it can hold for long [N*m]
+    /// Whether the device shall end its force by itself when it hears nothing; no: as it is.
+    bool watchdog = true;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("serial", serial, Field::number().within(0, 65535));
         v("library", library);
-        v("peak_force", peak_force, Field::of(Quantity::force).positive());
-        v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
-        v("workspace", workspace, Field::length().positive());
+        v("peak_force", peak_force, Field::of(Quantity::force).within(0.01, 1000));
+        v("continuous_force", continuous_force, Field::of(Quantity::force).within(0.01, 1000));
+        v("workspace", workspace, Field::length().within(1e-3, 100));
+        v("orientation", orientation);
+        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(1e-4, 100));
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
+        v("watchdog", watchdog);
     }
 
     static constexpr int kAny = -1;
@@ -57,6 +66,7 @@ class Group final : public DeviceGroup {
         DeviceInfo info;
         std::string who;  ///< for messages
         Place place{};
+        bool watchdog = true;
     };
     Group(const Dhd& dhd, std::vector<Device> devices);
 
@@ -66,7 +76,8 @@ class Group final : public DeviceGroup {
   private:
     struct Running {
         ForceDrops drops;
-        bool dropped = false;    // it cut its force in this tick
+        bool off = false;        // it had no force on in this tick's reading
+        bool quiet = true;       // it was last told no force
         bool saturated = false;  // a motor gave what it can
         int cause = 0;           // DhdForceOff, the last
         std::array<char, 160> said{};
@@ -78,7 +89,10 @@ class Group final : public DeviceGroup {
     void do_write(std::span<const Wrench> wrenches_D) noexcept override;
     void do_stop() noexcept override;
 
+    void set_watchdog(const Device& device) const;
+    bool read_motion(const Device& device, Reading& reading) noexcept;
     uint32_t read(size_t i, Time now, Reading& reading) noexcept;
+    int tell(const Device& device, const Wrench& wrench_D) noexcept;
     void keep_last_error(Running& running) noexcept;
     Error error(const Device& device, const std::string& doing) const;
 

@@ -66,7 +66,6 @@ class HaplyGroup final : public DeviceGroup {
   private:
     /// Of a device, while it is active.
     struct Cycle {
-        bool clamped = false;
         Reading last{};
         Past<Quat> past{kTurnWindow};
     };
@@ -93,10 +92,7 @@ class HaplyGroup final : public DeviceGroup {
         unanswered_ = 0;
         fresh_ = true;
         sound_ = true;
-        for (Cycle& cycle : cycles_) {
-            cycle.past = Past<Quat>(kTurnWindow);
-            cycle.clamped = false;
-        }
+        for (Cycle& cycle : cycles_) cycle.past = Past<Quat>(kTurnWindow);
     }
 
     void do_deactivate() override {
@@ -145,7 +141,6 @@ class HaplyGroup final : public DeviceGroup {
                 cycle.last.status = kNotAnswering;
             }
             readings[i] = cycle.last;
-            if (cycle.clamped) readings[i].status |= kForceClamped;
         }
     }
 
@@ -174,15 +169,7 @@ class HaplyGroup final : public DeviceGroup {
     }
 
     void do_write(std::span<const Wrench> wrenches_D) noexcept override {
-        for (size_t i = 0; i < devices_.size(); ++i) {
-            Vec3& force = forces_D_[i];
-            force = wrenches_D[i].force;
-            const double size = force.norm();
-            const double most = devices_[i].options.peak_force;
-            cycles_[i].clamped = size > most;
-            if (size > most) force *= most / size;
-            if (!force.allFinite()) force.setZero();
-        }
+        for (size_t i = 0; i < devices_.size(); ++i) forces_D_[i] = wrenches_D[i].force;
         send();
     }
 

@@ -1,10 +1,11 @@
 #include "devices/haply/messages.h"
 
-#include <simdjson.h>
-
 #include <cassert>
 #include <charconv>
 #include <limits>
+
+#define SIMDJSON_EXCEPTIONS 0  // what would throw does not compile
+#include <simdjson.h>
 
 #include "devices/haply/connection.h"
 
@@ -59,7 +60,9 @@ std::optional<bool> flag(json::value value) {
 
 bool read_vector(json::value value, std::optional<Vec3>& out) {
     out = Vec3::Constant(kNotANumber);
-    if (value.is_null()) return true;
+    bool null = false;
+    if (value.is_null().get(null)) return false;
+    if (null) return true;
     Vec3 v = Vec3::Zero();
     const bool whole = for_members(value.get_object(), [&](std::string_view key, json::value part) {
         if (key == "x") v.x() = number(part);

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kPerMm = 1e-3;  // [m]
 
+bool sound(double limit) {
+    return std::isfinite(limit) && limit > 0;
+}
+
 }  // namespace
 
 Connection::Connection(const Hd& hd, const DeviceConfig& config, const Options& options)
@@ -101,8 +105,8 @@ void Connection::read_info() {
     hd_.get_integers(kHdInputDof, &dof);
     info_.measures_orientation = options_.orientation && dof >= 6;
     check("does not say what it can do", "name");
+    read_limits_of_turning();
 
-    const auto sound = [](double limit) { return std::isfinite(limit) && limit > 0; };
     if (!sound(info_.peak_force) || !sound(info_.continuous_force) ||
         !sound(info_.workspace->minCoeff()) || !centre_.allFinite()) {
         throw Error(place_, "name",
@@ -125,6 +129,25 @@ void Connection::read_info() {
                     fmt::format("{} is not that of serial {}", who(), options_.serial),
                     "Correct name or serial, or swap the devices in the driver's configuration.");
     }
+}
+
+/// What measures no orientation shall render no torque, and what states no limit of it neither.
+void Connection::read_limits_of_turning() {
+    int dof = 0;
+    hd_.get_integers(kHdOutputDof, &dof);
+    const bool turns = info_.measures_orientation && dof >= 6;
+    const double peak = turns ? number(kHdMaxTorque) * kPerMm : 0;
+    const double continuous = turns ? number(kHdMaxContinuousTorque) * kPerMm : 0;
+    forget_errors();  // not every device says these
+    if (!turns && options_.peak_torque) {
+        throw Error(place_, "peak_torque", who() + " renders no torque",
+                    "Leave it out: devices with six degrees of output do, with orientation.");
+    }
+    if (!turns) return;
+    info_.peak_torque = options_.peak_torque.value_or(sound(peak) ? peak : 0);
+    if (sound(peak)) info_.peak_torque = std::min(info_.peak_torque, peak);
+    if (sound(continuous)) info_.continuous_torque = continuous;
+    if (options_.continuous_torque) info_.continuous_torque = *options_.continuous_torque;
 }
 
 void Connection::check_joints() const {

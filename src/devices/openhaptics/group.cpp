@@ -133,8 +133,12 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
         hd_.make_current(device.connection.handle());
         if (device.dropped && hd_.is_enabled(kHdForceOutput) == 0) hd_.enable(kHdForceOutput);
         const bool well = device.trouble == 0 && !device.dropped;
-        const Vec3 force = well ? wrenches_D[i].force : Vec3::Zero();
-        hd_.set_doubles(kHdForce, force.data());
+        const Wrench wrench = well ? wrenches_D[i] : Wrench{};
+        hd_.set_doubles(kHdForce, wrench.force.data());
+        if (device.connection.info().peak_torque > 0) {
+            const Vec3 torque = wrench.torque / kPerMm;
+            hd_.set_doubles(kHdTorque, torque.data());
+        }
         hd_.end_frame(device.connection.handle());
     }
 }

@@ -21,8 +21,10 @@ struct Options {
     std::string library;         ///< libHD.so, where it is not found by itself
     bool encoder_reset = false;  ///< at each activation, held in its neutral pose
     bool orientation = true;     ///< whether it is used, of devices that measure it
-    bool joint_angles = false;   ///< a Premium's are asked for, so that calibrations know them
-    model::PhantomLinks links;   ///< of one whose joints are asked for
+    std::optional<double> peak_torque;        ///< where the device states none [N*m]
+    std::optional<double> continuous_torque;  ///< the same
+    bool joint_angles = false;  ///< a Premium's are asked for, so that calibrations know them
+    model::PhantomLinks links;  ///< of one whose joints are asked for
     std::optional<double> max_stiffness;  ///< in place of what the device says [N/m]
     std::optional<double> max_damping;    ///< the same [N*s/m]
 
@@ -33,11 +35,13 @@ struct Options {
         v("library", library);
         v("encoder_reset", encoder_reset);
         v("orientation", orientation);
+        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(1e-4, 100));
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
         v("joint_angles", joint_angles);
-        v("thigh", links.thigh, Field::length().positive());
-        v("shin", links.shin, Field::length().positive());
-        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
-        v("max_damping", max_damping, Field::of(Quantity::damping).positive());
+        v("thigh", links.thigh, Field::length().within(0.05, 1));
+        v("shin", links.shin, Field::length().within(0.05, 1));
+        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
+        v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
     }
 };
 
@@ -71,6 +75,7 @@ class Connection {
     std::string text(HdValue value) const;
     void read_info();
     void check_joints() const;
+    void read_limits_of_turning();
 
     Hd hd_;
     Options options_;

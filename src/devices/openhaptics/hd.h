@@ -35,12 +35,16 @@ enum HdValue : unsigned {
     kHdSerial = 0x2504,
     kHdUsableWorkspace = 0x2551,   // 6 doubles: minima, maxima
     kHdInputDof = 0x2553,          // int
+    kHdOutputDof = 0x2554,         // int
     kHdCalibrationStyle = 0x2555,  // int: HdCalibrationStyle, added
     kHdMaxStiffness = 0x2602,      // double [N/mm]
     kHdMaxForce = 0x2603,          // double
     kHdMaxContinuousForce = 0x2604,
     kHdMaxDamping = 0x2609,  // double [N*s/mm]
-    kHdForce = 0x2700,       // 3 doubles
+    kHdMaxTorque = 0x2622,   // double
+    kHdMaxContinuousTorque = 0x2623,
+    kHdForce = 0x2700,   // 3 doubles
+    kHdTorque = 0x2701,  // 3 doubles, about the same axes
 };
 
 enum HdCapability : unsigned { kHdForceOutput = 0x4000, kHdForceRamping = 0x4002 };

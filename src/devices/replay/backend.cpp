@@ -12,16 +12,22 @@ struct Options {
     double peak_torque = 0;                   ///< [N*m]
     std::optional<double> continuous_torque;  ///< [N*m]
     double scale = 1;                         ///< DeviceInfo::scale
+    bool simulated = false;                   ///< DeviceInfo::simulated
+    /// Of handle and hand together [N*s/m]; infinite: whatever came late, nothing was softened.
+    double damping = std::numeric_limits<double>::infinity();
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("peak_force", peak_force, Field::of(Quantity::force).positive());
-        v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
-        v("workspace", workspace, Field::length().positive());
+        v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(1e6));
+        v("continuous_force", continuous_force, Field::of(Quantity::force).positive().at_most(1e6));
+        v("workspace", workspace, Field::length().positive().at_most(1e4));
         v("orientation", orientation);
-        v("peak_torque", peak_torque, Field::of(Quantity::torque).at_least(0));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
-        v("scale", scale, Field::number().positive());
+        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(0, 1e4));
+        v("continuous_torque", continuous_torque,
+          Field::of(Quantity::torque).positive().at_most(1e4));
+        v("scale", scale, Field::number().within(0.01, 100));
+        v("simulated", simulated);
+        v("damping", damping, Field::of(Quantity::damping).positive().at_most(1e4));
     }
 };
 
@@ -39,6 +45,8 @@ std::vector<DeviceInfo> infos(const std::vector<DeviceConfig>& configs) {
         info.measures_orientation = options.orientation;
         info.peak_torque = options.peak_torque;
         info.scale = options.scale;
+        info.simulated = options.simulated;
+        info.damping = options.damping;
         if (options.continuous_torque) info.continuous_torque = *options.continuous_torque;
         out.push_back(info);
     }

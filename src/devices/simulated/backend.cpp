@@ -69,6 +69,7 @@ std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context
         DeviceInfo info;
         info.model = std::string("simulated ") + std::string(enum_name(option.preset));
         info.serial = option.serial;
+        info.simulated = true;
         info.peak_force = option.peak_force;
         if (option.continuous_force) info.continuous_force = *option.continuous_force;
         info.damping = context.impedance.damping;

@@ -67,16 +67,16 @@ struct Options {
             serial = given;
         }
         v("mass", mass, Field::of(Quantity::mass).within(1e-3, 100));
-        v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(1e4));
-        v("continuous_force", continuous_force, Field::of(Quantity::force).positive());
-        v("position_step", position_step, Field::length().at_least(0));
-        v("friction", friction, Field::of(Quantity::force).at_least(0));
+        v("peak_force", peak_force, Field::of(Quantity::force).within(0.01, 1e4));
+        v("continuous_force", continuous_force, Field::of(Quantity::force).within(0.01, 1e4));
+        v("position_step", position_step, Field::length().within(0, 0.01));
+        v("friction", friction, Field::of(Quantity::force).within(0, 100));
         v("delay_ticks", delay_ticks, Field::number().at_least(0).at_most(100));
         v("velocity_window", velocity_window, Field::number().at_least(1).at_most(kMostWindow));
         v("buttons", buttons, Field::number().within(0, 0x7fffffff));
-        v("workspace", workspace, Field::length().positive());
-        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).positive());
-        v("max_damping", max_damping, Field::of(Quantity::damping).positive());
+        v("workspace", workspace, Field::length().within(1e-3, 100));
+        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
+        v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
         v("arm", arm);
         v("thigh", links.thigh, Field::length().within(0.05, 1));
         v("shin", links.shin, Field::length().within(0.05, 1));
@@ -85,7 +85,7 @@ struct Options {
         v("misplaced_turn", misplaced_turn, Field::of(Quantity::angle).within(-0.5, 0.5));
         v("orientation", orientation);
         v("peak_torque", peak_torque, Field::of(Quantity::torque).within(0, 100));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).positive());
+        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
         v("inertia", inertia, Field::of(Quantity::inertia).within(1e-7, 1));
         v("angle_step", angle_step, Field::of(Quantity::angle).within(0, 0.1));
     }

@@ -16,7 +16,7 @@ struct Held {
 };
 
 /// State of device i at time t [s] from when it was first asked for; since it was last asked for,
-/// the device has pushed with `force` [N].
-using Hand = std::function<Held(size_t i, double t, const Vec3& force)>;
+/// the device has pushed and turned it with `push`.
+using Hand = std::function<Held(size_t i, double t, const Wrench& push)>;
 
 }  // namespace dihaptic::devices

@@ -29,6 +29,9 @@ inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
             openhaptics::FakeHd::Device& device = fake->devices[i];
             device.max_force = options[i].peak_force;
             device.continuous_force = options[i].continuous_force.value_or(kLarge);
+            device.input_dof = options[i].orientation ? 6 : 3;
+            device.output_dof = options[i].peak_torque > 0 ? 6 : 3;
+            if (options[i].peak_torque > 0) device.max_torque = options[i].peak_torque * 1e3;
             const Vec3 edges = options[i].workspace.value_or(Vec3::Constant(2)) * 1e3;
             for (int axis = 0; axis < 3; ++axis) {
                 // not around the origin: makers' workspaces are not
@@ -42,7 +45,11 @@ inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
             if (i == 0) fake = &forcedimension::fake_dhd();
             fake->hand = hand;
             fake->period = context.tick;
-            fake->devices[i].max_force = options[i].peak_force;
+            forcedimension::FakeDhd::Device& device = fake->devices[i];
+            device.max_force = options[i].peak_force;
+            device.wrist = options[i].orientation;
+            device.active_wrist = options[i].peak_torque > 0;
+            device.max_torque = device.active_wrist ? options[i].peak_torque : -1;
             text = fmt::format("library: {}\nserial: {}\n", DIHAPTIC_FAKE_DHD,
                                fake->devices[i].serial);
         }

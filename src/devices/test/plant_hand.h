@@ -15,24 +15,29 @@ inline Hand plant_hand(const std::vector<simulated::Options>& options,
     struct Device {
         simulated::Plant plant;
         simulated::Encoder encoder;
+        simulated::Gimbal gimbal;
         Pose X_WD;
     };
     auto devices = std::make_shared<std::vector<Device>>();
     for (size_t i = 0; i < options.size(); ++i) {
         devices->push_back({simulated::Plant(options[i], context.impedance, context.tremor,
                                              context.seed, static_cast<int>(i), *context.driver),
-                            simulated::Encoder(options[i]), X_WD[i]});
+                            simulated::Encoder(options[i]), simulated::Gimbal(options[i]),
+                            X_WD[i]});
         devices->back().plant.begin(Time(0));
     }
-    return [devices](size_t i, double t, const Vec3& force) {
+    return [devices](size_t i, double t, const Wrench& push) {
         Device& device = (*devices)[i];
+        const Quat& R_WD = device.X_WD.R;
         const Time now = from_seconds(t);
-        device.plant.hold({device.X_WD.R * force, Vec3::Zero()});
+        device.plant.hold({R_WD * push.force, R_WD * push.torque});
         device.plant.advance(now);
         const Pose X_DW = device.X_WD.inverse();
         const auto measured =
             device.encoder.measure(now, X_DW * device.plant.p_WH(), X_DW.R * device.plant.v_WH());
-        return Held{measured.p, measured.v, Quat::Identity(), Vec3::Zero()};
+        const auto turned = device.gimbal.measure(now, X_DW.R * device.plant.R_WH() * R_WD,
+                                                  X_DW.R * device.plant.w_WH());
+        return Held{measured.p, measured.v, turned.R, turned.w};
     };
 }
 

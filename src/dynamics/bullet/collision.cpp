@@ -20,7 +20,7 @@ constexpr double kMostRoundMargin = 5e-2;  // [m]
 
 /// What bodies enter is looked for at least so often along their way [m].
 constexpr double kStride = 2e-3;
-constexpr int kMostStrides = 64;
+constexpr double kMostStrides = 64;
 /// Room for so many pairs that enter each other in a step.
 constexpr size_t kMostEntered = 64;
 
@@ -176,6 +176,12 @@ void Collision::hide(CollisionPart& part) {
     broadphase_.setAabb(part.bounds, corner, corner, &dispatcher_);
 }
 
+void Collision::forget() {
+    for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
+        dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
+    manifolds_.clear();
+}
+
 void Collision::find_contacts(double h) {
     step_ = h;
     btDispatcherInfo info;
@@ -303,12 +309,12 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
-    if (way <= kEntered) return false;
+    if (!(way > kEntered)) return false;  // nor what is no number
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
-    const int strides = std::clamp(static_cast<int>(std::ceil(way / kStride)), 1, kMostStrides);
+    const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));
     bool found = false;
     for (int stride = 1; stride <= strides && !found; ++stride) {
         const double t = h * stride / strides;

@@ -34,6 +34,9 @@ class Collision {
     void hide(CollisionPart& part);
     void show(CollisionPart& part) { part.hidden = false; }
 
+    /// All contacts, and the impulses that they had.
+    void forget();
+
     /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
     /// touches wake: their user index 2 becomes 1, and their pairs are looked at too.
     void find_contacts(double h);

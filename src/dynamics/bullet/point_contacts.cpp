@@ -52,6 +52,14 @@ void PointContacts::add(const Contact& contact) noexcept {
     torsion_radius(point) = contact.torsion_radius;
 }
 
+void PointContacts::forget() noexcept {
+    for (Slot& slot : slots_) {
+        slot.manifold->clearManifold();
+        slot.fresh = false;
+    }
+    taken_.clear();
+}
+
 void PointContacts::take(std::vector<btPersistentManifold*>& out) noexcept {
     taken_.clear();
     for (Slot& slot : slots_) {

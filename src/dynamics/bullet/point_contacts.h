@@ -32,6 +32,8 @@ class PointContacts {
     void add(const Contact& contact) noexcept;
     /// The manifolds of all that was added since the last call; others are forgotten.
     void take(std::vector<btPersistentManifold*>& out) noexcept;
+    /// All of them, and the impulses that they had.
+    void forget() noexcept;
     /// After bodies have moved by h [s]: what a turning body carries goes along an arc, a point's
     /// own step along its tangent. Of the bodies that press on it, by how hard they do, the
     /// difference [m].

@@ -24,7 +24,8 @@ std::string rig_text(const std::string& backend) {
         out += fmt::format("  - {{finger: {}, backend: {}, options: {{library: {}, {}}}}}\n",
                            i == 1 ? "thumb" : "index", backend, library, which);
     }
-    return out;
+    // a busy machine is another test's
+    return out + "settings: { safety: { max_pause_ms: 1000, hand_damping_Ns_m: 100 } }\n";
 }
 
 class RealDevices : public ::testing::TestWithParam<const char*> {
@@ -36,8 +37,6 @@ class RealDevices : public ::testing::TestWithParam<const char*> {
         if (!hd()) devices::forcedimension::fake_dhd();
         request.file = "scenes/block-on-table.yaml";
         request.rig = folder.write("rig.yaml", rig_text(GetParam()));
-        // a busy machine is another test's
-        request.set = {"safety.max_pause_ms=1000"};
     }
     bool hd() const { return std::string(GetParam()) == "openhaptics"; }
 };
@@ -114,7 +113,7 @@ TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
         hd() ? &devices::openhaptics::fake_hd_as_it_is() : nullptr;
     devices::forcedimension::FakeDhd* const fake_dhd =
         hd() ? nullptr : &devices::forcedimension::fake_dhd_as_it_is();
-    const devices::Hand hand = [](size_t i, double t, const Vec3&) {
+    const devices::Hand hand = [](size_t i, double t, const Wrench&) {
         const double x = i == 0 ? -0.03 + std::min(0.015, 0.05 * t) : 0.06;
         return devices::Held{{x, 0, 0.02}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()};
     };

@@ -36,6 +36,16 @@ TEST(Limiter, CutsChange) {
     EXPECT_EQ(last, Vec3(0, 0, 3));
 }
 
+TEST(Limiter, HoldsNoForceUpForLongerThanATenthOfASecond) {
+    Limiter limiter(10, 85);
+    unsigned flags = 0;
+    for (int i = 0; i < 200; ++i) limiter.limit({0, 0, 10}, kStep, flags);
+    int ticks = 0;
+    while (limiter.limit(Vec3::Zero(), kStep, flags) != Vec3::Zero()) ++ticks;
+    EXPECT_LE(ticks, 100);
+    EXPECT_GE(ticks, 99);
+}
+
 TEST(Limiter, DropsToZeroAtOnceAndForGoodOnWhatIsNoNumber) {
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

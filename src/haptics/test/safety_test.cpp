@@ -111,12 +111,11 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
               "raise settings: safety: max_speed_m_s.");
     EXPECT_EQ(describe({FaultKind::late, -1, when, 0.051, 0.04}, "thumb", "Premium 1.0"),
               "force is off since 1.234 s: nothing answered the hands for 51 ms, and 40 ms are "
-              "allowed. Close other programs, or look for a device that blocks; then start the "
-              "session again.");
+              "allowed. Close other programs, or look for a device that blocks.");
     EXPECT_EQ(
         describe({FaultKind::stopped, -1, when}, "thumb", "Premium 1.0"),
         "force is off since 1.234 s: it was stopped by the operator. What was done until then "
-        "is recorded; start the session again to go on.");
+        "is recorded.");
     for (const FaultKind kind :
          {FaultKind::bad_reading, FaultKind::not_answering, FaultKind::not_finite}) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");

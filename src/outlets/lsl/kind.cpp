@@ -64,10 +64,24 @@ constexpr int kFloat = 1;         // cft_float32
 constexpr int kString = 3;        // cft_string
 constexpr int32_t kBuffer = 360;  // [s] that a reader may be away, liblsl's default
 
+/// What a push that did not succeed returned: an lsl_error_code_t.
+const char* describe(int32_t error) {
+    switch (error) {
+        case -1:
+            return "it timed out";
+        case -2:
+            return "the stream was lost";
+        case -3:
+            return "it takes no such sample";
+        default:
+            return "an error inside it";
+    }
+}
+
 class Lsl final : public Outlet {
   public:
     Lsl(const Options& options, const About& about, const Place& place)
-        : library_(options.library, place) {
+        : library_(options.library, place), place_(place) {
         // Both clocks are monotonic, and may have another zero.
         const auto now = Clock::now().time_since_epoch();
         offset_ = library_.local_clock() - std::chrono::duration<double>(now).count();
@@ -76,49 +90,56 @@ class Lsl final : public Outlet {
         handles_ = open(options.name + " handles", "Haptics", about.channels, about.rate, kFloat,
                         about.session + "/handles");
     }
-    ~Lsl() override {
-        library_.destroy_outlet(markers_);
-        library_.destroy_outlet(handles_);
-    }
-    Lsl(const Lsl&) = delete;
-    Lsl& operator=(const Lsl&) = delete;
 
     void mark(int code, Clock::time_point at) override {
         const std::string text = std::to_string(code);
         const char* value = text.c_str();
-        library_.push_sample_strt(markers_, &value, time(at));
+        must(library_.push_sample_strt(markers_.get(), &value, time(at)), "a code");
     }
     void sample(std::span<const float> values, Clock::time_point at) override {
-        library_.push_sample_ft(handles_, values.data(), time(at));
+        must(library_.push_sample_ft(handles_.get(), values.data(), time(at)), "a sample");
     }
 
   private:
+    /// What liblsl made, with the function of it that destroys it.
+    using Made = std::unique_ptr<void, void (*)(void*)>;
+
     double time(Clock::time_point at) const {
         return offset_ + std::chrono::duration<double>(at.time_since_epoch()).count();
     }
-    void* open(const std::string& name, const char* type, const std::vector<Channel>& channels,
-               double rate, int format, const std::string& source) const {
-        void* info =
+    static void must(int32_t result, const char* what) {
+        if (result != 0)
+            throw Error(
+                fmt::format("liblsl did not take {}: {} ({})", what, describe(result), result),
+                "What it wrote to the terminal says more.");
+    }
+    Made open(const std::string& name, const char* type, const std::vector<Channel>& channels,
+              double rate, int format, const std::string& source) const {
+        const Made info(
             library_.create_streaminfo(name.c_str(), type, static_cast<int32_t>(channels.size()),
-                                       rate, format, source.c_str());
-        void* list = library_.append_child(library_.get_desc(info), "channels");
+                                       rate, format, source.c_str()),
+            library_.destroy_streaminfo);
+        if (!info)
+            throw Error(place_, "name", fmt::format("liblsl cannot describe the stream '{}'", name),
+                        "What it wrote to the terminal says why; or remove the outlet.");
+        void* list = library_.append_child(library_.get_desc(info.get()), "channels");
         for (const Channel& channel : channels) {
             void* one = library_.append_child(list, "channel");
             library_.append_child_value(one, "label", channel.label.c_str());
             library_.append_child_value(one, "unit", channel.unit.c_str());
         }
-        void* outlet = library_.create_outlet(info, 0, kBuffer);
-        library_.destroy_streaminfo(info);
-        if (outlet == nullptr)
-            throw Error(fmt::format("liblsl cannot open the stream '{}'", name),
+        Made outlet(library_.create_outlet(info.get(), 0, kBuffer), library_.destroy_outlet);
+        if (!outlet)
+            throw Error(place_, "kind", fmt::format("liblsl cannot open the stream '{}'", name),
                         "Allow multicast on this machine's network, or remove the outlet.");
         return outlet;
     }
 
     Interface library_;
+    Place place_;
     double offset_ = 0;
-    void* markers_ = nullptr;
-    void* handles_ = nullptr;
+    Made markers_{nullptr, nullptr};
+    Made handles_{nullptr, nullptr};
 };
 
 void check(const OutletConfig& config, Diagnostics& diagnostics) {

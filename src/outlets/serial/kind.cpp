@@ -38,7 +38,7 @@ struct Options {
     template <class Visitor>
     void visit(Visitor& v) {
         v("port", port, Field::text().required());
-        v("baud", baud);
+        v("baud", baud, Field::number().within(50, 4e6));
         v("hold", hold, Field::of(Quantity::time).within(0, 1));
     }
 };
@@ -82,7 +82,12 @@ class Serial final : public Outlet {
         cfmakeraw(&raw);
         cfsetspeed(&raw, speed_of(options.baud));
         raw.c_cflag |= CLOCAL | CREAD;
-        tcsetattr(file_, TCSANOW, &raw);
+        if (tcsetattr(file_, TCSANOW, &raw) != 0) {
+            close(file_);
+            throw Error(place, "baud",
+                        fmt::format("'{}' does not take {} baud", options.port, options.baud),
+                        "Use the speed that its manual has.");
+        }
         tcflush(file_, TCIOFLUSH);
     }
     ~Serial() override {
@@ -107,7 +112,12 @@ class Serial final : public Outlet {
         std::array<unsigned char, 64> received;
         while (true) {
             const ssize_t count = read(file_, received.data(), received.size());
-            if (count <= 0) break;
+            if (count < 0 && (errno == EAGAIN || errno == EINTR)) break;
+            if (count <= 0) {  // 0: hung up, for a line without anything to read says EAGAIN
+                throw Error(fmt::format("{} cannot be read: {}", options_.port,
+                                        count < 0 ? strerror(errno) : "it was pulled"),
+                            "Check the line.");
+            }
             for (ssize_t i = 0; i < count && code == 0; ++i)
                 code = received[static_cast<size_t>(i)];
         }

@@ -330,6 +330,7 @@ TEST(Recorder, InAThreadCountsWhatItHadToDrop) {
     f.contacts.resize(60);
     for (int i = 0; i < 20000; ++i) {
         f.sequence = i;
+        f.time = std::chrono::milliseconds(i);
         recorder.record(f);
     }
     recorder.finish();

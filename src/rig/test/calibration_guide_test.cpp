@@ -50,8 +50,8 @@ struct Person {
         X_WD = poses(rig, held_fingers(rig));
         X_WD[0] = X_WD[0] * Pose{rotation_xyz({0.02, -0.01, 0.03}), {0.002, -0.001, 0.003}};
         X_WD[1] = X_WD[1] * Pose{rotation_xyz({-0.01, 0.03, 0.02}), {-0.003, 0.002, 0.001}};
-        fake.hand = [this](size_t i, double t, const Vec3& force) {
-            felt = std::max(felt, force.norm());
+        fake.hand = [this](size_t i, double t, const Wrench& push) {
+            felt = std::max(felt, push.force.norm());
             devices::Held held;
             held.p = X_WD[i].inverse() * place(i, t);
             return held;

@@ -87,6 +87,36 @@ TEST(CorrectedDevices, TellWhatTheyCanDoInTheWorldsMeasure) {
     EXPECT_EQ(*group->info(0).workspace, 3 * Vec3(0.1, 0.2, 0.3));
 }
 
+TEST(CorrectedDevices, NoStretchMakesAForceLargerThanTheDevicesLimit) {
+    for (const double scale : {1.0, 3.0}) {
+        Adjustment stretched;
+        stretched.scale = scale;
+        stretched.correction.X.R = rotation_by({0.3, 0, 0});
+        stretched.correction.stretch.diagonal() = Vec3(0.5, -0.5, 0.5);
+        Wrench told;
+        const auto group = make_corrected(std::make_unique<MovingArm>(told), {stretched});
+        group->activate();
+        std::vector<devices::Reading> readings(1);
+        const double peak = group->info(0).peak_force;  // in the world's measure
+        for (const double limit : {1e3, 8.0 * scale, 2.0 * scale}) {
+            group->limit(0, limit, 0);
+            const double most = std::min(limit, peak);
+            double largest = 0;
+            for (int i = 0; i < 100; ++i) {
+                const Vec3 along(std::cos(0.7 * i), std::sin(1.3 * i), std::cos(2.1 * i));
+                group->read(milliseconds(i), readings);
+                group->write(std::vector<Wrench>{{most * along.normalized(), Vec3::Zero()}});
+                largest = std::max(largest, told.force.norm());
+                EXPECT_LE(told.force.norm(), most / scale * (1 + 1e-9));
+            }
+            EXPECT_NEAR(largest, most / scale, 1e-9);
+            // and what is far from it is stretched
+            group->write(std::vector<Wrench>{{0.1 * Vec3::UnitX(), Vec3::Zero()}});
+            EXPECT_NEAR(told.force.norm(), 0.15 / scale, 1e-12);
+        }
+    }
+}
+
 TEST(CorrectedDevices, AllocateNothingInTheCycle) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Wrench told;

@@ -49,6 +49,7 @@ Outcome grasp(const Case& c) {
 
     Settings settings;
     settings.safety.max_pause = 1;  // the machine may be busy, and this is not about it
+    settings.safety.hand_damping = 100;
     settings.safety.soft_start = 0;
     const auto configs =
         rig_of(service, setup.devices, fmt::format("time_out_ms: {}, ", c.time_out_ms));

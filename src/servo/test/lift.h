@@ -1,10 +1,21 @@
 // What the servo's tests grasp with: two fingers that close on a block on a table, and lift it.
 #pragma once
 
+#include "devices/device_group.h"
 #include "hand/script.h"
 #include "scene/scene.h"
 
 namespace dihaptic::servo {
+
+/// Of simulated devices that pass for real ones: a pause of the loop is a fault.
+inline std::vector<devices::DeviceInfo> real_infos(const devices::DeviceGroup& inner) {
+    std::vector<devices::DeviceInfo> out;
+    for (int i = 0; i < inner.size(); ++i) {
+        out.push_back(inner.info(i));
+        out.back().simulated = false;
+    }
+    return out;
+}
 
 inline scene::Scene block_on_table() {
     scene::Scene out;

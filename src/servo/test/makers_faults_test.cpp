@@ -85,6 +85,9 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             }
             if (last.sequence <= kTick) return;
             EXPECT_EQ(grasp.acting(0), 0) << last.sequence;
+            // a device that hears nothing has only its own watchdog
+            const bool deaf = grasp.dhd != nullptr && grasp.dhd->devices[1].silent;
+            if (deaf && last.sequence < kTick + 32) return;
             EXPECT_EQ(grasp.acting(1), 0) << last.sequence;
         },
         [&](const Frame& frame) {
@@ -116,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
              [](Grasp& g) { g.hd->raise(devices::openhaptics::kHdCommError, 1); },
              FaultKind::not_answering, kNotAnswering,
              "the index's device (PHANToM Premium 1.0, serial 40124) does not answer. Look at its "
-             "power and its cables, then start the session again. HD_COMM_ERROR"},
+             "power and its cables. HD_COMM_ERROR"},
         Case{"HD device fault", "openhaptics",
              [](Grasp& g) { g.hd->raise(devices::openhaptics::kHdDeviceFault, 0); },
              FaultKind::device_fault, kDeviceFault,
@@ -128,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DHD silent", "forcedimension", [](Grasp& g) { g.dhd->devices[1].silent = true; },
              FaultKind::not_answering, kNotAnswering,
              "the index's device (omega.3, serial 102) does not answer. Look at its power and its "
-             "cables, then start the session again. communication error."},
+             "cables. communication error."},
         Case{"DHD NaN", "forcedimension", [](Grasp& g) { g.dhd->devices[0].nonsense = true; },
              FaultKind::bad_reading, kBadReading, "that is not a number. Look at its cables"},
         Case{"DHD uncalibrated", "forcedimension",
@@ -204,6 +207,7 @@ class Late : public ::testing::TestWithParam<const char*> {
 TEST_P(Late, By5MsIsAnOverrun) {
     Settings settings;
     settings.safety.max_pause = 1;  // a busy machine is another test's
+    settings.safety.hand_damping = 100;
     Grasp grasp(GetParam(), settings);
     double force = 0;
     const Timing timing = run(grasp, milliseconds(5), [&](const Frame& frame) {
@@ -228,6 +232,31 @@ TEST_P(Late, By50MsTakesAllForceAway) {
         << grasp.told();
 }
 INSTANTIATE_TEST_SUITE_P(Servo, Late, ::testing::Values("openhaptics", "forcedimension"));
+
+TEST(LateCalls, OfDevicesThatPaceAreOverrunsThoughNoTickIs) {
+    Settings settings;
+    settings.safety.max_pause = 1;
+    Grasp grasp("openhaptics", settings);
+    grasp.hd->real_time = true;
+    grasp.hd->before_tick = [](int tick) {
+        if (tick == 200) std::this_thread::sleep_for(milliseconds(5));
+        return true;
+    };
+    const std::atomic<bool> stop{false};
+    Timing timing;
+    timing.reserve(1000);
+    uint32_t status = 0;
+    int64_t recorded = 0;
+    run_real(
+        *grasp.servo, {},
+        [&](const Frame& frame) {
+            if (frame.sequence == 200) status = frame.status;
+            recorded += (frame.status & kOverrun) != 0;
+        },
+        Time(0), milliseconds(300), stop, timing);
+    EXPECT_NE(status & kOverrun, 0u);
+    EXPECT_EQ(timing.overruns, recorded);
+}
 
 class LateStopped : public Late {};
 TEST_P(LateStopped, ACallThatBlocksIsNotWaitedFor) {

@@ -2,10 +2,10 @@
 // rule of safety holds for torque as it does for force.
 #include <gtest/gtest.h>
 
-#include "hand/script.h"
 #include "rig/rig.h"
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
+#include "turning_bar.h"
 
 namespace dihaptic::servo {
 namespace {
@@ -35,24 +35,8 @@ class SpoiltGroup final : public devices::DeviceGroup {
     std::unique_ptr<devices::DeviceGroup> inner_;
 };
 
-/// A bar along x between two stops, that a hand turns about y by `turn` in 0.4 s.
+/// turning_bar() by simulated devices.
 struct Session {
-    static scene::Scene scene() {
-        scene::Scene out;
-        for (const int side : {-1, 1}) {
-            scene::Body stop;
-            stop.name = side < 0 ? "left" : "right";
-            stop.shape = scene::Shape::box({0.02, 0.04, 0.02});
-            stop.position = {side * 0.09, 0, -side * (0.015 + 1e-6)};
-            stop.fixed = true;
-            out.bodies.push_back(stop);
-        }
-        scene::Finger bar;
-        bar.name = "hand";
-        bar.shape = scene::Shape::box({0.2, 0.02, 0.01});
-        out.fingers = {bar};
-        return out;
-    }
     std::unique_ptr<hand::ScriptDriver> driver;
     SpoiltGroup* device = nullptr;
     std::unique_ptr<Servo> servo;
@@ -61,13 +45,8 @@ struct Session {
     explicit Session(double turn, const Settings& settings = {},
                      const std::string& options = "{orientation: yes, peak_torque_Nm: 1}",
                      const Vec3& rotation = Vec3::Zero()) {
-        hand::HandSpec spec;
-        hand::ScriptStep step;
-        step.name = "turn";
-        step.duration = 0.4;
-        step.turn = {0, turn, 0};
-        spec.script = {step};
-        driver = std::make_unique<hand::ScriptDriver>(spec, std::vector<std::string>{"hand"});
+        driver = std::make_unique<hand::ScriptDriver>(turning_hand(turn),
+                                                      std::vector<std::string>{"hand"});
         rig::Rig rig = rig::simulated_rig({"hand"});
         rig.devices[0].options = parse_yaml(options, "rig.yaml");
         rig.devices[0].rotation = rotation;
@@ -75,8 +54,8 @@ struct Session {
         context.driver = driver.get();
         auto group = std::make_unique<SpoiltGroup>(rig::make_devices(rig, {"hand"}, context));
         device = group.get();
-        servo =
-            std::make_unique<Servo>(scene(), settings, std::move(group), rig::poses(rig, {"hand"}));
+        servo = std::make_unique<Servo>(turning_bar(), settings, std::move(group),
+                                        rig::poses(rig, {"hand"}));
         servo->activate();
     }
     const Frame& tick() { return servo->tick(next++ * std::chrono::milliseconds(1), {}); }

@@ -38,7 +38,7 @@ TEST(RealTime, SaysWhatWasRefusedAndHowToAllowIt) {
     EXPECT_EQ(describe(RealTime::Refusals{}, 80, false), "");
     EXPECT_EQ(describe(RealTime::Refusals{.priority = EPERM, .memory = ENOMEM}, 80, false),
               "real time: Linux refused priority 80 (EPERM), locked memory (ENOMEM), so ticks may "
-              "come late; add '@haptics - rtprio 80' and '@haptics - memlock unlimited' to "
+              "come late; add '@haptics - rtprio 81' and '@haptics - memlock unlimited' to "
               "/etc/security/limits.d/dihaptic.conf, join the group (sudo groupadd -f haptics; "
               "sudo usermod -aG haptics $USER), log in again");
     EXPECT_EQ(describe(RealTime::Refusals{.awake = EACCES}, 80, false),
@@ -80,7 +80,7 @@ std::string told_without_permission() {
 TEST(RealTime, RunsWithoutPermissionAndTellsInOneLine) {
     const std::string told = told_without_permission();
     EXPECT_EQ(told.rfind("real time: Linux refused priority 80 (EPERM)", 0), 0u) << told;
-    EXPECT_NE(told.find("'@haptics - rtprio 80'"), std::string::npos) << told;
+    EXPECT_NE(told.find("'@haptics - rtprio 81'"), std::string::npos) << told;
 #ifndef DIHAPTIC_SANITIZED  // sanitizers, whose memory is vast, only pretend to lock it
     EXPECT_NE(told.find("locked memory (EPERM)"), std::string::npos) << told;
     EXPECT_NE(told.find("'@haptics - memlock unlimited'"), std::string::npos) << told;

@@ -1,6 +1,8 @@
 #include "servo/watchdog.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <future>
 
@@ -35,10 +37,45 @@ TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
     std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
 }
 
+/// A servo that spins, on the only processor that it and its watchdog may use: with its priority
+/// alone, the watchdog would wait for ever.
+TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
+    std::atomic<bool> stopped{false};
+    int refused = 0;
+    double took = 0;
+    std::thread([&] {
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(sched_getcpu(), &one);
+        refused = pthread_setaffinity_np(pthread_self(), sizeof one, &one);
+        sched_param priority{};
+        priority.sched_priority = 10;
+        if (refused == 0) refused = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+        if (refused != 0) return;
+        Watchdog watchdog(
+            milliseconds(30), [&] { stopped = true; }, [] {});
+        // the kernel takes real-time threads off a processor after 950 ms of each second
+        const auto begin = Watchdog::Clock::now();
+        const auto spun = [&] {
+            return std::chrono::duration<double>(Watchdog::Clock::now() - begin).count();
+        };
+        while (!stopped && spun() < 0.5) {
+        }
+        took = spun();
+    }).join();
+    if (refused != 0) {
+        GTEST_SKIP() << "one processor and SCHED_FIFO: refused (" << strerrorname_np(refused)
+                     << "), so what a servo does that spins was not tried";
+    }
+    EXPECT_TRUE(stopped);
+    EXPECT_LT(took, 0.4);
+}
+
 /// A device whose write blocks at the n-th tick, until somebody stops it or lets it go.
 class BlockingGroup final : public devices::DeviceGroup {
   public:
-    BlockingGroup(int tick, bool can_stop) : DeviceGroup({{}}), tick_(tick), can_stop_(can_stop) {}
+    BlockingGroup(int tick, bool can_stop, bool simulated)
+        : DeviceGroup({info(simulated)}), tick_(tick), can_stop_(can_stop) {}
     bool can_stop() const override { return can_stop_; }
     void let_go() {
         const std::lock_guard lock(mutex_);
@@ -46,13 +83,20 @@ class BlockingGroup final : public devices::DeviceGroup {
         wake_.notify_all();
     }
     std::atomic<int> stops{0};
+    std::atomic<bool> blocks{false};
 
   private:
+    static devices::DeviceInfo info(bool simulated) {
+        devices::DeviceInfo out;
+        out.simulated = simulated;
+        return out;
+    }
     void do_activate() override {}
     void do_deactivate() override {}
     void do_read(Time, std::span<devices::Reading> readings) noexcept override { readings[0] = {}; }
     void do_write(std::span<const Wrench>) noexcept override {
         if (tick_-- != 0) return;
+        blocks = true;
         std::unique_lock lock(mutex_);
         wake_.wait(lock, [&] { return free_; });
     }
@@ -73,10 +117,10 @@ struct Blocked {
     std::unique_ptr<Servo> servo;
     Timing timing;
 
-    explicit Blocked(bool can_stop) {
+    explicit Blocked(bool can_stop, bool simulated = false) {
         scene::Scene scene = block_on_table();
         scene.fingers.resize(1);
-        auto group = std::make_unique<BlockingGroup>(50, can_stop);
+        auto group = std::make_unique<BlockingGroup>(50, can_stop, simulated);
         devices = group.get();
         servo = std::make_unique<Servo>(scene, Settings{}, std::move(group),
                                         std::vector<Pose>{Pose{Quat::Identity(), {0, 0, 0.2}}});
@@ -101,6 +145,25 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_GT(blocked.servo->fault().value, Settings{}.safety.max_pause);
     EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // a second after the fault
+}
+
+TEST(WatchdogInRealTime, TellsOfSimulatedDevicesThatWaitedAndLeavesThemAlone) {
+    Blocked blocked(true, true);
+    std::thread freeing([&] {
+        while (!blocked.devices->blocks) std::this_thread::sleep_for(milliseconds(1));
+        std::this_thread::sleep_for(milliseconds(300));
+        blocked.devices->let_go();
+    });
+    blocked.run([](const Timing::Stall&) { FAIL(); });
+    freeing.join();
+    EXPECT_EQ(blocked.devices->stops, 0);
+    EXPECT_FALSE(blocked.timing.stall);
+    EXPECT_FALSE(blocked.servo->fault());
+    EXPECT_GT(blocked.timing.reached, std::chrono::seconds(2));
+    EXPECT_GE(blocked.timing.pauses, 1);
+    EXPECT_GT(blocked.timing.longest_pause, 0.1);
+    EXPECT_NE(describe_pauses(blocked.timing).find("kept waiting"), std::string::npos);
+    EXPECT_EQ(describe_pauses({}), "");
 }
 
 TEST(WatchdogInRealTime, SaysWhenTheLoopIsStuckForGood) {

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "devices/forcedimension/dhd.h"
+#include "devices/test/felt_outside.h"
 
 namespace dihaptic::devices::forcedimension {
 namespace {
@@ -16,6 +17,26 @@ std::recursive_mutex mutex;
 thread_local const char* last_error = "no error";
 using Lock = std::lock_guard<std::recursive_mutex>;
 
+FeltOutside& outside() {
+    static FeltOutside one;
+    return one;
+}
+
+/// What a device does is seen outside, too.
+void act(size_t i, const Wrench& push, bool told = false) {
+    fake.devices[i].acting = push.force;
+    fake.devices[i].acting_torque = push.torque;
+    outside().show(i, push.force, told);
+}
+
+/// The device's time [s].
+double now(const Device& device) {
+    static const bool real = std::getenv("DIHAPTIC_FAKE_PUSH") != nullptr;
+    static const auto begin = std::chrono::steady_clock::now();
+    if (!real) return device.frames * fake.period;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 int fail(const char* why) {
     last_error = why;
     return -1;
@@ -26,7 +47,15 @@ void cut(size_t i, int cause) {
     Device& device = fake.devices[i];
     device.force_enabled = false;
     device.cause = cause;
-    device.acting.setZero();
+    act(i, {});
+}
+
+/// Its firmware's, if it was set: it ends a force that nobody renews.
+void watch(size_t i) {
+    const Device& device = fake.devices[i];
+    const double limit = device.watchdog * kDhdWatchdogStep;
+    if (device.watchdog > 0 && device.force_enabled && now(device) - device.told_at > limit)
+        cut(i, kDhdByWatchdog);
 }
 
 void reset() {
@@ -37,6 +66,7 @@ void reset() {
     fake.devices[1].serial = 102;
     fake.cut = cut;
     fake.reset = reset;
+    fake.hand = pushing_hand();
 }
 
 Device* find(char id) {
@@ -45,8 +75,8 @@ Device* find(char id) {
         fail("the device is not open");
         return nullptr;
     }
+    watch(i);
     if (fake.devices[i].silent) {
-        fake.devices[i].acting.setZero();  // its firmware's watchdog
         fail("communication error");
         return nullptr;
     }
@@ -71,12 +101,6 @@ int dhdGetDeviceCount() {
     return static_cast<int>(fake.devices.size());
 }
 
-int dhdGetAvailableCount() {
-    const Lock lock(mutex);
-    return static_cast<int>(std::count_if(fake.devices.begin(), fake.devices.end(),
-                                          [](const Device& d) { return !d.in_use && !d.open; }));
-}
-
 int dhdOpenID(char id) {
     const Lock lock(mutex);
     const auto i = static_cast<unsigned char>(id);
@@ -87,7 +111,7 @@ int dhdOpenID(char id) {
     device.force_enabled = device.gravity = false;
     device.frames = 0;
     device.wanted.setZero();
-    device.acting.setZero();
+    act(i, {});
     return id;
 }
 
@@ -96,7 +120,7 @@ int dhdClose(char id) {
     const auto i = static_cast<unsigned char>(id);
     if (id < 0 || i >= fake.devices.size() || !fake.devices[i].open) return fail("not open");
     fake.devices[i].open = false;
-    fake.devices[i].acting.setZero();
+    act(i, {});
     return 0;
 }
 
@@ -123,6 +147,7 @@ int dhdEnableForce(unsigned char on, char id) {
     } else {
         device->force_enabled = true;
         device->cause = 0;
+        device->told_at = now(*device);
     }
     return 0;
 }
@@ -130,11 +155,13 @@ int dhdEnableForce(unsigned char on, char id) {
 int dhdGetPosition(double* x, double* y, double* z, char id) {
     const auto i = static_cast<unsigned char>(id);
     if (fake.in_position) fake.in_position(i);
+    fail_as_asked();
     const Lock lock(mutex);
     Device* const device = find(id);
+    const double t = i < fake.devices.size() ? now(fake.devices[i]) : 0;
+    if (i < fake.devices.size()) ++fake.devices[i].frames;  // its time goes on, heard or not
     if (device == nullptr) return -1;
-    const double t = device->frames++ * fake.period;
-    state[i] = fake.hand ? fake.hand(i, t, device->acting) : Held{};
+    state[i] = fake.hand ? fake.hand(i, t, {device->acting, device->acting_torque}) : Held{};
     if (device->fastest > 0 && state[i].v.norm() > device->fastest) cut(i, kDhdByVelocity);
     const Vec3 p = device->nonsense ? Vec3::Constant(std::nan("")) : state[i].p;
     *x = p.x();
@@ -153,16 +180,83 @@ int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
     return 0;
 }
 
-int dhdSetForce(double x, double y, double z, char id) {
+int dhdSetForceAndTorque(double x, double y, double z, double a, double b, double c, char id) {
     const Lock lock(mutex);
     Device* const device = find(id);
     if (device == nullptr) return -1;
     device->wanted = Vec3(x, y, z);
-    device->acting = device->force_enabled ? device->wanted : Vec3::Zero();
-    const double most = device->max_force;
-    if (most <= 0 || !(device->acting.norm() > most)) return 0;
-    device->acting *= most / device->acting.norm();
-    return 2;
+    device->told_at = now(*device);
+    Wrench push;
+    if (device->force_enabled) push = {device->wanted, Vec3(a, b, c)};
+    if (!device->active_wrist) push.torque.setZero();
+    bool saturated = false;
+    const auto cap = [&](Vec3& v, double most) {
+        if (most < 0 || v.norm() <= most * (1 + 1e-9)) return;
+        saturated = true;
+        v *= most / v.norm();
+    };
+    cap(push.force, device->max_force);
+    cap(push.torque, device->max_torque);
+    act(static_cast<unsigned char>(id), push, true);
+    return saturated ? 2 : 0;
+}
+
+int dhdSetForce(double x, double y, double z, char id) {
+    return dhdSetForceAndTorque(x, y, z, 0, 0, 0, id);
+}
+
+bool dhdHasWrist(char id) {
+    const Lock lock(mutex);
+    const Device* const device = find(id);
+    return device != nullptr && device->wrist;
+}
+
+bool dhdHasActiveWrist(char id) {
+    const Lock lock(mutex);
+    const Device* const device = find(id);
+    return device != nullptr && device->active_wrist;
+}
+
+int dhdGetOrientationFrame(double (*matrix)[3], char id) {
+    const Lock lock(mutex);
+    if (find(id) == nullptr) return -1;
+    const Mat3 R = state[static_cast<unsigned char>(id)].R.toRotationMatrix();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) matrix[row][column] = R(row, column);
+    }
+    return 0;
+}
+
+int dhdGetAngularVelocityRad(double* x, double* y, double* z, char id) {
+    const Lock lock(mutex);
+    if (find(id) == nullptr) return -1;
+    const Vec3& w = state[static_cast<unsigned char>(id)].w;
+    *x = w.x();
+    *y = w.y();
+    *z = w.z();
+    return 0;
+}
+
+int dhdEnableExpertMode() {
+    fake.expert = true;
+    return 0;
+}
+
+int dhdDisableExpertMode() {
+    fake.expert = false;
+    return 0;
+}
+
+int dhdSetWatchdog(unsigned char steps, char id) {
+    const Lock lock(mutex);
+    Device* const device = find(id);
+    if (device == nullptr) return -1;
+    if (!fake.expert) return fail("expert mode is disabled");
+    if (!device->has_watchdog) return fail("not available on this device");
+    device->watchdog = steps;
+    device->told_at = now(*device);
+    outside().set_watchdog(static_cast<unsigned char>(id), steps * kDhdWatchdogStep);
+    return 0;
 }
 
 unsigned dhdGetButtonMask(char) {
@@ -183,11 +277,17 @@ double dhdGetMaxForce(char id) {
     return device == nullptr ? -1 : device->max_force;
 }
 
+double dhdGetMaxTorque(char id) {
+    const Lock lock(mutex);
+    const Device* const device = find(id);
+    return device == nullptr ? -1 : device->max_torque;
+}
+
 int dhdGetStatus(int* out, char id) {
     const Lock lock(mutex);
     const Device* const device = find(id);
     if (device == nullptr) return -1;
-    std::fill_n(out, DhdStatus{}.size(), 0);
+    std::fill_n(out, 17, 0);
     out[kDhdPower] = device->power ? 1 : 0;
     out[kDhdConnected] = device->connected ? 1 : 0;
     out[kDhdReset] = device->calibrated ? 0 : 1;

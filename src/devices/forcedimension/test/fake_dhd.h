@@ -1,6 +1,7 @@
 // A libdhd of our own: it behaves as Force Dimension's documentation says, its faults included, and
 // moves its handles by a test's hand. As the real one it exists once in a program; fake_dhd() finds
-// it. Its time is that of its readings, a period each.
+// it. Its time is that of its readings, a period each; of a whole program, which
+// DIHAPTIC_FAKE_PUSH moves, it is the real one.
 #pragma once
 
 #include <dlfcn.h>
@@ -17,8 +18,12 @@ struct FakeDhd {
     struct Device {
         std::string model = "omega.3";
         unsigned short serial = 0;
-        double max_force = 12;  ///< [N]; negative: it does not say
-        bool in_use = false;    ///< by another program
+        double max_force = 12;      ///< [N]; negative: it does not say
+        double max_torque = -1;     ///< [N*m]; the same
+        bool wrist = false;         ///< measures orientation
+        bool active_wrist = false;  ///< renders torque
+        bool has_watchdog = true;   ///< of firmware that has one: it acts only when it was set
+        bool in_use = false;        ///< by another program
         bool power = true;
         bool connected = true;
         bool calibrated = true;
@@ -34,12 +39,16 @@ struct FakeDhd {
         bool gravity = false;
         int cause = 0;  ///< DhdForceOff
         int frames = 0;
-        Vec3 wanted = Vec3::Zero();  ///< as it was last told [N]
-        Vec3 acting = Vec3::Zero();  ///< what pushes the hand [N]
+        unsigned char watchdog = 0;         ///< steps of 125 us; 0: none
+        double told_at = 0;                 ///< a force, in its time [s]
+        Vec3 wanted = Vec3::Zero();         ///< as it was last told [N]
+        Vec3 acting = Vec3::Zero();         ///< what pushes the hand [N]
+        Vec3 acting_torque = Vec3::Zero();  ///< and turns it [N*m]
     };
     std::vector<Device> devices;
     Hand hand;             ///< none: the handles stay where they are
     double period = 1e-3;  ///< [s]
+    bool expert = false;   ///< mode, in which a watchdog may be set
     /// Called at the beginning of dhdGetPosition(): may block.
     std::function<void(size_t device)> in_position;
 

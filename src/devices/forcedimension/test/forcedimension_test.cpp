@@ -64,8 +64,8 @@ TEST(ForceDimension, ReadsAndPushesInSiUnitsAndInTheMakersAxes) {
     FakeDhd& fake = fake_dhd();
     Vec3 felt = Vec3::Zero();
     const Held held{{0.01, -0.02, 0.03}, {0.1, 0.2, -0.3}, Quat::Identity(), {}};
-    fake.hand = [&](size_t i, double, const Vec3& force) {
-        if (i == 1) felt = force;
+    fake.hand = [&](size_t i, double, const Wrench& push) {
+        if (i == 1) felt = push.force;
         return held;
     };
     const auto group = make_two();
@@ -169,7 +169,7 @@ TEST(ForceDimension, WhatKeepsADeviceFromStartingIsTold) {
 TEST(ForceDimension, OverVelocityTakesOneTicksForceAndIsArmedAgain) {
     FakeDhd& fake = fake_dhd();
     double speed = 0;
-    fake.hand = [&](size_t i, double, const Vec3&) {
+    fake.hand = [&](size_t i, double, const Wrench&) {
         return Held{{}, {i == 0 ? speed : 0, 0, 0}, Quat::Identity(), {}};
     };
     fake.devices[0].fastest = 0.5;
@@ -187,6 +187,131 @@ TEST(ForceDimension, OverVelocityTakesOneTicksForceAndIsArmedAgain) {
     uint32_t status = 0;
     for (int i = 0; i < 2500; ++i) status = ticks.status(0, 1);
     EXPECT_EQ(status, uint32_t{kDeviceFault});
+}
+
+TEST(ForceDimension, AForceThatNobodyRenewsEndsWithin32Ms) {
+    FakeDhd& fake = fake_dhd();
+    const auto group = make_two();
+    Ticks ticks(*group);
+    EXPECT_EQ(fake.devices[1].watchdog, 255);
+    EXPECT_FALSE(fake.expert);
+    ticks.tick(1.5);
+    std::vector<Reading> readings(2);
+    for (int ms = 1; ms <= 31; ++ms) group->read(milliseconds(ms), readings);
+    EXPECT_EQ(fake.devices[0].acting, Vec3(1.5, 0, 0));
+    group->read(milliseconds(32), readings);
+    group->read(milliseconds(33), readings);
+    EXPECT_EQ(fake.devices[0].acting, Vec3::Zero());
+    EXPECT_EQ(fake.devices[1].acting, Vec3::Zero());
+    EXPECT_EQ(readings[0].status, uint32_t{kForceDropped});
+    expect_in("It heard nothing for 32 ms", group->explain(0));
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // of the reading before it is armed
+    EXPECT_EQ(ticks.status(0, 1), 0u);
+    EXPECT_EQ(fake.devices[0].acting, Vec3(1, 0, 0));
+}
+
+TEST(ForceDimension, WhatTheWatchdogEndsInAPauseWithoutForceIsNoDrop) {
+    FakeDhd& fake = fake_dhd();
+    const auto group = make_two();
+    Ticks ticks(*group);
+    for (const double force : {0.0, 1.0}) {  // from activation on, and after a pause
+        std::vector<Reading> readings(2);
+        for (int ms = 0; ms < 100; ++ms) group->read(milliseconds(ms), readings);
+        EXPECT_FALSE(fake.devices[0].force_enabled);
+        EXPECT_EQ(readings[0].status, 0u);
+        EXPECT_EQ(ticks.status(0, force), 0u);
+        EXPECT_TRUE(fake.devices[0].force_enabled);
+        EXPECT_EQ(ticks.status(0, force), 0u);
+        EXPECT_EQ(fake.devices[0].acting, Vec3(force, 0, 0));
+        ticks.tick(0);
+    }
+}
+
+TEST(ForceDimension, ADeviceWithoutAWatchdogIsUsedOnlyWhenTheRigSaysSo) {
+    FakeDhd& fake = fake_dhd();
+    fake.devices[0].has_watchdog = false;
+    const std::string said = told([] { make_two()->activate(); });
+    expect_in(
+        "rig.yaml:1: error: watchdog: the thumb's device (omega.3, serial 101) takes no watchdog: "
+        "not available on this device",
+        said);
+    expect_in("its force may stay on when this program dies", said);
+    EXPECT_FALSE(fake.expert);
+    EXPECT_FALSE(fake.devices[0].force_enabled);
+    const auto group = make({"serial: 101\nwatchdog: no\n"});
+    Ticks ticks(*group);
+    EXPECT_EQ(ticks.status(0, 1), 0u);
+    EXPECT_EQ(fake.devices[0].watchdog, 0);
+    std::vector<Reading> readings(1);
+    for (int ms = 1; ms <= 100; ++ms) group->read(milliseconds(ms), readings);
+    EXPECT_EQ(fake.devices[0].acting, Vec3(1, 0, 0));
+}
+
+TEST(ForceDimension, NoDeviceIsToldMoreThanItsPeakOrThanItMayBe) {
+    FakeDhd& fake = fake_dhd();
+    fake.devices[0].max_force = 20;
+    const auto group = make({"serial: 101\npeak_force_N: 9\n"});
+    Ticks ticks(*group);
+    ticks.tick(15);
+    EXPECT_NEAR(fake.devices[0].wanted.norm(), 9, 1e-12);
+    group->limit(0, 4, 0);
+    EXPECT_EQ(ticks.status(0, 3.5), uint32_t{kForceClamped});
+    EXPECT_EQ(fake.devices[0].wanted, Vec3(3.5, 0, 0));
+    EXPECT_EQ(ticks.status(0, 15), 0u);
+    EXPECT_NEAR(fake.devices[0].wanted.norm(), 4, 1e-12);
+    group->limit(0, 100, 0);
+    ticks.tick(15);
+    EXPECT_NEAR(fake.devices[0].wanted.norm(), 9, 1e-12);
+    ticks.tick(std::nan(""));
+    EXPECT_EQ(fake.devices[0].wanted, Vec3::Zero());
+}
+
+TEST(ForceDimension, AnActiveWristIsReadAndTurned) {
+    FakeDhd& fake = fake_dhd();
+    fake.devices[0].wrist = fake.devices[0].active_wrist = fake.devices[1].wrist = true;
+    fake.devices[0].max_torque = 0.4;
+    const Held held{{0.01, 0, 0}, {}, rotation_xyz({0.3, -0.2, 0.5}), {1, 2, -3}};
+    Wrench felt;
+    fake.hand = [&](size_t i, double, const Wrench& push) {
+        if (i == 0) felt = push;
+        return held;
+    };
+    const auto group = make({"serial: 101\ncontinuous_torque_mNm: 100\n", "serial: 102\n"});
+    EXPECT_TRUE(group->info(0).measures_orientation);
+    EXPECT_EQ(group->info(0).peak_torque, 0.4);
+    EXPECT_DOUBLE_EQ(group->info(0).continuous_torque, 0.1);
+    EXPECT_TRUE(group->info(1).measures_orientation);  // as an omega.6, whose wrist is passive
+    EXPECT_EQ(group->info(1).peak_torque, 0);
+    group->activate();
+    std::vector<Reading> readings(2);
+    const std::vector<Wrench> wrenches(2, {Vec3(1, 2, 3), Vec3(0.1, -0.2, 0.05)});
+    for (int ms = 0; ms < 2; ++ms) {
+        group->read(milliseconds(ms), readings);
+        group->write(wrenches);
+    }
+    EXPECT_LT(angle_between(readings[0].R_DH, held.R), 1e-12);
+    EXPECT_EQ(readings[1].w_DH, held.w);
+    EXPECT_EQ(felt.force, wrenches[0].force);
+    EXPECT_EQ(felt.torque, wrenches[0].torque);
+    EXPECT_EQ(fake.devices[1].acting_torque, Vec3::Zero());
+    group->write(std::vector<Wrench>(2, {Vec3::Zero(), Vec3(0, 5, 0)}));
+    EXPECT_TRUE(fake.devices[0].acting_torque.isApprox(Vec3(0, 0.4, 0)));
+    group->deactivate();
+    EXPECT_EQ(fake.devices[0].acting_torque, Vec3::Zero());
+}
+
+TEST(ForceDimension, TorqueNeedsOrientationAndALargestOne) {
+    FakeDhd& fake = fake_dhd();
+    fake.devices[0].wrist = fake.devices[0].active_wrist = true;
+    EXPECT_EQ(make({"serial: 101\n"})->info(0).peak_torque, 0);
+    EXPECT_DOUBLE_EQ(make({"serial: 101\npeak_torque_Nm: 0.2\n"})->info(0).peak_torque, 0.2);
+    EXPECT_FALSE(make({"serial: 101\norientation: no\n"})->info(0).measures_orientation);
+    for (const char* options : {"serial: 101\norientation: no\n", "serial: 102\n"}) {
+        expect_in("renders no torque. Leave it out",
+                  told([&] { make({std::string(options) + "peak_torque_Nm: 0.2\n"}); }));
+    }
+    fake.devices[0].max_torque = 0.1;
+    EXPECT_EQ(make({"serial: 101\npeak_torque_Nm: 0.2\n"})->info(0).peak_torque, 0.1);
 }
 
 TEST(ForceDimension, ADeadManSwitchMayBeLetGoForLong) {

@@ -16,6 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "devices/test/felt_outside.h"
+
 namespace dihaptic::devices::haply {
 namespace {
 
@@ -48,12 +50,12 @@ struct FakeService::Impl {
 
     Impl(Setup setup_in, const Context& context)
         : setup(std::move(setup_in)),
-          plant(find_backend("simulated")->make(setup.devices, context)),
+          plant(setup.hand ? nullptr : find_backend("simulated")->make(setup.devices, context)),
           period(from_seconds(setup.rate > 0 ? 1 / setup.rate : context.tick)),
           readings(setup.devices.size()),
           forces(setup.devices.size()) {
         setup.ids.resize(std::max(setup.ids.size(), setup.devices.size()));
-        plant->activate();
+        if (plant) plant->activate();
         acceptor.set_option(net::ip::tcp::acceptor::reuse_address(true));
         accept();
         if (setup.rate > 0) {
@@ -98,12 +100,14 @@ struct FakeService::Impl {
         if (ec) return;
         session->stream.text(true);
         time = Time(0);
-        plant->deactivate();
-        plant->activate();
-        plant->read(time, readings);
         commanded = false;
         owed = 0;
         for (Wrench& force : forces) force = {};
+        if (plant) {
+            plant->deactivate();
+            plant->activate();
+        }
+        read();
         send(session, setup.greeting.empty() ? state_text(true) : setup.greeting);
         listen(session);
     }
@@ -177,13 +181,25 @@ struct FakeService::Impl {
         if (!commanded) {
             for (Wrench& force : forces) force = {};
         }
+        for (size_t i = 0; i < forces.size(); ++i) outside.show(i, forces[i].force, commanded);
         commanded = false;
-        plant->write(forces);
+        if (plant) plant->write(forces);
         time += period;
-        plant->read(time, readings);
+        read();
         const std::lock_guard lock(mutex);
         felt.emplace_back();
         for (const Wrench& force : forces) felt.back().push_back(force.force);
+    }
+
+    void read() {
+        if (plant) return plant->read(time, readings);
+        for (size_t i = 0; i < readings.size(); ++i) {
+            const Held held = setup.hand(i, seconds(time), forces[i]);
+            readings[i].p_DH = held.p;
+            readings[i].v_DH = held.v;
+            readings[i].R_DH = held.R;
+            readings[i].w_DH = held.w;
+        }
     }
 
     void answer() {
@@ -272,7 +288,8 @@ struct FakeService::Impl {
     }
 
     Setup setup;
-    std::unique_ptr<DeviceGroup> plant;
+    std::unique_ptr<DeviceGroup> plant;  // none with a hand
+    FeltOutside outside;
     Time period;
     Time time{0};
     std::vector<Reading> readings;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "devices/device_group.h"
+#include "devices/test/fake_hand.h"
 
 namespace dihaptic::devices::haply {
 
@@ -30,6 +31,7 @@ class FakeService {
   public:
     struct Setup {
         std::vector<DeviceConfig> devices;  ///< X_WD and the options of simulated devices
+        Hand hand;  ///< that moves the handles, in place of simulated devices
         std::vector<std::string> ids{"049D", "04A1", "04A2"};
         /// Ticks on the real clock [Hz]. 0: a tick for each message, answered at once.
         double rate = 0;

@@ -141,8 +141,9 @@ TEST_F(Messages, ThatBreakOffAnywhereAreNone) {
     ASSERT_TRUE(read(whole));
     for (size_t size = 0; size < whole.size(); ++size)
         EXPECT_FALSE(read(whole.substr(0, size))) << whole.substr(0, size);
-    for (const char* wrong : {"[]", "7", "null", "{} {}", R"({"inverse3":{}})",
-                              R"({"inverse3":[1]})", "<html></html>", "{\"inverse3\":[}]"})
+    for (const char* wrong :
+         {"[]", "7", "null", "{} {}", R"({"inverse3":{}})", R"({"inverse3":[1]})", "<html></html>",
+          "{\"inverse3\":[}]", R"({"inverse3":[{"state":{"cursor_position":nu}}]})"})
         EXPECT_FALSE(read(wrong)) << wrong;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "devices/openhaptics/hd.h"
+#include "devices/test/felt_outside.h"
 #include "model/phantom_arm.h"
 
 namespace dihaptic::devices::openhaptics {
@@ -40,9 +41,17 @@ std::thread scheduler;
 std::atomic<std::thread::id> scheduler_id;
 std::vector<int> frames_of_tick;  // by device
 std::vector<bool> framed;         // by device
-Vec3 wanted[8];                   // by device: set in this frame [N]
+Wrench wanted[8];                 // by device: set in this frame
 
 using Lock = std::lock_guard<std::recursive_mutex>;
+
+/// What a device does is seen outside, too.
+void act(Device& device, const Wrench& push, bool told = false) {
+    static FeltOutside outside;
+    device.acting = push.force;
+    device.acting_torque = push.torque;
+    outside.show(static_cast<size_t>(&device - fake.devices.data()), push.force, told);
+}
 
 void push(unsigned code, HdHandle device) {
     errors.push_front({code, 0, device});
@@ -59,7 +68,7 @@ void raise(unsigned code, size_t device) {
     const Lock lock(mutex);
     push(code, static_cast<HdHandle>(device));
     if (code < kHdWarmMotors || code > kHdForceError) return;
-    fake.devices[device].acting.setZero();
+    act(fake.devices[device], {});
     fake.devices[device].frames_of_force = 0;
 }
 
@@ -79,6 +88,7 @@ void reset() {
     fake.devices[1].serial = "40124";
     fake.raise = raise;
     fake.reset = reset;
+    fake.hand = pushing_hand();
     errors.clear();
     scheduled.clear();
     current = kNoHandle;
@@ -139,7 +149,7 @@ Held held(Device& device) {
     double t = static_cast<double>(device.frames) / static_cast<double>(rate);
     if (fake.real_time)
         t = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    Held out = fake.hand ? fake.hand(i, t, device.acting) : Held{};
+    Held out = fake.hand ? fake.hand(i, t, {device.acting, device.acting_torque}) : Held{};
     ++device.frames;
     return out;
 }
@@ -162,10 +172,11 @@ Vec3 told_position(const Device& device, const Held& now) {
 }
 
 /// What of a force reaches the hand: it ramps up after the amplifiers came on.
-Vec3 ramped(Device& device, const Vec3& force) {
+Wrench ramped(Device& device, const Wrench& push) {
     const double most = fake.ramp * ++device.frames_of_force / static_cast<double>(rate);
-    const double size = force.norm();
-    return device.ramping && size > most ? Vec3(force * (most / size)) : force;
+    const double size = push.force.norm();
+    if (!device.ramping || size <= most) return push;
+    return {push.force * (most / size), push.torque * (most / size)};
 }
 
 }  // namespace
@@ -196,7 +207,7 @@ HdHandle hdInitDevice(const char* name) {
         device.late = running.load();
         device.force_enabled = device.ramping = false;
         device.frames = device.frames_of_force = 0;
-        device.acting.setZero();
+        act(device, {});
         current = static_cast<HdHandle>(i);
         return current;
     }
@@ -211,7 +222,7 @@ void hdDisableDevice(HdHandle handle) {
     if (running.load()) ++fake.violations;
     device->initialised = false;
     device->force_enabled = false;
-    device->acting.setZero();
+    act(*device, {});
 }
 
 void hdMakeCurrentDevice(HdHandle handle) {
@@ -222,6 +233,7 @@ void hdMakeCurrentDevice(HdHandle handle) {
 
 void hdBeginFrame(HdHandle handle) {
     if (fake.in_frame) fake.in_frame(handle);
+    fail_as_asked();
     const Lock lock(mutex);
     look_at_thread();
     Device* const device = find(handle);
@@ -230,7 +242,7 @@ void hdBeginFrame(HdHandle handle) {
     if (framed[handle]) return push(kHdIllegalBegin, handle);
     if (running.load() && frames_of_tick[handle]++ > 0) return push(kHdFrameError, handle);
     framed[handle] = true;
-    wanted[handle].setZero();
+    wanted[handle] = {};
     state[handle] = held(*device);
 }
 
@@ -241,14 +253,17 @@ void hdEndFrame(HdHandle handle) {
     if (device == nullptr || device->late) return;
     if (!framed[handle]) return push(kHdIllegalEnd, handle);
     framed[handle] = false;
-    const double size = wanted[handle].norm();
-    if (!(size <= device->max_force * (1 + 1e-9))) {
+    const auto bears = [](const Vec3& v, double most) { return v.norm() <= most * (1 + 1e-9); };
+    const Wrench& push = wanted[handle];
+    const bool turns = device->max_torque >= 0;
+    if (!bears(push.force, device->max_force) ||
+        (turns && !bears(push.torque * 1e3, device->max_torque))) {
         raise(kHdExceededMaxForce, handle);
         return;
     }
     const bool on = device->force_enabled && running.load();
     if (!on) device->frames_of_force = 0;
-    device->acting = on ? ramped(*device, wanted[handle]) : Vec3::Zero();
+    act(*device, on ? ramped(*device, push) : Wrench{}, true);
 }
 
 HdErrorInfo hdGetError() {
@@ -287,6 +302,7 @@ void hdGetIntegerv(unsigned value, int* out) {
     if (device == nullptr) return;
     if (value == kHdButtons) *out = 0;
     if (value == kHdInputDof) *out = device->input_dof;
+    if (value == kHdOutputDof) *out = device->output_dof;
     if (value == kHdCalibrationStyle) *out = static_cast<int>(device->style);
 }
 
@@ -328,6 +344,14 @@ void hdGetDoublev(unsigned value, double* out) {
         case kHdMaxContinuousForce:
             *out = device->continuous_force;
             break;
+        case kHdMaxTorque:
+        case kHdMaxContinuousTorque: {
+            const bool peak = value == kHdMaxTorque;
+            const double told = peak ? device->max_torque : device->continuous_torque;
+            if (told < 0) return push(0x100, current);
+            *out = told;
+            break;
+        }
         case kHdMaxStiffness:
             *out = device->max_stiffness;
             break;
@@ -342,10 +366,12 @@ void hdGetDoublev(unsigned value, double* out) {
 void hdSetDoublev(unsigned value, const double* in) {
     const Lock lock(mutex);
     if (here() == nullptr) return;
-    if (value != kHdForce) return push(0x100, current);
+    const bool turn = value == kHdTorque && fake.devices[current].output_dof >= 6;
+    if (value != kHdForce && !turn) return push(0x100, current);
     // outside of a frame a force goes nowhere, and is a mistake
     if (!framed[current]) ++fake.violations;
-    wanted[current] = Vec3(in[0], in[1], in[2]);
+    if (turn) wanted[current].torque = Vec3(in[0], in[1], in[2]) * 1e-3;
+    if (!turn) wanted[current].force = Vec3(in[0], in[1], in[2]);
 }
 
 const char* hdGetString(unsigned value) {
@@ -397,7 +423,7 @@ void hdStartScheduler() {
 void hdStopScheduler() {
     stop();
     const Lock lock(mutex);
-    for (Device& device : fake.devices) device.acting.setZero();
+    for (Device& device : fake.devices) act(device, {});
     framed.assign(framed.size(), false);
 }
 

@@ -22,8 +22,11 @@ struct FakeHd {
         unsigned calibration = 0x5000;  ///< HdCalibration
         unsigned updated = 0x5000;      ///< what that is after an update
         int input_dof = 3;
+        int output_dof = 3;
         double max_force = 8.5;                                ///< [N]
         double continuous_force = 1.4;                         ///< [N]
+        double max_torque = -1;                                ///< [mN*m]; negative: not told
+        double continuous_torque = -1;                         ///< the same
         double max_stiffness = 1;                              ///< [N/mm]
         double max_damping = 0.005;                            ///< [N*s/mm]
         double workspace[6] = {-127, -60, -40, 127, 118, 87};  ///< minima, maxima [mm]
@@ -37,8 +40,9 @@ struct FakeHd {
         bool late = false;  ///< initialised while the scheduler ran: takes no part
         bool force_enabled = false;
         bool ramping = false;
-        int resets = 0;              ///< of its encoders
-        Vec3 acting = Vec3::Zero();  ///< what pushes the hand [N]
+        int resets = 0;                     ///< of its encoders
+        Vec3 acting = Vec3::Zero();         ///< what pushes the hand [N]
+        Vec3 acting_torque = Vec3::Zero();  ///< and turns it [N*m]
         int frames = 0;
         int frames_of_force = 0;  ///< since its amplifiers came on
     };

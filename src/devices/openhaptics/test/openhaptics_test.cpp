@@ -24,12 +24,13 @@ std::unique_ptr<DeviceGroup> make_two() {
 /// Runs `ticks` through pace(), as a servo that pushes with `force`; looks at each tick's readings.
 struct Paced {
     std::vector<std::vector<Reading>> readings;
-    explicit Paced(DeviceGroup& group, int ticks, const Vec3& force = Vec3::Zero()) {
+    explicit Paced(DeviceGroup& group, int ticks, const Vec3& force = Vec3::Zero(),
+                   const Vec3& torque = Vec3::Zero()) {
         int n = 0;
         group.pace([&] {
             std::vector<Reading> now(static_cast<size_t>(group.size()));
             group.read(n * milliseconds(1), now);
-            group.write(std::vector<Wrench>(now.size(), {force, Vec3::Zero()}));
+            group.write(std::vector<Wrench>(now.size(), {force, torque}));
             readings.push_back(now);
             return ++n < ticks;
         });
@@ -65,7 +66,7 @@ TEST(OpenHaptics, ConvertsUnitsAndPutsTheOriginInTheMiddleOfTheWorkspace) {
     fake.devices[0].input_dof = 6;
     const Held held{
         {0.01, -0.02, 0.03}, {0.1, 0.2, -0.3}, rotation_xyz({0.1, 0.2, 0.3}), {1, 2, 3}};
-    fake.hand = [&](size_t, double, const Vec3&) { return held; };
+    fake.hand = [&](size_t, double, const Wrench&) { return held; };
     const auto group = make({""});
     group->activate();
     const Reading reading = Paced(*group, 1).readings[0][0];
@@ -81,7 +82,7 @@ TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
     const Vec3 q(0.3, -0.2, 0.4);
     const Vec3 offset(0.01, 0.02, -0.01);
     fake.devices[0].joint_offset = offset;
-    fake.hand = [&](size_t, double, const Vec3&) { return Held{model::phantom_position({}, q)}; };
+    fake.hand = [&](size_t, double, const Wrench&) { return Held{model::phantom_position({}, q)}; };
     const auto group = make({"joint_angles: yes\n"});
     ASSERT_TRUE(group->info(0).arm);
     // around HD's own origin the device reaches less to one side
@@ -100,7 +101,7 @@ TEST(OpenHaptics, RefusesJointsOfADeviceThatTellsNone) {
 
 TEST(OpenHaptics, SaysWhenAHandleLeavesTheWorkspace) {
     FakeHd& fake = fake_hd();
-    fake.hand = [&](size_t i, double, const Vec3&) {
+    fake.hand = [&](size_t i, double, const Wrench&) {
         return Held{{i == 0 ? 0.126 : 0.128, 0, 0}, {}, Quat::Identity(), {}};
     };
     const auto group = make_two();
@@ -116,8 +117,8 @@ TEST(OpenHaptics, ForcesReachTheHandInNewtonsAndEndWithTheScheduler) {
     const auto group = make_two();
     group->activate();
     Vec3 felt = Vec3::Zero();
-    fake.hand = [&](size_t i, double, const Vec3& force) {
-        if (i == 1) felt = force;
+    fake.hand = [&](size_t i, double, const Wrench& push) {
+        if (i == 1) felt = push.force;
         return Held{};
     };
     const Paced run(*group, 3, {1, -2, 3});
@@ -136,13 +137,55 @@ TEST(OpenHaptics, ForceRampsUpWhenTheSchedulerStarts) {
     const auto group = make({""});
     group->activate();
     std::vector<double> felt;
-    fake.hand = [&](size_t, double, const Vec3& force) {
-        felt.push_back(force.x());
+    fake.hand = [&](size_t, double, const Wrench& push) {
+        felt.push_back(push.force.x());
         return Held{};
     };
     const Paced run(*group, 50, {2, 0, 0});
     EXPECT_NEAR(felt[10], 1, 1e-9);  // 100 N/s for 10 ms
     EXPECT_EQ(felt[49], 2);
+}
+
+TEST(OpenHaptics, TorqueReachesTheHandOfADeviceWithSixDegreesOfOutput) {
+    FakeHd& fake = fake_hd();
+    fake.ramp = 1e9;
+    for (FakeHd::Device& device : fake.devices) device.input_dof = 6;
+    fake.devices[0].output_dof = 6;
+    fake.devices[0].max_torque = 515;  // mN*m
+    fake.devices[0].continuous_torque = 188;
+    Wrench felt[2];
+    fake.hand = [&](size_t i, double, const Wrench& push) {
+        felt[i] = push;
+        return Held{};
+    };
+    const auto group = make_two();
+    EXPECT_DOUBLE_EQ(group->info(0).peak_torque, 0.515);
+    EXPECT_DOUBLE_EQ(group->info(0).continuous_torque, 0.188);
+    EXPECT_EQ(group->info(1).peak_torque, 0);
+    group->activate();
+    const Paced run(*group, 3, {1, 0, 0}, {0.1, -0.2, 0.3});
+    EXPECT_EQ(run.readings[2][0].status, 0u);
+    EXPECT_TRUE(felt[0].torque.isApprox(Vec3(0.1, -0.2, 0.3), 1e-12));
+    EXPECT_EQ(felt[1].torque, Vec3::Zero());
+    EXPECT_EQ(fake.devices[0].acting_torque, Vec3::Zero());
+    EXPECT_EQ(fake.violations, 0);
+}
+
+TEST(OpenHaptics, TorqueNeedsOrientationAndALargestOne) {
+    FakeHd& fake = fake_hd();
+    fake.devices[0].input_dof = fake.devices[0].output_dof = 6;
+    EXPECT_EQ(make({""})->info(0).peak_torque, 0);
+    {
+        const auto given = make({"peak_torque_mNm: 300\ncontinuous_torque_mNm: 100\n"});
+        EXPECT_DOUBLE_EQ(given->info(0).peak_torque, 0.3);
+        EXPECT_DOUBLE_EQ(given->info(0).continuous_torque, 0.1);
+    }
+    fake.devices[0].max_torque = 200;
+    EXPECT_DOUBLE_EQ(make({"orientation: no\n"})->info(0).peak_torque, 0);
+    expect_in("renders no torque. Leave it out",
+              told([] { make({"orientation: no\npeak_torque_mNm: 300\n"}); }));
+    fake.devices[0].output_dof = 3;
+    EXPECT_EQ(make({""})->info(0).peak_torque, 0);
 }
 
 TEST(OpenHaptics, TheLibrarysFaultsAreTold) {
@@ -262,8 +305,8 @@ TEST_P(HdForceErrors, TakeOneTicksForceAndAreArmedAgain) {
         return true;
     };
     std::vector<double> felt[2];
-    fake.hand = [&](size_t i, double, const Vec3& force) {
-        felt[i].push_back(force.norm());
+    fake.hand = [&](size_t i, double, const Wrench& push) {
+        felt[i].push_back(push.force.norm());
         return Held{};
     };
     const auto group = make_two();

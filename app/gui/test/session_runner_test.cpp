@@ -1,0 +1,118 @@
+// What the window's thread does, or does no more, to the force of a session that runs beside it.
+#include "session_runner.h"
+
+#include <gtest/gtest.h>
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QThread>
+
+#include "recording/raw_log.h"
+#include "testing/files.h"
+
+namespace dihaptic::gui {
+namespace {
+
+class SessionRunnerTest : public ::testing::Test {
+  protected:
+    SessionRunnerTest() {
+        QObject::connect(&runner_, &SessionRunner::ended, &runner_,
+                         [this](const SessionEnd& end) { end_ = end; });
+        experiment::Request request;
+        request.file = "scenes/block-on-table.yaml";
+        request.mouse = true;
+        request.set = {"safety.max_pause_ms=1000"};  // on a busy machine, too
+        experiment::RunOptions options;
+        options.out = folder_.path();
+        runner_.start(experiment::make_plan(request), options);
+        runner_.watch();
+    }
+
+    /// The window answers until then, or for ten seconds.
+    template <class Condition>
+    bool answer_until(const Condition& condition) {
+        QElapsedTimer timer;
+        timer.start();
+        while (!condition()) {
+            if (timer.elapsed() > 10000) return false;
+            QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+            QThread::msleep(5);
+        }
+        return true;
+    }
+    void answer_for(int ms) {
+        QElapsedTimer timer;
+        timer.start();
+        EXPECT_TRUE(answer_until([&] { return timer.elapsed() >= ms; }));
+    }
+    double now() {
+        const servo::Frame& frame = runner_.frame();
+        return frame.sequence < 0 ? -1 : seconds(frame.time);
+    }
+    void grip() {
+        ASSERT_TRUE(answer_until([&] { return now() > 0.1; }));
+        hand::Posture goal = runner_.plan().mouse->goal();
+        goal.aperture = 0.034;
+        runner_.plan().mouse->follow(goal, now());
+        answer_for(700);
+        ASSERT_GT(runner_.frame().grip_force, 0.3);
+    }
+    /// The frames of the session, which ends.
+    std::vector<servo::Frame> end() {
+        EXPECT_TRUE(answer_until([&] { return !runner_.running(); }));
+        std::vector<servo::Frame> frames;
+        recording::RawLogReader log(end_.folder.toStdString() + "/raw.log");
+        while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+        return frames;
+    }
+
+    int words_ = 1;
+    char name_[2] = "t";
+    char* argument_ = name_;
+    QCoreApplication app_{words_, &argument_};
+    testing::TemporaryFolder folder_;
+    std::atomic<bool> stop_{false};
+    SessionRunner runner_{stop_};
+    SessionEnd end_;
+};
+
+TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
+    grip();
+    const double before = now();
+    QThread::msleep(2500);  // the window's thread does nothing else
+    const servo::Frame& frame = runner_.frame();
+    EXPECT_NE(frame.status & servo::kForceOff, 0u);
+    EXPECT_EQ(frame.fingers[0].f_sent_W, Vec3::Zero());
+    QString told;
+    ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
+    EXPECT_TRUE(told.contains("the window has not answered for 1.")) << told.toStdString();
+    EXPECT_TRUE(runner_.paused());
+    const double waits = now();
+    answer_for(200);
+    EXPECT_EQ(now(), waits);
+    runner_.set_paused(false);
+    ASSERT_TRUE(answer_until([&] { return now() > waits + 0.5; }));
+    EXPECT_EQ(runner_.frame().status & servo::kForceOff, 0u);
+    runner_.end();
+    for (const servo::Frame& f : end()) {
+        if ((f.status & servo::kAbandoned) == 0) continue;
+        EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was up to a tenth before
+        EXPECT_LT(seconds(f.time), before + 1.2);
+    }
+}
+
+TEST_F(SessionRunnerTest, AStopFromOutsideTakesForceAwayAndEndsInOrder) {
+    grip();
+    const double before = now();
+    stop_ = true;
+    const std::vector<servo::Frame> frames = end();
+    ASSERT_FALSE(frames.empty());
+    const servo::Frame& last = frames.back();
+    EXPECT_NE(last.status & servo::kStopped, 0u);
+    EXPECT_EQ(last.fingers[0].f_sent_W, Vec3::Zero());
+    EXPECT_LT(seconds(last.time), before + 0.1);
+    EXPECT_FALSE(end_.good);
+}
+
+}  // namespace
+}  // namespace dihaptic::gui

@@ -1,0 +1,20 @@
+// dihaptic-keeper: owns the real devices of a session, in a process of its own (src/keeper). The
+// program dihaptic starts it; nobody needs to call it by hand.
+#include <sys/stat.h>
+
+#include <cstdio>
+
+#include "keeper/keeper.h"
+#include "servo/real_time.h"
+
+int main(int count, char**) {
+    struct stat socket {};
+    if (count != 1 || fstat(dihaptic::keeper::kSocket, &socket) != 0 || !S_ISSOCK(socket.st_mode)) {
+        std::fputs("dihaptic-keeper is started by dihaptic, for real devices\n", stderr);
+        return 2;
+    }
+    return dihaptic::keeper::keep([](int priority, const std::function<void()>& body) {
+        const dihaptic::servo::RealTime real_time(priority);
+        body();
+    });
+}

@@ -1,0 +1,103 @@
+// dihaptic-mesh FORMAT: reads a mesh (obj, stl, ply or off) from its standard input and writes the
+// triangles to its standard output: a line "dihaptic mesh 1"; how many vertices and how many faces,
+// as 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices each; all
+// as this machine has them in memory. The program dihaptic calls it, under limits, because the
+// library that reads meshes crashes on damaged ones; nobody needs to call it by hand.
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cstdint>
+#include <cstdio>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// How the program ends (base/companion.h).
+enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
+
+/// The mesh, and no file that it names: a session keeps only the mesh, and has to read the same.
+class OneFile final : public Assimp::MemoryIOSystem {
+  public:
+    OneFile(const std::string& bytes, std::string name)
+        : MemoryIOSystem(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), nullptr),
+          name_(std::move(name)) {}
+    bool Exists(const char* file) const override { return name_ == file; }
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        return name_ == file ? MemoryIOSystem::Open(file, mode) : nullptr;
+    }
+
+  private:
+    std::string name_;
+};
+
+struct Surface {
+    std::vector<std::array<double, 3>> vertices;
+    std::vector<std::array<uint32_t, 3>> faces;
+};
+
+Surface surface_of(const aiScene& scene) {
+    Surface out;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        const aiMesh& part = *scene.mMeshes[m];
+        const auto offset = static_cast<uint32_t>(out.vertices.size());
+        for (unsigned i = 0; i < part.mNumVertices; ++i) {
+            const aiVector3D& v = part.mVertices[i];
+            out.vertices.push_back({v.x, v.y, v.z});
+        }
+        for (unsigned i = 0; i < part.mNumFaces; ++i) {
+            const aiFace& face = part.mFaces[i];
+            if (face.mNumIndices != 3) continue;  // points and lines bound no volume
+            out.faces.push_back(
+                {offset + face.mIndices[0], offset + face.mIndices[1], offset + face.mIndices[2]});
+        }
+    }
+    return out;
+}
+
+std::string standard_input() {
+    std::string bytes;
+    std::array<char, 1 << 16> block{};
+    while (const size_t size = std::fread(block.data(), 1, block.size(), stdin))
+        bytes.append(block.data(), size);
+    return bytes;
+}
+
+template <class Item>
+bool write(const std::vector<Item>& items) {
+    return std::fwrite(items.data(), sizeof(Item), items.size(), stdout) == items.size();
+}
+
+Status read(const std::string& format) {
+    const std::string bytes = standard_input();
+    const std::string name = AI_MEMORYIO_MAGIC_FILENAME "." + format;
+    Assimp::Importer importer;
+    importer.SetIOHandler(new OneFile(bytes, name));  // which then owns it
+    const aiScene* scene =
+        importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                    aiProcess_PreTransformVertices);
+    if (scene == nullptr) return kRefused;
+    const Surface surface = surface_of(*scene);
+    const std::vector<uint64_t> counts{surface.vertices.size(), surface.faces.size()};
+    std::fputs("dihaptic mesh 1\n", stdout);
+    const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
+                         std::fflush(stdout) == 0;
+    // without destructors, which may crash on what was read from a damaged file
+    std::_Exit(written ? kDone : kRefused);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count != 2) {
+        std::cerr << "usage: dihaptic-mesh FORMAT < MESH\n";
+        return kRefused;
+    }
+    std::set_new_handler([] { std::_Exit(kOutOfMemory); });
+    return read(arguments[1]);
+}

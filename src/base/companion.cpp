@@ -1,0 +1,226 @@
+#include "base/companion.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+
+namespace dihaptic {
+namespace {
+
+constexpr int kOutOfMemory = 3;  // exit status
+
+/// Those that run. Guarded, so that nobody ends another program that has got a number of theirs.
+struct Running {
+    std::string name;
+    pid_t process;
+};
+std::mutex running_guard;
+std::vector<Running> running;
+
+/// A file in memory, which needs no name and no folder.
+class MemoryFile {
+  public:
+    explicit MemoryFile(const std::string& text)
+        : descriptor_(memfd_create("dihaptic", MFD_CLOEXEC)) {
+        good_ = descriptor_ >= 0;
+        for (size_t at = 0; good_ && at < text.size();) {
+            const ssize_t size = write(descriptor_, text.data() + at, text.size() - at);
+            good_ = size > 0;
+            if (good_) at += static_cast<size_t>(size);
+        }
+        good_ = good_ && lseek(descriptor_, 0, SEEK_SET) == 0;
+    }
+    ~MemoryFile() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    bool good() const { return good_; }
+    int descriptor() const { return descriptor_; }
+    std::string text() const {
+        struct stat about {};
+        if (fstat(descriptor_, &about) != 0) return "";
+        std::string out(static_cast<size_t>(about.st_size), '\0');
+        for (size_t at = 0; at < out.size();) {
+            const ssize_t size =
+                pread(descriptor_, out.data() + at, out.size() - at, static_cast<off_t>(at));
+            if (size <= 0) return "";
+            at += static_cast<size_t>(size);
+        }
+        return out;
+    }
+
+  private:
+    int descriptor_;
+    bool good_ = false;
+};
+
+/// Starts a program; what goes wrong is an error number. It has none of our files, which may be
+/// devices, and neither what we do about signals nor which of them we block.
+int start(const std::string& path, const CompanionTask& task, int in, int out, pid_t& process) {
+    std::vector<char*> words{const_cast<char*>(path.c_str())};
+    for (const std::string& word : task.arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+    posix_spawnattr_t how;
+    posix_spawnattr_init(&how);
+    sigset_t all;
+    sigset_t none;
+    sigfillset(&all);
+    sigemptyset(&none);
+    posix_spawnattr_setsigdefault(&how, &all);
+    posix_spawnattr_setsigmask(&how, &none);
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    const int error = posix_spawn(&process, path.c_str(), &files, &how, words.data(), environ);
+    posix_spawnattr_destroy(&how);
+    posix_spawn_file_actions_destroy(&files);
+    return error;
+}
+
+bool limit(pid_t process, const CompanionLimits& limits) {
+    const auto set = [&](__rlimit_resource which, uint64_t soft, uint64_t hard) {
+        rlimit now{};
+        if (prlimit(process, which, nullptr, &now) != 0) return errno == ESRCH;  // it has ended
+        // who has less already may not have more
+        const rlimit value{std::min(soft, now.rlim_max), std::min(hard, now.rlim_max)};
+        return prlimit(process, which, &value, nullptr) == 0 || errno == ESRCH;
+    };
+    const auto seconds = static_cast<uint64_t>(limits.processor_time);
+    return set(RLIMIT_CPU, seconds, seconds + 1) && set(RLIMIT_AS, limits.memory, limits.memory) &&
+           set(RLIMIT_FSIZE, limits.output, limits.output) && set(RLIMIT_CORE, 0, 0);
+}
+
+/// Waits until a process has ended, which stays to be asked about; false: not within `seconds`.
+bool wait_for(pid_t process, int seconds) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds(seconds);
+    const int watch = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
+    if (watch < 0) return false;
+    pollfd ended{watch, POLLIN, 0};
+    int ready = 0;
+    do {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+        ready = poll(&ended, 1, static_cast<int>(std::max<int64_t>(left, 0)));
+    } while (ready < 0 && errno == EINTR);
+    close(watch);
+    return ready > 0;
+}
+
+struct Ended {
+    int status = 1 << 8;  // of one that nobody can ask: as if it had refused
+    bool late = false;
+};
+
+Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
+    const auto failed = [&](int error) {
+        return Error(task.place, task.key,
+                     fmt::format("the program {}, which is for {}, cannot be run: {}", task.program,
+                                 task.what, std::strerror(error)),
+                     "End other programs and try again.");
+    };
+    pid_t process = 0;
+    Ended ended;
+    bool limited = false;
+    {
+        const std::lock_guard lock(running_guard);
+        if (const int error = start(path, task, in, out, process); error != 0) throw failed(error);
+        limited = limit(process, task.limits);
+        running.push_back({task.program, process});
+    }
+    if (limited) ended.late = !wait_for(process, task.limits.time);
+    if (!limited || ended.late) kill(process, SIGKILL);
+    siginfo_t ignored{};
+    while (waitid(P_PID, static_cast<id_t>(process), &ignored, WEXITED | WNOWAIT) < 0 &&
+           errno == EINTR)
+        continue;
+    const std::lock_guard lock(running_guard);
+    std::erase_if(running, [&](const Running& one) { return one.process == process; });
+    while (waitpid(process, &ended.status, 0) < 0 && errno == EINTR) continue;
+    if (!limited) throw failed(EPERM);
+    return ended;
+}
+
+/// What ended it before it was done; "" when nothing did.
+std::string failure(const CompanionTask& task, const Ended& ended) {
+    const int status = ended.status;
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (ended.late) return fmt::format("took more than {} s", task.limits.time);
+    if (signal == SIGXCPU)
+        return fmt::format("took more than {} s of computing", task.limits.processor_time);
+    if (signal == SIGXFSZ)
+        return fmt::format("gave more than {} MB", task.limits.output / 1'000'000);
+    // the kernel ends whoever takes the last of the machine's memory
+    if (signal == SIGKILL || (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory))
+        return fmt::format("took more than {} MB of memory", task.limits.memory / 1'000'000);
+    if (signal != 0) return fmt::format("failed: {} crashed ({})", task.program, strsignal(signal));
+    return "";
+}
+
+}  // namespace
+
+std::string companion(const std::string& name) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    for (; !folder.empty(); folder = folder.parent_path()) {
+        if (fs::is_regular_file(folder / name, ignored)) return (folder / name).string();
+        if (folder == folder.root_path()) break;
+    }
+    return "";
+}
+
+std::optional<std::string> run_companion(const CompanionTask& task, const std::string& input) {
+    const std::string path = companion(task.program);
+    if (path.empty()) {
+        throw Error(
+            task.place, task.key,
+            fmt::format("the program {}, which is for {}, is missing", task.program, task.what),
+            "Build all of Dihaptic: it lies beside the program dihaptic.");
+    }
+    const MemoryFile in(input);
+    const MemoryFile out("");
+    if (!in.good() || !out.good()) {
+        throw Error(task.place, task.key,
+                    fmt::format("there is no memory for {}: {}", task.what, std::strerror(errno)),
+                    "End other programs and try again.");
+    }
+    const Ended ended = run(task, path, in.descriptor(), out.descriptor());
+    if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return out.text();
+    const int signal = WIFSIGNALED(ended.status) ? WTERMSIG(ended.status) : 0;
+    if (signal == SIGTERM || signal == SIGINT || signal == SIGHUP) {
+        throw Error(task.place, task.key, task.what + " was cancelled", "Open the file again.");
+    }
+    if (const std::string why = failure(task, ended); !why.empty())
+        throw Error(task.place, task.key, task.what + " " + why, task.remedy);
+    return std::nullopt;
+}
+
+void cancel_companions(const std::string& name) noexcept {
+    const std::lock_guard lock(running_guard);
+    for (const Running& one : running) {
+        if (one.name == name) kill(one.process, SIGTERM);
+    }
+}
+
+}  // namespace dihaptic

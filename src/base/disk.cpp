@@ -1,0 +1,34 @@
+#include "base/disk.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic {
+
+void sync_to_disk(int descriptor, const std::string& name) {
+    int status = ::fsync(descriptor);
+    while (status != 0 && errno == EINTR) status = ::fsync(descriptor);
+    if (status == 0 || errno == EINVAL || errno == ENOSYS || errno == EROFS) return;
+    throw Error({name, 0}, "", fmt::format("cannot be kept on the disk: {}", std::strerror(errno)),
+                "Save what you can elsewhere: the disk is full, or fails.");
+}
+
+void sync_to_disk(const std::string& name) {
+    const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return;  // what may not be read is not ours
+    try {
+        sync_to_disk(descriptor, name);
+    } catch (const Error&) {
+        ::close(descriptor);
+        throw;
+    }
+    ::close(descriptor);
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,14 @@
+// Any text as YAML, as all files of ours are, and what is written of it.
+#include "base/node.h"
+#include "testing/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dihaptic;
+    try {
+        const Node node = parse_yaml({reinterpret_cast<const char*>(data), size}, "any.yaml");
+        (void)parse_yaml(to_yaml(node), "again.yaml");
+    } catch (const Error&) {
+        // said with file, line and remedy: as it should be
+    }
+    return 0;
+}

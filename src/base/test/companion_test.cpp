@@ -1,0 +1,109 @@
+// What becomes of companions that crash, hang, take too much or are not there. The shell stands in
+// for them: it does as it is told.
+#include "base/companion.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace dihaptic {
+namespace {
+
+CompanionTask task(const std::string& script) {
+    return {"/bin/sh",
+            {"-c", script},
+            {.processor_time = 1, .time = 20, .memory = 500'000'000, .output = 1'000'000},
+            "reading the thing",
+            "Mend it.",
+            {"scene.yaml", 7},
+            "file"};
+}
+
+std::string failure(const CompanionTask& of) {
+    try {
+        run_companion(of, "");
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "none";
+}
+
+TEST(Companion, ReadsItsInputAndGivesItsOutput) {
+    std::string long_text;
+    for (int i = 0; i < 100'000; ++i) long_text += "line\n";
+    EXPECT_EQ(run_companion(task("cat"), long_text), long_text);
+    EXPECT_EQ(run_companion(task(""), "unread"), "");
+    EXPECT_EQ(run_companion(task("exit 1"), ""), std::nullopt);
+    EXPECT_EQ(run_companion(task("echo half; exit 1"), ""), std::nullopt);
+}
+
+TEST(Companion, ThatFailsIsToldWithItsInputThePlaceAndTheRemedy) {
+    const std::string start = "scene.yaml:7: error: file: reading the thing ";
+    EXPECT_EQ(failure(task("kill -SEGV $$")),
+              start + "failed: /bin/sh crashed (Segmentation fault). Mend it.");
+    EXPECT_EQ(failure(task("kill -KILL $$")), start + "took more than 500 MB of memory. Mend it.");
+    EXPECT_EQ(failure(task("exit 3")), start + "took more than 500 MB of memory. Mend it.");
+    EXPECT_EQ(failure(task("while :; do :; done")),
+              start + "took more than 1 s of computing. Mend it.");
+    EXPECT_EQ(failure(task("exec cat /dev/zero")), start + "gave more than 1 MB. Mend it.");
+    CompanionTask asleep = task("sleep 100");
+    asleep.limits.time = 1;
+    EXPECT_EQ(failure(asleep), start + "took more than 1 s. Mend it.");
+    CompanionTask gone = task("");
+    gone.program = "dihaptic-gone";
+    EXPECT_EQ(failure(gone),
+              "scene.yaml:7: error: file: the program dihaptic-gone, which is for reading the "
+              "thing, is missing. Build all of Dihaptic: it lies beside the program dihaptic.");
+}
+
+TEST(Companion, HasNeitherMoreMemoryNorOurFiles) {
+    EXPECT_EQ(run_companion(task("sleep 0.5; ulimit -v; ulimit -t; ulimit -c"), ""),
+              "488281\n1\n0\n");
+    const std::optional<std::string> open = run_companion(task("echo /proc/$$/fd/*"), "");
+    ASSERT_TRUE(open);
+    EXPECT_EQ(open->find("/fd/4"), std::string::npos) << *open;
+}
+
+TEST(Companion, EndsWhenItIsCancelledAndOnlyThen) {
+    std::atomic<bool> done{false};
+    std::thread user([&] {
+        while (!done) {
+            cancel_companions("/bin/sh");
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    });
+    const std::string said = failure(task("sleep 100"));
+    done = true;
+    user.join();
+    EXPECT_EQ(said,
+              "scene.yaml:7: error: file: reading the thing was cancelled. Open the file again.");
+    cancel_companions("/bin/sh");  // there is none
+    std::thread stranger([] {
+        for (int i = 0; i < 20; ++i) {
+            cancel_companions("another");
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    });
+    EXPECT_EQ(run_companion(task("sleep 0.1; echo whole"), ""), "whole\n");
+    stranger.join();
+}
+
+TEST(Companion, SeveralRunAtOnce) {
+    std::vector<std::thread> threads;
+    std::atomic<int> right{0};
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([&, i] {
+            for (int k = 0; k < 5; ++k) {
+                const std::string text = std::to_string(100 * i + k);
+                if (run_companion(task("cat"), text) == text) ++right;
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(right, 20);
+}
+
+}  // namespace
+}  // namespace dihaptic

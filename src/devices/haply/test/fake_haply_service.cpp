@@ -1,0 +1,41 @@
+// Stands for the Inverse Service where the program runs whole: a process of its own, which outlives
+// the death of its client as the real one does, and ends with whoever started it.
+//
+//   fake_haply_service [DEVICES]      prints its address, then the devices' serial numbers, a line
+//                                     each; 2 devices if not said
+//
+// Its ticks are at 1 kHz of the real clock. DIHAPTIC_FAKE_PUSH moves its handles, and
+// DIHAPTIC_FAKE_FELT shows what its devices do, as of the makers' fake libraries. A force lasts one
+// tick; what Haply's own service leaves on for how long is not known.
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "devices/haply/test/fake_service.h"
+#include "devices/test/felt_outside.h"
+
+int main(int argc, char** argv) {
+    using namespace dihaptic::devices;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    const int count = argc > 1 ? std::atoi(argv[1]) : 2;
+    if (count < 1 || count > static_cast<int>(FeltOutside::kDevices)) {
+        fmt::print(stderr, "usage: {} [DEVICES], 1 to {}\n", argv[0], FeltOutside::kDevices);
+        return 1;
+    }
+    haply::FakeService::Setup setup;
+    setup.devices.resize(static_cast<size_t>(count));
+    setup.ids.resize(setup.devices.size());
+    for (size_t i = 3; i < setup.ids.size(); ++i) setup.ids[i] = fmt::format("04A{}", i);
+    setup.rate = 1000;
+    setup.hand = pushing_hand();
+    if (!setup.hand) setup.hand = [](size_t, double, const dihaptic::Wrench&) { return Held{}; };
+    const haply::FakeService service(setup, {});
+    fmt::print("{}\n", service.url());
+    for (const std::string& id : setup.ids) fmt::print("{}\n", id);
+    std::fflush(stdout);
+    for (;;) pause();
+}

@@ -1,0 +1,96 @@
+// What the makers' fake libraries show to, and take from, a test in another process: the program
+// runs whole, is killed, and a hand may still be pushed.
+//
+// DIHAPTIC_FAKE_FELT names a file that is mapped: a Felt a device. What a process leaves there when
+// it dies is what its devices would go on doing. DIHAPTIC_FAKE_PUSH is "x y z": where the handles
+// go from D's origin within half a second, to stay there [m]. DIHAPTIC_FAKE_FAILS is "hangs 2" or
+// "crashes 2": what the library does so many seconds after its first reading.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "devices/test/fake_hand.h"
+
+namespace dihaptic::devices {
+
+struct Felt {
+    double force = 0;     ///< that acts on the hand [N]
+    double told_at = 0;   ///< when the device was last told a force, on CLOCK_MONOTONIC [s]
+    double watchdog = 0;  ///< its firmware takes its force away so long after that; 0: never [s]
+    double gone_at = 0;   ///< when its force last became zero, on the same clock [s]
+};
+
+class FeltOutside {
+  public:
+    static constexpr size_t kDevices = 8;
+
+    FeltOutside() {
+        const char* const file = std::getenv("DIHAPTIC_FAKE_FELT");
+        if (file == nullptr) return;
+        const int fd = open(file, O_RDWR | O_CREAT, 0600);
+        if (fd < 0 || ftruncate(fd, sizeof(Felt) * kDevices) != 0) return;
+        void* const at =
+            mmap(nullptr, sizeof(Felt) * kDevices, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+        close(fd);
+        if (at != MAP_FAILED) felt_ = static_cast<Felt*>(at);
+    }
+
+    /// What acts now. `told`: because the device was told a force.
+    void show(size_t device, const Vec3& force, bool told) noexcept {
+        if (felt_ == nullptr || device >= kDevices) return;
+        Felt& felt = felt_[device];
+        const double now =
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+                .count();
+        const double size = force.norm();
+        if (size == 0 && felt.force != 0) felt.gone_at = now;
+        felt.force = size;
+        if (told) felt.told_at = now;
+    }
+    void set_watchdog(size_t device, double seconds) noexcept {
+        if (felt_ != nullptr && device < kDevices) felt_[device].watchdog = seconds;
+    }
+
+  private:
+    Felt* felt_ = nullptr;
+};
+
+/// Called with each reading: does what DIHAPTIC_FAKE_FAILS asks for.
+inline void fail_as_asked() {
+    static const char* const text = std::getenv("DIHAPTIC_FAKE_FAILS");
+    if (text == nullptr) return;
+    using Clock = std::chrono::steady_clock;
+    static const auto begin = Clock::now();
+    std::string what;
+    double after = 0;
+    std::istringstream(text) >> what >> after;
+    if (std::chrono::duration<double>(Clock::now() - begin).count() < after) return;
+    if (what == "crashes") std::abort();
+    while (what == "hangs") pause();
+}
+
+/// What DIHAPTIC_FAKE_PUSH asks for; none when it does not.
+inline Hand pushing_hand() {
+    const char* const text = std::getenv("DIHAPTIC_FAKE_PUSH");
+    if (text == nullptr) return {};
+    Vec3 goal = Vec3::Zero();
+    std::istringstream(text) >> goal.x() >> goal.y() >> goal.z();
+    return [goal](size_t, double t, const Wrench&) {
+        constexpr double kTime = 0.5;  // [s]
+        Held out;
+        out.p = std::min(t / kTime, 1.0) * goal;
+        if (t < kTime) out.v = goal / kTime;
+        return out;
+    };
+}
+
+}  // namespace dihaptic::devices

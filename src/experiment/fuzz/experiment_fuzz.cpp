@@ -1,0 +1,16 @@
+// Any file as an experiment.
+#include "experiment/experiment.h"
+
+#include "testing/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dihaptic;
+    const std::string file = testing::as_file({data, size}, "experiment.yaml");
+    Diagnostics diagnostics;
+    try {
+        (void)experiment::read_experiment(file, diagnostics);
+    } catch (const Error&) {
+        // said with file, line and remedy: as it should be
+    }
+    return 0;
+}

@@ -1,0 +1,38 @@
+#include "haptics/late_loop.h"
+
+#include <algorithm>
+
+namespace dihaptic::haptics {
+namespace {
+
+// A damper of more than m / T takes more than a handle's momentum in a period T. As a share of the
+// stiffness that is held: m / (2 kHeldShare b) with 75 g and 3 N*s/m, and so with a gimbal's
+// inertia.
+constexpr double kDamperTime = 0.075 / (2 * kHeldShare * 3);
+constexpr double kTurnDamperTime = 1e-4 / (2 * kHeldShare * 0.02);
+
+}  // namespace
+
+CouplingSettings softened(CouplingSettings asked, double b, double lateness, double tick) noexcept {
+    if (lateness <= 0) return asked;
+    const double k = held_stiffness(b, lateness);
+    asked.stiffness = std::min(asked.stiffness, k);
+    asked.turn_stiffness = std::min(asked.turn_stiffness, kTurnHeld * k);
+    if (asked.damping) asked.damping = std::min(*asked.damping, kDamperTime * k);
+    if (asked.turn_damping)
+        asked.turn_damping = std::min(*asked.turn_damping, kTurnDamperTime * kTurnHeld * k);
+    // it delays by ticks, which are longer now: what it is to smooth is over in one
+    asked.smoothing = std::max(asked.smoothing, lateness / (lateness + tick));
+    return asked;
+}
+
+Vec3 bound_rise(const Vec3& asked, const Vec3& last, const Vec3& moved, double k,
+                double creep) noexcept {
+    const double size = asked.norm();
+    if (!(size > 0)) return asked;
+    const Vec3 along = asked / size;
+    const double most = std::max(0.0, (last - k * moved).dot(along)) + creep;
+    return most < size ? Vec3(most * along) : asked;
+}
+
+}  // namespace dihaptic::haptics

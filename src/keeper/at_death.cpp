@@ -1,0 +1,54 @@
+#include "keeper/at_death.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+
+#include "keeper/force_off.h"
+
+namespace dihaptic::keeper {
+namespace {
+
+constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGABRT};
+
+/// Async-signal-safe.
+void say(const char* text) {
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+}
+
+void on_error(int signal) {
+    static std::atomic_flag dying = ATOMIC_FLAG_INIT;
+    if (!dying.test_and_set()) {
+        const bool off = force_off_now();
+        say("\nerror: the program failed (SIG");
+        const char* const name = sigabbrev_np(signal);
+        say(name == nullptr ? "?" : name);
+        say(off ? "). Force is off."
+                : "). Force could not be taken away: switch the devices off at their power.");
+        say(" What a session had recorded stays: dihaptic recover SESSION. Please report this, with"
+            " the session's folder.\n");
+    }
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+}
+
+}  // namespace
+
+void take_force_away_at_death() {
+    // an overflow of the main thread's stack leaves none to run on
+    static std::array<char, 65536> stack;
+    stack_t own{};
+    own.ss_sp = stack.data();
+    own.ss_size = stack.size();
+    sigaltstack(&own, nullptr);
+    struct sigaction action {};
+    action.sa_handler = on_error;
+    action.sa_flags = SA_ONSTACK | SA_NODEFER;
+    sigemptyset(&action.sa_mask);
+    for (const int signal : kErrors) sigaction(signal, &action, nullptr);
+}
+
+}  // namespace dihaptic::keeper

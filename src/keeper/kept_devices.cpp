@@ -1,0 +1,286 @@
+#include "keeper/kept_devices.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <thread>
+
+#include "base/companion.h"
+#include "keeper/force_off.h"
+#include "keeper/keeper.h"
+#include "keeper/messages.h"
+#include "keeper/shared_page.h"
+
+namespace dihaptic::keeper {
+namespace {
+
+using nlohmann::json;
+
+/// Beyond the silence that the keeper bears: a keeper that is silent itself is given up.
+constexpr Time kPatience = std::chrono::milliseconds(20);
+/// Devices that are opened, or calibrate themselves, take their time.
+constexpr Time kSetUp = std::chrono::seconds(60);
+/// After that they are left to themselves.
+constexpr Time kSetDown = std::chrono::seconds(2);
+/// What paces may take its time to begin.
+constexpr Time kBeginning = std::chrono::seconds(3);
+constexpr Time kSilence = std::chrono::milliseconds(200);
+/// An answer comes within that, mostly: to sleep and to be woken takes longer.
+constexpr Time kHope = std::chrono::microseconds(20);
+
+/// A keeper's process, its socket and the page that is shared with it.
+class Process {
+  public:
+    explicit Process(const std::string& program) {
+        int ends[2];
+        if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) throw failure();
+        socket_ = ends[0];
+        const int memory = memfd_create("dihaptic keeper", MFD_CLOEXEC);
+        void* const at =
+            memory >= 0 && ftruncate(memory, sizeof(SharedPage)) == 0
+                ? mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0)
+                : MAP_FAILED;
+        if (at != MAP_FAILED) page_ = new (at) SharedPage;
+        if (page_ != nullptr) spawn(program, ends[1], memory);
+        close(ends[1]);
+        if (memory >= 0) close(memory);
+        if (pid_ == 0) {
+            const Error error = failure();
+            end();
+            throw error;
+        }
+    }
+    ~Process() { end(); }
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    SharedPage& page() { return *page_; }
+
+    /// Says it and waits for the answer. Throws Error with what the keeper says is wrong, or when
+    /// it does not answer.
+    json ask(const json& message, Time most) {
+        send(socket_, message);
+        std::optional<json> answer = receive(socket_, most);
+        if (!answer) {
+            throw Error("the program that keeps the devices does not answer",
+                        "Switch the devices off and on, and start again.");
+        }
+        if (answer->contains("problems")) throw error_of(*answer);
+        return *std::move(answer);
+    }
+
+  private:
+    static Error failure() {
+        return {std::string("the program that keeps the devices cannot be started: ") +
+                    std::strerror(errno),
+                "Close other programs, and start again."};
+    }
+
+    void spawn(const std::string& program, int socket, int memory) {
+        posix_spawn_file_actions_t files;
+        posix_spawn_file_actions_init(&files);
+        posix_spawn_file_actions_adddup2(&files, socket, kSocket);
+        posix_spawn_file_actions_adddup2(&files, memory, kMemory);
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        // the terminal's keys, and what is blocked here, are not meant for it
+        sigset_t none;
+        sigemptyset(&none);
+        posix_spawnattr_setsigmask(&attributes, &none);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+        std::string name = program;
+        char* const arguments[] = {name.data(), nullptr};
+        const int failed =
+            posix_spawn(&pid_, program.c_str(), &files, &attributes, arguments, environ);
+        if (failed != 0) {
+            pid_ = 0;
+            errno = failed;
+        }
+        posix_spawnattr_destroy(&attributes);
+        posix_spawn_file_actions_destroy(&files);
+    }
+
+    void end() {
+        if (socket_ >= 0) close(socket_);  // by which it ends
+        socket_ = -1;
+        if (pid_ > 0) {
+            const int64_t begin = monotonic();
+            while (waitpid(pid_, nullptr, WNOHANG) == 0) {
+                if (monotonic() - begin > kSetDown.count()) kill(pid_, SIGKILL);
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+        }
+        pid_ = 0;
+        if (page_ != nullptr) munmap(page_, sizeof(SharedPage));
+        page_ = nullptr;
+    }
+
+    int socket_ = -1;
+    pid_t pid_ = 0;
+    SharedPage* page_ = nullptr;
+};
+
+class KeptDevices final : public devices::DeviceGroup {
+  public:
+    KeptDevices(Order order, std::unique_ptr<Process> process, const json& made)
+        : DeviceGroup(infos_of(made)),
+          order_(std::move(order)),
+          paces_(made.at("paces")),
+          limit_(from_seconds(order_.keeping.longest_silence) + kPatience),
+          process_(std::move(process)) {}
+    ~KeptDevices() override { deactivate(); }
+
+    bool paces() const override { return paces_; }
+    bool can_stop() const override { return true; }
+
+    std::string explain(int device) const override {
+        if (lost_) return "The program that keeps the devices does not answer.";
+        try {
+            return process_->ask({{"do", "explain"}, {"device", device}}, kSetDown)["said"];
+        } catch (const Error&) {
+            return "";
+        }
+    }
+
+  private:
+    void do_activate() override {
+        if (process_ == nullptr) {
+            process_ = std::make_unique<Process>(order_.keeping.program);
+            process_->ask(to_json(order_), kSetUp);
+        }
+        SharedPage& page = process_->page();
+        page.ended.store(0);
+        page.off.store(0);
+        process_->ask({{"do", "activate"}}, kSetUp);
+        lost_ = false;
+        watch_over(&page);
+    }
+
+    void do_deactivate() override {
+        if (process_ == nullptr) return;
+        forget(&process_->page());
+        try {
+            if (!lost_) process_->ask({{"do", "deactivate"}}, kSetDown);
+        } catch (const Error&) {
+            lost_ = true;
+        }
+        // another one may do better
+        if (lost_) process_.reset();
+    }
+
+    bool await_answer() noexcept { return await_answer(limit_); }
+    /// False, for good, when the keeper does not answer for so long.
+    bool await_answer(Time most) noexcept {
+        SharedPage& page = process_->page();
+        const uint32_t wanted = page.asked.load();
+        const int64_t begin = monotonic();
+        for (uint32_t now = page.answered.load(std::memory_order_acquire); now != wanted && !lost_;
+             now = page.answered.load(std::memory_order_acquire)) {
+            const Time left = most - Time(monotonic() - begin);
+            lost_ = !await_change(page.answered, now, left, kHope);
+        }
+        return !lost_;
+    }
+
+    bool ask(Request request) noexcept {
+        if (lost_ || !await_answer()) return false;
+        SharedPage& page = process_->page();
+        page.request = request;
+        page.asked.fetch_add(1, std::memory_order_release);
+        advance(page.bell);
+        return true;
+    }
+
+    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
+        bool answers = !lost_;
+        if (!in_turn_) {
+            if (!lost_ && await_answer()) process_->page().now = now.count();
+            answers = ask(Request::read) && await_answer();
+        }
+        for (size_t i = 0; i < readings.size(); ++i) {
+            if (answers) readings[i] = process_->page().readings[i];
+            if (!answers) readings[i].status = devices::kNotAnswering;
+        }
+    }
+
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        if (lost_) return;
+        if (!in_turn_ && !await_answer()) return;
+        SharedPage& page = process_->page();
+        std::copy(wrenches_D.begin(), wrenches_D.end(), page.wrenches);
+        if (in_turn_) {
+            page.replied.fetch_add(1, std::memory_order_release);
+            advance(page.bell);
+        } else {
+            ask(Request::write);
+        }
+    }
+
+    void do_pace(const std::function<bool()>& tick) override {
+        if (!lost_) {
+            SharedPage& page = process_->page();
+            page.closing.store(0);
+            const uint32_t before = page.offered.load();
+            if (ask(Request::pace) && !take_turns(before, tick)) return;
+        }
+        lost_ = true;
+        // an orderly end: the servo sees that nothing answers, and what it records goes on
+        while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
+    }
+
+    /// Until `tick` wants no more; true when the keeper falls silent first.
+    bool take_turns(uint32_t seen, const std::function<bool()>& tick) {
+        SharedPage& page = process_->page();
+        Time most = kBeginning;
+        while (await_change(page.offered, seen, most, kHope)) {
+            most = std::max(kSilence, limit_);
+            seen = page.offered.load();
+            in_turn_ = true;
+            const bool on = tick();
+            in_turn_ = false;
+            if (on) continue;
+            page.closing.store(1);
+            advance(page.bell);
+            return !await_answer(kSetDown);
+        }
+        return true;
+    }
+
+    void do_stop() noexcept override {
+        if (process_ != nullptr) end_force(process_->page());
+    }
+
+    Order order_;
+    bool paces_;
+    Time limit_;
+    std::unique_ptr<Process> process_;  // none: it was given up
+    bool in_turn_ = false;              // the keeper offered one, and waits for its forces
+    bool lost_ = false;                 // the keeper does not answer any more
+};
+
+}  // namespace
+
+std::string program() {
+    constexpr const char* kProgram = "dihaptic-keeper";
+    std::string out = companion(kProgram);
+    if (out.empty()) {
+        throw Error(
+            std::string("the program ") + kProgram + ", which keeps real devices, is missing",
+            "Build all of Dihaptic: it lies beside the program dihaptic.");
+    }
+    return out;
+}
+
+std::unique_ptr<devices::DeviceGroup> keep_devices(const Order& order) {
+    auto process = std::make_unique<Process>(order.keeping.program);
+    const json made = process->ask(to_json(order), kSetUp);
+    return std::make_unique<KeptDevices>(order, std::move(process), made);
+}
+
+}  // namespace dihaptic::keeper

@@ -1,0 +1,217 @@
+#include "keeper/messages.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cmath>
+
+namespace dihaptic::keeper {
+namespace {
+
+using nlohmann::json;
+
+/// JSON has no infinity: null stands for it.
+json limit(double value) {
+    return std::isfinite(value) ? json(value) : json();
+}
+double limit_of(const json& value) {
+    return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
+}
+
+json vector(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+Vec3 vector_of(const json& v) {
+    return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+}
+
+template <class T>
+json maybe(const std::optional<T>& value) {
+    return value ? json(*value) : json();
+}
+std::optional<double> number_of(const json& value) {
+    if (value.is_null()) return std::nullopt;
+    return value.get<double>();
+}
+
+json place(const Place& at) {
+    return {at.file, at.line};
+}
+Place place_of(const json& at) {
+    return {at.at(0).get<std::string>(), at.at(1).get<int>()};
+}
+
+/// With the place of each value, for messages about it.
+json tree(const Node& node) {
+    json out{{"at", place(node.place)}};
+    if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;
+    if (node.kind == Node::Kind::sequence) {
+        out["items"] = json::array();
+        for (const Node& item : node.items) out["items"].push_back(tree(item));
+    }
+    if (node.kind == Node::Kind::mapping) {
+        out["entries"] = json::array();
+        for (const Node::Entry& entry : node.entries)
+            out["entries"].push_back({entry.key, tree(entry.value)});
+    }
+    return out;
+}
+
+Node node_of(const json& in) {
+    Node node;
+    node.place = place_of(in.at("at"));
+    if (in.contains("scalar")) {
+        node.kind = Node::Kind::scalar;
+        node.scalar = in["scalar"].get<std::string>();
+    } else if (in.contains("items")) {
+        node.kind = Node::Kind::sequence;
+        for (const json& item : in["items"]) node.items.push_back(node_of(item));
+    } else if (in.contains("entries")) {
+        node.kind = Node::Kind::mapping;
+        for (const json& entry : in["entries"])
+            node.entries.push_back({entry.at(0).get<std::string>(), node_of(entry.at(1))});
+    }
+    return node;
+}
+
+json info(const devices::DeviceInfo& in) {
+    json out{{"model", in.model},
+             {"serial", in.serial},
+             {"simulated", in.simulated},
+             {"peak_force", limit(in.peak_force)},
+             {"continuous_force", limit(in.continuous_force)},
+             {"damping", in.damping},
+             {"mass", in.mass},
+             {"delay", in.delay},
+             {"scale", in.scale},
+             {"max_stiffness", maybe(in.max_stiffness)},
+             {"max_damping", maybe(in.max_damping)},
+             {"measures_orientation", in.measures_orientation},
+             {"peak_torque", in.peak_torque},
+             {"continuous_torque", limit(in.continuous_torque)},
+             {"turn_damping", in.turn_damping},
+             {"inertia", in.inertia}};
+    if (in.workspace) out["workspace"] = vector(*in.workspace);
+    if (in.arm) out["arm"] = {in.arm->thigh, in.arm->shin};
+    return out;
+}
+
+devices::DeviceInfo info_of(const json& in) {
+    devices::DeviceInfo out;
+    in.at("model").get_to(out.model);
+    in.at("serial").get_to(out.serial);
+    in.at("simulated").get_to(out.simulated);
+    out.peak_force = limit_of(in.at("peak_force"));
+    out.continuous_force = limit_of(in.at("continuous_force"));
+    in.at("damping").get_to(out.damping);
+    in.at("mass").get_to(out.mass);
+    in.at("delay").get_to(out.delay);
+    in.at("scale").get_to(out.scale);
+    out.max_stiffness = number_of(in.at("max_stiffness"));
+    out.max_damping = number_of(in.at("max_damping"));
+    in.at("measures_orientation").get_to(out.measures_orientation);
+    in.at("peak_torque").get_to(out.peak_torque);
+    out.continuous_torque = limit_of(in.at("continuous_torque"));
+    in.at("turn_damping").get_to(out.turn_damping);
+    in.at("inertia").get_to(out.inertia);
+    if (in.contains("workspace")) out.workspace = vector_of(in["workspace"]);
+    if (in.contains("arm"))
+        out.arm = {in["arm"].at(0).get<double>(), in["arm"].at(1).get<double>()};
+    return out;
+}
+
+}  // namespace
+
+json to_json(const Order& order) {
+    json configs = json::array();
+    for (const devices::DeviceConfig& config : order.configs) {
+        const Quat& R = config.X_WD.R;
+        configs.push_back({{"finger", config.finger},
+                           {"position", vector(config.X_WD.p)},
+                           {"rotation", {R.w(), R.x(), R.y(), R.z()}},
+                           {"options", tree(config.options)},
+                           {"place", place(config.place)},
+                           {"scale", config.scale}});
+    }
+    return {{"do", "make"},
+            {"backend", order.backend},
+            {"devices", configs},
+            {"tick", order.tick},
+            {"longest_silence", order.keeping.longest_silence},
+            {"priority", order.keeping.priority}};
+}
+
+Order order_of(const json& in) {
+    Order out;
+    in.at("backend").get_to(out.backend);
+    in.at("tick").get_to(out.tick);
+    in.at("longest_silence").get_to(out.keeping.longest_silence);
+    in.at("priority").get_to(out.keeping.priority);
+    for (const json& device : in.at("devices")) {
+        devices::DeviceConfig config;
+        device.at("finger").get_to(config.finger);
+        const json& R = device.at("rotation");
+        config.X_WD.R = Quat(R.at(0).get<double>(), R.at(1).get<double>(), R.at(2).get<double>(),
+                             R.at(3).get<double>());
+        config.X_WD.p = vector_of(device.at("position"));
+        config.options = node_of(device.at("options"));
+        config.place = place_of(device.at("place"));
+        device.at("scale").get_to(config.scale);
+        out.configs.push_back(config);
+    }
+    return out;
+}
+
+json to_json(const devices::DeviceGroup& devices) {
+    json infos = json::array();
+    for (int i = 0; i < devices.size(); ++i) infos.push_back(info(devices.info(i)));
+    return {{"devices", infos}, {"paces", devices.paces()}};
+}
+
+std::vector<devices::DeviceInfo> infos_of(const json& in) {
+    std::vector<devices::DeviceInfo> out;
+    for (const json& one : in.at("devices")) out.push_back(info_of(one));
+    return out;
+}
+
+json to_json(const Error& error) {
+    json problems = json::array();
+    for (const Problem& problem : error.problems()) {
+        problems.push_back({problem.severity == Severity::error, place(problem.place), problem.key,
+                            problem.what, problem.remedy});
+    }
+    return {{"problems", problems}};
+}
+
+Error error_of(const json& in) {
+    std::vector<Problem> problems;
+    for (const json& one : in.at("problems")) {
+        problems.push_back({one.at(0).get<bool>() ? Severity::error : Severity::warning,
+                            place_of(one.at(1)), one.at(2).get<std::string>(),
+                            one.at(3).get<std::string>(), one.at(4).get<std::string>()});
+    }
+    return Error(std::move(problems));
+}
+
+void send(int socket, const json& message) {
+    // what a library says may be in any encoding
+    const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
+    ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+}
+
+std::optional<json> receive(int socket, Time most) {
+    if (most > Time(0)) {
+        pollfd readable{socket, POLLIN, 0};
+        const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(most).count();
+        if (poll(&readable, 1, static_cast<int>(ms)) <= 0) return std::nullopt;
+    }
+    const ssize_t size = recv(socket, nullptr, 0, MSG_PEEK | MSG_TRUNC);
+    if (size <= 0) return std::nullopt;
+    std::string text(static_cast<size_t>(size), '\0');
+    if (recv(socket, text.data(), text.size(), 0) != size) return std::nullopt;
+    json out = json::parse(text, nullptr, false);
+    if (out.is_discarded()) return std::nullopt;
+    return out;
+}
+
+}  // namespace dihaptic::keeper

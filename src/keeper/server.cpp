@@ -1,0 +1,201 @@
+#include "keeper/server.h"
+
+#include <algorithm>
+#include <latch>
+
+namespace dihaptic::keeper {
+namespace {
+
+/// How often the watcher looks when nobody wakes it.
+constexpr Time kLook = std::chrono::milliseconds(5);
+/// For the thread that serves to take force away by itself, before the watcher does.
+constexpr Time kOwnWay = std::chrono::milliseconds(1);
+/// An idle thread wakes up now and then all the same.
+constexpr Time kIdle = std::chrono::seconds(1);
+
+}  // namespace
+
+Server::Server(SharedPage& page, const Order& order, const InRealTime& in_real_time)
+    : page_(page),
+      in_real_time_(in_real_time),
+      longest_silence_(from_seconds(order.keeping.longest_silence)),
+      tick_(from_seconds(order.tick)),
+      priority_(order.keeping.priority) {
+    const devices::Backend* const backend = devices::find_backend(order.backend);
+    if (backend == nullptr || order.configs.empty() || order.configs.size() > kMostDevices) {
+        throw Error("a rig of real devices has one to eight of them, of one backend",
+                    "Correct the rig file.");
+    }
+    devices::Context context;
+    context.tick = order.tick;
+    devices_ = backend->make(order.configs, context);
+    readings_.resize(order.configs.size());
+    wrenches_.resize(order.configs.size());
+}
+
+Server::~Server() {
+    deactivate();
+}
+
+void Server::activate() {
+    deactivate();
+    devices_->activate();
+    holding_ = behind_ = false;
+    busy_since_.store(0);
+    page_.answered.store(page_.asked.load());
+    watching_.store(true);
+    // to get real time takes longer than a tick
+    std::latch ready(3);
+    const auto begin = [&](int priority, void (Server::*work)() noexcept) {
+        return std::thread([this, priority, work, &ready] {
+            in_real_time_(priority, [&] {
+                ready.count_down();
+                (this->*work)();
+            });
+        });
+    };
+    serving_ = begin(priority_, &Server::serve_all);
+    watcher_ = begin(priority_ + 1, &Server::watch);
+    ready.arrive_and_wait();
+}
+
+void Server::deactivate() {
+    if (serving_.joinable()) {
+        page_.closing.store(1);
+        page_.request = Request::quit;
+        page_.asked.fetch_add(1);
+        advance(page_.bell);
+        serving_.join();
+    }
+    watching_.store(false);
+    if (watcher_.joinable()) {
+        wake(page_.ended);
+        watcher_.join();
+    }
+    devices_->deactivate();
+}
+
+void Server::serve_all() noexcept {
+    uint32_t served = page_.answered.load();
+    int64_t heard = monotonic();
+    while (true) {
+        const uint32_t bell = page_.bell.load(std::memory_order_acquire);
+        if (ended()) take_force_away();
+        if (page_.asked.load(std::memory_order_acquire) == served) {
+            // what is held is held for so long, and no longer
+            const Time left = longest_silence_ - Time(monotonic() - heard);
+            if (holding_ && left <= Time(0)) write_zero();
+            wait_on(page_.bell, bell, holding_ ? left : kIdle);
+            continue;
+        }
+        heard = monotonic();
+        const Request request = page_.request;
+        if (request == Request::quit) return;
+        serve(request);
+        ++served;
+        page_.answered.store(served, std::memory_order_release);
+        wake(page_.answered);
+    }
+}
+
+void Server::serve(Request request) noexcept {
+    if (request != Request::pace) busy_since_.store(monotonic());
+    if (request == Request::read) read();
+    if (request == Request::write) write();
+    if (request == Request::pace) {
+        replied_ = page_.replied.load();
+        turn_time_ = Time(0);
+        behind_ = false;
+        devices_->pace([this] { return take_turn(); });
+        holding_ = false;
+    }
+    busy_since_.store(0);
+}
+
+void Server::read() noexcept {
+    devices_->read(Time(page_.now), readings_);
+    std::copy(readings_.begin(), readings_.end(), page_.readings);
+}
+
+void Server::write() noexcept {
+    if (ended()) return write_zero();
+    std::copy_n(page_.wrenches, wrenches_.size(), wrenches_.begin());
+    const bool some = std::any_of(wrenches_.begin(), wrenches_.end(),
+                                  [](const Wrench& wrench) { return !wrench.is_zero(); });
+    holding_ = holding_ || some;  // also while the call lasts
+    devices_->write(wrenches_);
+    holding_ = some;
+}
+
+void Server::write_zero() noexcept {
+    std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+    devices_->write(wrenches_);
+    holding_ = false;
+}
+
+void Server::take_force_away() noexcept {
+    if (page_.off.load() != 0) return;
+    write_zero();
+    if (devices_->can_stop()) devices_->stop();
+    page_.off.store(1);
+}
+
+/// Whether the program has its forces ready, in time.
+bool Server::await_reply() noexcept {
+    // who missed a turn gets no whole silence for each of the next
+    const Time most = behind_ ? tick_ : longest_silence_;
+    const int64_t begin = monotonic();
+    while (!ended() && page_.closing.load() == 0) {
+        const uint32_t bell = page_.bell.load(std::memory_order_acquire);
+        if (page_.replied.load(std::memory_order_acquire) != replied_) return true;
+        const Time left = most - Time(monotonic() - begin);
+        if (left <= Time(0) || ended()) return false;
+        wait_on(page_.bell, bell, left);
+    }
+    return false;
+}
+
+/// One tick of devices that pace: the program computes between reading and writing.
+bool Server::take_turn() noexcept {
+    busy_since_.store(monotonic());
+    devices_->read(turn_time_, readings_);
+    busy_since_.store(0);
+    turn_time_ += tick_;
+    std::copy(readings_.begin(), readings_.end(), page_.readings);
+    replied_ = page_.replied.load(std::memory_order_acquire);
+    if (page_.closing.load() == 0) advance(page_.offered);
+    const bool replied = await_reply();
+    behind_ = !replied;
+    busy_since_.store(monotonic());
+    if (replied && !ended()) {
+        write();
+    } else {
+        write_zero();
+        if (ended()) page_.off.store(1);
+    }
+    busy_since_.store(0);
+    return page_.closing.load() == 0;
+}
+
+/// A call to the maker's library that hangs keeps the other thread from everything.
+void Server::watch() noexcept {
+    bool stopped = false;
+    while (watching_.load()) {
+        wait_on(page_.ended, 0, kLook);
+        const int64_t busy = busy_since_.load();
+        const bool hangs = holding_ && busy != 0 && monotonic() - busy > longest_silence_.count();
+        const bool wanted = ended() || hangs;
+        if (wanted && !stopped) {
+            if (ended()) std::this_thread::sleep_for(kOwnWay);
+            if (page_.off.load() == 0 && devices_->can_stop()) {
+                devices_->stop();
+                page_.off.store(1);
+            }
+        } else if (ended()) {
+            std::this_thread::sleep_for(kLook);
+        }
+        stopped = wanted;
+    }
+}
+
+}  // namespace dihaptic::keeper

@@ -1,0 +1,67 @@
+// Serves the ticks of the devices that the keeper owns, and takes their force away.
+//
+// Two threads: one does what the program asks in the cycle, as the only one that calls a device
+// then; the other watches it, and stops the devices when a call to the maker's library hangs.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "keeper/keeper.h"
+#include "keeper/order.h"
+#include "keeper/shared_page.h"
+
+namespace dihaptic::keeper {
+
+class Server {
+  public:
+    /// Makes the devices. Throws Error with what their backend says.
+    Server(SharedPage& page, const Order& order, const InRealTime& in_real_time);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    const devices::DeviceGroup& devices() const { return *devices_; }
+    /// Switches the devices on and begins to serve. Throws Error when they refuse.
+    void activate();
+    /// Zero force, devices off.
+    void deactivate();
+    std::string explain(int device) const { return devices_->explain(device); }
+    /// The keeper itself is about to die: what a maker's library bears to be called from a signal
+    /// handler nobody knows, and nothing else is left.
+    void stop_at_death() noexcept {
+        if (devices_->active() && devices_->can_stop()) devices_->stop();
+    }
+
+  private:
+    void serve_all() noexcept;
+    void serve(Request request) noexcept;
+    bool take_turn() noexcept;
+    bool await_reply() noexcept;
+    void read() noexcept;
+    void write() noexcept;
+    void write_zero() noexcept;
+    void take_force_away() noexcept;
+    void watch() noexcept;
+    bool ended() const noexcept { return page_.ended.load(std::memory_order_acquire) != 0; }
+
+    SharedPage& page_;
+    const InRealTime& in_real_time_;
+    Time longest_silence_;
+    Time tick_;
+    int priority_;
+    std::unique_ptr<devices::DeviceGroup> devices_;
+    std::vector<devices::Reading> readings_;
+    std::vector<Wrench> wrenches_;
+    std::atomic<bool> holding_{false};    // the devices were told some force
+    uint32_t replied_ = 0;                // of the page, when it was last looked at
+    bool behind_ = false;                 // the program missed a turn
+    Time turn_time_{0};                   // of the devices' own clock
+    std::atomic<int64_t> busy_since_{0};  // in a call to the devices, on monotonic(); 0: in none
+    std::atomic<bool> watching_{false};
+    std::thread serving_;
+    std::thread watcher_;
+};
+
+}  // namespace dihaptic::keeper

@@ -1,0 +1,54 @@
+// What raw.log is made of, byte for byte: the file's first line, then chunks.
+//
+//   "DIHAPTIC LOG 2\n"
+//   chunk   u32 kind, u32 bytes of payload, u64 session, u32 number, u32 CRC-32, payload
+//
+// The kind is spelt out (HEAD, DATA, DONE). `session` is the FNV-1a hash of the head's payload, and
+// chunks are numbered from 0, the head: so a chunk that is another session's, or not in its place,
+// is told from one that is. The CRC-32 is of all before it and of the payload.
+//
+// Version 1 had neither session nor number: u32 kind, u32 bytes of payload, u32 CRC-32, payload.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace dihaptic::recording {
+
+constexpr std::string_view kFirstLine = "DIHAPTIC LOG 2\n";
+constexpr std::string_view kFirstLine1 = "DIHAPTIC LOG 1\n";
+
+constexpr uint32_t kHead = 0x44414548;  // "HEAD"
+constexpr uint32_t kData = 0x41544144;  // "DATA"
+constexpr uint32_t kDone = 0x454E4F44;  // "DONE"
+/// Bytes of a payload, at most: what claims more is no chunk.
+constexpr uint32_t kMostPayload = 1u << 28;
+/// The same of a head, which is text.
+constexpr uint32_t kMostHead = 1u << 24;
+
+struct ChunkHeader {
+    uint32_t kind = 0;
+    uint32_t size = 0;
+    uint64_t session = 0;
+    uint32_t number = 0;
+    uint32_t checksum = 0;
+};
+static_assert(sizeof(ChunkHeader) == 24);
+
+/// The same in version 1.
+struct ChunkHeader1 {
+    uint32_t kind = 0;
+    uint32_t size = 0;
+    uint32_t checksum = 0;
+};
+static_assert(sizeof(ChunkHeader1) == 12);
+
+/// What all chunks of the log with this head carry.
+uint64_t session_of(std::span<const std::byte> head) noexcept;
+/// Of all of a header but its checksum, and of its payload.
+uint32_t checksum(const ChunkHeader& header, std::span<const std::byte> payload) noexcept;
+uint32_t checksum(const ChunkHeader1& header, std::span<const std::byte> payload) noexcept;
+
+}  // namespace dihaptic::recording

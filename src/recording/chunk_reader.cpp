@@ -1,0 +1,186 @@
+#include "recording/chunk_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::recording {
+namespace {
+
+/// What looks like a chunk and is none may be read at each of its bytes anew. Beyond so much of
+/// that a file is made to keep its reader busy.
+constexpr int64_t kMostWasted = int64_t{1} << 30;
+
+}  // namespace
+
+ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
+    std::array<std::byte, kFirstLine.size()> line{};
+    const size_t size = file_.read(0, line);
+    const std::string_view first(reinterpret_cast<const char*>(line.data()), size);
+    if (first != kFirstLine && first != kFirstLine1) {
+        throw Error({file, 0}, "", file_.size() == 0 ? "is empty" : "is not a log of Dihaptic",
+                    "Give a session's folder, or its raw.log.");
+    }
+    version_ = first == kFirstLine ? 2 : 1;
+    end_ = static_cast<int64_t>(first.size());
+    ChunkHeader header;
+    if (!header_at(end_, header) || header.kind != kHead || header.size > kMostHead ||
+        !read_at(end_, header)) {
+        throw Error({file, 0}, "", "has no readable head",
+                    "Nothing of it can be recovered: put a backup of it in its place.");
+    }
+    head_ = chunk_.payload;
+    session_ = session_of(head_);
+    due_ = 1;
+    end_ += header_size() + header.size;
+}
+
+double ChunkReader::share() const {
+    if (!looked_) return static_cast<double>(end_) / static_cast<double>(file_.size());
+    return static_cast<double>(next_found_) / static_cast<double>(found_.size());
+}
+
+int64_t ChunkReader::header_size() const {
+    return version_ == 1 ? sizeof(ChunkHeader1) : sizeof(ChunkHeader);
+}
+
+/// What stands there as a header.
+bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
+    if (version_ > 1)
+        return file_.read(at, std::as_writable_bytes(std::span(&out, 1))) == sizeof(out);
+    ChunkHeader1 header;
+    const auto bytes = std::as_writable_bytes(std::span(&header, 1));
+    if (file_.read(at, bytes) < bytes.size()) return false;
+    out = {header.kind, header.size, session_, 0, header.checksum};
+    return true;
+}
+
+/// Reads the chunk that begins there; false when it is none, or damaged.
+bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
+    if (!header_at(at, out)) return false;
+    if (out.size > kMostPayload || out.size > file_.size() - at - header_size()) return false;
+    if (out.kind != kHead && out.kind != kData && out.kind != kDone) return false;
+    chunk_.payload.resize(out.size);
+    const bool whole = file_.read(at + header_size(), chunk_.payload) == out.size;
+    const uint32_t sum = version_ > 1
+                             ? checksum(out, chunk_.payload)
+                             : checksum(ChunkHeader1{out.kind, out.size, 0}, chunk_.payload);
+    if (whole && sum == out.checksum) return true;
+    wasted_ += std::max<int64_t>(out.size, 1 << 12);
+    return false;
+}
+
+/// The first whole chunk from there on.
+bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
+    for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
+        if (!read_at(at, header)) continue;
+        found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};
+        if (header.session != session_) found.place = Chunk::Place::foreign;
+        return true;
+    }
+    return false;
+}
+
+int64_t ChunkReader::find_kind(int64_t from) const {
+    constexpr int64_t kBlock = 1 << 16;
+    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may lie across two blocks
+    if (wasted_ > kMostWasted) return -1;
+    std::string block;
+    for (; from + kOverlap < file_.size(); from += kBlock - kOverlap) {
+        block.resize(static_cast<size_t>(std::min(kBlock, file_.size() - from)));
+        block.resize(file_.read(from, std::as_writable_bytes(std::span(block))));
+        size_t found = std::string::npos;
+        for (const uint32_t kind : {kHead, kData, kDone}) {
+            const std::string_view letters(reinterpret_cast<const char*>(&kind), sizeof(kind));
+            found = std::min(found, block.find(letters));
+        }
+        if (found != std::string::npos) return from + static_cast<int64_t>(found);
+    }
+    return -1;
+}
+
+const Chunk* ChunkReader::next() {
+    if (looked_) return next_found();
+    Found found;
+    ChunkHeader header;
+    if (!find(end_, found, header)) return nullptr;
+    const bool due = version_ == 1 || (found.place == Chunk::Place::own && header.number == due_);
+    if (!due) {
+        look_through(found, header);
+        return next_found();
+    }
+    end_ = found.end;
+    return give(header, found);
+}
+
+/// What the rest of the file has, by number. Where a number is there twice, the first counts; what
+/// is foreign stays behind what it stood behind.
+void ChunkReader::look_through(const Found& first, const ChunkHeader& header) {
+    looked_ = true;
+    auto last = static_cast<uint32_t>(due_ - 1);
+    uint32_t highest = last;
+    Found found = first;
+    ChunkHeader next = header;
+    bool more = true;
+    for (; more; more = find(end_, found, next)) {
+        if (found.place == Chunk::Place::foreign) {
+            found.number = last;
+        } else {
+            last = found.number;
+            if (last < highest) found.place = Chunk::Place::moved;
+            highest = std::max(highest, last);
+        }
+        found_.push_back(found);
+        end_ = found.end;
+    }
+    const auto key = [](const Found& f) {
+        return std::pair(f.number, f.place == Chunk::Place::foreign);
+    };
+    std::stable_sort(found_.begin(), found_.end(),
+                     [&](const Found& a, const Found& b) { return key(a) < key(b); });
+}
+
+const Chunk* ChunkReader::next_found() {
+    while (next_found_ < found_.size()) {
+        const Found& found = found_[next_found_++];
+        ChunkHeader header;
+        if (read_at(found.at, header)) return give(header, found);
+    }
+    return nullptr;
+}
+
+const Chunk* ChunkReader::give(const ChunkHeader& header, const Found& found) {
+    chunk_.kind = header.kind;
+    chunk_.bytes = found.end - found.at;
+    chunk_.damaged = found.damaged;
+    chunk_.place = found.place;
+    chunk_.missing = 0;
+    if (done_) {
+        chunk_.place = Chunk::Place::after_end;
+    } else if (found.place != Chunk::Place::foreign && version_ > 1) {
+        if (header.number < due_) {
+            chunk_.place = Chunk::Place::doubled;
+        } else {
+            chunk_.missing = static_cast<int64_t>(header.number - due_);
+            due_ = uint64_t{header.number} + 1;
+        }
+    }
+    const bool own = chunk_.place == Chunk::Place::own || chunk_.place == Chunk::Place::moved;
+    done_ = done_ || (own && header.kind == kDone);
+    return &chunk_;
+}
+
+bool ChunkReader::tail_is_unfinished(int64_t& bytes) const {
+    ChunkHeader header;
+    bytes = 0;
+    if (!header_at(end_, header)) return tail() > 0;
+    if ((header.kind != kData && header.kind != kDone) || header.size > kMostPayload) return false;
+    if (header.size <= tail() - header_size()) return false;
+    bytes = header.size;
+    return true;
+}
+
+}  // namespace dihaptic::recording

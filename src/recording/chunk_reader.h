@@ -1,0 +1,85 @@
+// The chunks of a log in the order in which they were written, whatever became of the file since:
+// it may have damaged bytes, and chunks that are another session's, doubled, gone, or elsewhere.
+//
+// The file is read from its beginning as long as each chunk is the one that is due. At the first
+// that is not, all that follows is looked through once, and read on by the chunks' numbers. Logs of
+// version 1, whose chunks have none, are read as they stand.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/regular_file.h"
+#include "recording/chunk.h"
+
+namespace dihaptic::recording {
+
+/// A whole chunk.
+struct Chunk {
+    enum class Place {
+        own,        ///< the next that there is
+        moved,      ///< the same, but it stands behind later ones
+        doubled,    ///< it was read before
+        foreign,    ///< another session's
+        after_end,  ///< behind the end mark
+    };
+    uint32_t kind = 0;
+    Place place = Place::own;
+    int64_t bytes = 0;    ///< with its header
+    int64_t damaged = 0;  ///< bytes before it, in the file, that are in no whole chunk
+    int64_t missing = 0;  ///< chunks that were written between the one before and this
+    std::vector<std::byte> payload;
+};
+
+class ChunkReader {
+  public:
+    /// Throws Error when the file is no log, or its head cannot be read.
+    explicit ChunkReader(const std::string& file);
+
+    const std::vector<std::byte>& head() const { return head_; }
+    bool numbered() const { return version_ > 1; }
+    /// The next chunk, valid until the next call; null at the end.
+    const Chunk* next();
+    /// Share of the file that was read.
+    double share() const;
+
+    /// At the end: bytes behind the last whole chunk.
+    int64_t tail() const { return file_.size() - end_; }
+    /// At the end: whether these begin a chunk that was not written out; and the bytes it was to
+    /// have, 0 when that is not known.
+    bool tail_is_unfinished(int64_t& bytes) const;
+
+  private:
+    struct Found {
+        int64_t at = 0;
+        int64_t end = 0;
+        int64_t damaged = 0;
+        uint32_t number = 0;  ///< of a foreign chunk: of the own one before it
+        Chunk::Place place = Chunk::Place::own;
+    };
+    bool header_at(int64_t at, ChunkHeader& out) const;
+    bool read_at(int64_t at, ChunkHeader& out);
+    bool find(int64_t from, Found& found, ChunkHeader& header);
+    int64_t find_kind(int64_t from) const;
+    const Chunk* give(const ChunkHeader& header, const Found& found);
+    const Chunk* next_found();
+    void look_through(const Found& first, const ChunkHeader& header);
+    int64_t header_size() const;
+
+    std::string name_;
+    RegularFile file_;
+    int version_ = 2;
+    uint64_t session_ = 0;
+    std::vector<std::byte> head_;
+    int64_t end_ = 0;     // of the last whole chunk in the file so far
+    int64_t wasted_ = 0;  // bytes that were read for chunks that are none
+    uint64_t due_ = 0;    // number of the next chunk
+    bool done_ = false;   // the end mark was read
+    bool looked_ = false;
+    std::vector<Found> found_;
+    size_t next_found_ = 0;
+    Chunk chunk_;
+};
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,50 @@
+#include "recording/frame_check.h"
+
+#include <algorithm>
+
+#include "contact/solver.h"
+#include "haptics/settings.h"
+
+namespace dihaptic::recording {
+namespace {
+
+/// -1, which stands for none, or the index of one of so many.
+bool is_index(int32_t i, size_t count) noexcept {
+    return i >= -1 && i < static_cast<int64_t>(count);
+}
+
+template <class Enum>
+bool names(int32_t value) noexcept {
+    return value >= 0 && static_cast<size_t>(value) < enum_names(Enum{}).size();
+}
+
+bool is_possible(const servo::TaskFrame& task, size_t bodies, size_t all) noexcept {
+    const auto each = [](const auto& list, size_t count) {
+        return std::all_of(list.begin(), list.end(),
+                           [count](const auto& item) { return is_index(item.body, count); });
+    };
+    return each(task.properties, all) && each(task.loads, all) && each(task.placements, bodies) &&
+           std::all_of(task.visual.begin(), task.visual.end(),
+                       [&](const servo::VisualMap& map) { return is_index(map.object, bodies); });
+}
+
+}  // namespace
+
+bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
+    // no session is longer: so times can be added and subtracted
+    constexpr Time kLongest = std::chrono::hours(1000);
+    constexpr int64_t kMostTicks = int64_t{1} << 40;
+    const size_t all = layout.bodies + layout.fingers;
+    return frame.sequence >= 0 && frame.sequence < kMostTicks && frame.time >= Time{0} &&
+           frame.time < kLongest && frame.trial >= 0 && frame.phase >= -1 &&
+           names<haptics::CouplingKind>(frame.coupling) && names<haptics::ProxyKind>(frame.proxy) &&
+           names<contact::Solver>(frame.solver) && is_possible(frame.task, layout.bodies, all) &&
+           std::all_of(frame.contacts.begin(), frame.contacts.end(),
+                       [&](const servo::ContactFrame& contact) {
+                           const bool both = contact.a >= 0 && contact.b >= 0;
+                           return (both || contact.normal_force == 0) && is_index(contact.a, all) &&
+                                  is_index(contact.b, all);
+                       });
+}
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,16 @@
+// Logs that were damaged in thousands of ways: all of it is told, and none of it crashes.
+#include "recording/test/log_damage.h"
+
+namespace dihaptic::recording {
+namespace {
+
+TEST(DamagedLogSoak, WhateverIsNotWhereItWasWrittenIsTold) {
+    expect_mischief_is_told(300);
+}
+
+TEST(DamagedLogSoak, NoMutationCrashesItsReaderOrPassesForAFrame) {
+    expect_mutations_are_borne(3000, 100000);
+}
+
+}  // namespace
+}  // namespace dihaptic::recording

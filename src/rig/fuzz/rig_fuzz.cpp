@@ -1,0 +1,16 @@
+// Any file as a rig.
+#include "rig/rig.h"
+
+#include "testing/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dihaptic;
+    const std::string file = testing::as_file({data, size}, "rig.yaml");
+    Diagnostics diagnostics;
+    try {
+        (void)rig::read_rig(file, diagnostics);
+    } catch (const Error&) {
+        // said with file, line and remedy: as it should be
+    }
+    return 0;
+}

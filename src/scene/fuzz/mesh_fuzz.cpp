@@ -1,0 +1,20 @@
+// Any file as a mesh, of a kind that its beginning tells: what dihaptic-mesh answers, above all.
+#include "scene/mesh.h"
+
+#include <string_view>
+
+#include "testing/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dihaptic;
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    const std::string ending = text.starts_with("ply")     ? "ply"
+                               : text.starts_with("solid") ? "stl"
+                                                           : "obj";
+    try {
+        (void)scene::read_mesh(testing::as_file({data, size}, "mesh." + ending), 1e-3, {});
+    } catch (const Error&) {
+        // said with file, line and remedy: as it should be
+    }
+    return 0;
+}

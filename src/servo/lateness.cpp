@@ -1,0 +1,62 @@
+#include "servo/lateness.h"
+
+#include <algorithm>
+
+namespace dihaptic::servo {
+namespace {
+
+constexpr Time kWindow = std::chrono::seconds(1);
+constexpr double kEase = 0.1;     // of what is felt [s]
+constexpr double kExpect = 0.02;  // in which one late tick is forgotten [s]
+constexpr double kWell = 1e-3;    // of a period: late by less is in time
+
+}  // namespace
+
+Lateness::Lateness(Time period) : period_(period) {
+    late_.resize(static_cast<size_t>(kWindow / period) + 2);
+}
+
+void Lateness::restart() noexcept {
+    count_ = 0;
+    sustained_ = 0;
+    expected_ = 0;
+}
+
+void Lateness::tick(Time now, Time elapsed) noexcept {
+    const bool late = 2 * elapsed > 3 * period_;
+    // a clock that went back is judged by whoever reads it
+    const double t = std::max(0.0, seconds(elapsed));
+    while (count_ > 0 && (now - late_[first_].at >= kWindow || count_ == late_.size())) {
+        first_ = (first_ + 1) % late_.size();
+        --count_;
+    }
+    if (late) {
+        late_[(first_ + count_) % late_.size()] = {now, t};
+        ++count_;
+    }
+    const double well = kWell * seconds(period_);
+    expected_ *= kExpect / (kExpect + t);
+    if (late) expected_ = std::max(expected_, t - seconds(period_));
+    if (expected_ < well) expected_ = 0;
+    if (count_ == 0 && sustained_ == 0) return;
+    const double mean = this->mean();
+    sustained_ += t / (kEase + t) * (mean - sustained_);
+    if (mean == 0 && sustained_ < well) sustained_ = 0;
+}
+
+double Lateness::mean() const noexcept {
+    const double h = seconds(period_);
+    double sum = 0;
+    double longest = 0;
+    for (size_t i = 0; i < count_; ++i) {
+        const double t = late_[(first_ + i) % late_.size()].elapsed;
+        sum += t * (t - h);
+        longest = std::max(longest, t);
+    }
+    const double rest = seconds(kWindow) - longest;
+    // the one that is forgiven, also where rounding leaves a trace of it
+    if (count_ < 2 || rest <= 0) return 0;
+    return std::max(0.0, sum - longest * (longest - h)) / rest;
+}
+
+}  // namespace dihaptic::servo

@@ -1,0 +1,351 @@
+// Ticks that come late again and again, in the whole servo: the force on the hand while the
+// coupling is softened, and its end where nothing is held any more.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "devices/forcedimension/dhd.h"
+#include "devices/openhaptics/hd.h"
+#include "devices/test/fakes.h"
+#include "haptics/late_loop.h"
+#include "lift.h"
+#include "servo/run.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::servo {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr double kWanted = 1.5;  // on each finger, of a hand of 300 N/m through 1000 N/m [N]
+constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // of its target [m]
+
+/// Simulated devices that pass for real ones, or the other way round.
+class PassingGroup final : public devices::DeviceGroup {
+  public:
+    PassingGroup(std::unique_ptr<devices::DeviceGroup> inner, bool simulated)
+        : DeviceGroup(infos(*inner, simulated)), inner_(std::move(inner)) {}
+
+  private:
+    static std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& group,
+                                                  bool simulated) {
+        std::vector<devices::DeviceInfo> out;
+        for (int i = 0; i < group.size(); ++i) {
+            out.push_back(group.info(i));
+            out.back().simulated = simulated;
+        }
+        return out;
+    }
+    void do_activate() override { inner_->activate(); }
+    void do_deactivate() override { inner_->deactivate(); }
+    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
+        inner_->read(now, readings);
+    }
+    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
+        inner_->write(wrenches_D);
+    }
+
+    std::unique_ptr<devices::DeviceGroup> inner_;
+};
+
+/// Thumb and index close on a block, or the thumb presses a wall, from 3 cm off within 1 s.
+struct Hold {
+    hand::HandSpec hand;
+    std::unique_ptr<hand::ScriptDriver> driver;
+    std::unique_ptr<Servo> servo;
+    Time now{0};
+    double most = 0;    ///< force told to any device [N]
+    double last = 0;    ///< the same in the last tick [N]
+    double before = 0;  ///< and in the last but one that was in time [N]
+    uint32_t status = 0;
+    double stiffness = 0;
+    double softest = std::numeric_limits<double>::infinity();
+
+    enum class What { wall, block };
+    /// `backend`: simulated, which passes for real unless `told` says that it tells, or a maker's.
+    explicit Hold(What what, const std::string& backend = "real", Settings settings = {}) {
+        scene::Scene scene = block_on_table();
+        constexpr double kTouch = 0.0225;  // of a pad's middle
+        constexpr double kOff = 0.03;
+        hand.centre = {0, 0, 0.02};
+        hand.aperture = 2 * (kTouch + kOff);
+        hand.script = {{"close", 1, 2 * (kTouch - kDepth), Vec3::Zero(), false},
+                       {"stay", 30, {}, Vec3::Zero(), false}};
+        if (what == What::wall) {
+            scene.bodies[1].fixed = true;
+            scene.fingers.resize(1);
+            hand.centre.x() = -kTouch - kOff;
+            hand.script[0] = {"press", 1, {}, {kOff + kDepth, 0, 0}, false};
+        }
+        for (scene::Finger& finger : scene.fingers) {
+            finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
+            finger.mass = 0.001;
+        }
+        const auto fingers = scene::finger_names(scene);
+        driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
+        devices::Context context;
+        context.driver = driver.get();
+        context.impedance = hand.impedance;
+        const rig::Rig rig = rig::simulated_rig(fingers);
+        std::unique_ptr<devices::DeviceGroup> group;
+        if (backend == "real" || backend == "simulated") {
+            group = std::make_unique<PassingGroup>(rig::make_devices(rig, fingers, context),
+                                                   backend == "simulated");
+        } else {
+            std::vector<devices::DeviceConfig> configs;
+            for (const std::string& finger : fingers) configs.push_back({finger, {}, {}});
+            group = devices::make_behind(backend,
+                                         std::vector<devices::simulated::Options>(fingers.size()),
+                                         configs, context);
+            devices::Hand& plant = backend == "openhaptics"
+                                       ? devices::openhaptics::fake_hd_as_it_is().hand
+                                       : devices::forcedimension::fake_dhd_as_it_is().hand;
+            // by the servo's time, not a period each tick
+            plant = [this, inner = plant](size_t i, double, const Wrench& acting) {
+                return inner(i, seconds(now), acting);
+            };
+        }
+        servo =
+            std::make_unique<Servo>(scene, settings, std::move(group), rig::poses(rig, fingers));
+        servo->activate();
+    }
+
+    void tick() {
+        const Frame& frame = servo->tick(now, {});
+        last = 0;
+        for (const FingerFrame& finger : frame.fingers)
+            last = std::max(last, finger.f_sent_W.norm());
+        most = std::max(most, last);
+        status |= frame.status;
+        stiffness = frame.stiffness;
+        softest = std::min(softest, stiffness);
+    }
+    /// Ticks a millisecond apart, and from `from` on so far, until `end`, as the devices call for
+    /// them; `each` is called after each.
+    void run(Time from, Time apart, Time end, const std::function<void()>& each = {}) {
+        const auto next = [&] {
+            if (now < from) before = last;
+            tick();
+            if (each) each();
+            now += now < from ? milliseconds(1) : apart;
+            return now <= end && !servo->stopped();
+        };
+        if (servo->devices().paces()) {
+            servo->pace(next);
+        } else {
+            while (next()) {
+            }
+        }
+    }
+};
+
+struct Case {
+    const char* backend;
+    Hold::What what;
+    int late;  ///< each tick, by so many ms
+    int from;  ///< on [ms]
+};
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.backend << (c.what == Hold::What::wall ? " wall " : " block ") << c.late
+         << " ms from " << c.from;
+}
+class KeepsLate : public ::testing::TestWithParam<Case> {};
+
+TEST_P(KeepsLate, NeverPushesHarderThanWantedAndEndsWhereNothingIsHeld) {
+    const Case& of = GetParam();
+    Hold hold(of.what, of.backend);
+    hold.run(milliseconds(of.from), milliseconds(1 + of.late), milliseconds(of.from + 4000));
+    const double held = haptics::held_stiffness(hold.servo->damping(), of.late * 1e-3);
+    fmt::print(
+        "{:14s} {:5s} late by {:2d} ms from {:4d} ms: most {:.2f} N, then {:.2f} N at {:4.0f} "
+        "N/m{}\n",
+        of.backend, of.what == Hold::What::wall ? "wall" : "block", of.late, of.from, hold.most,
+        hold.last, hold.stiffness,
+        hold.servo->fault() ? fmt::format(", ended after {:.2f} s",
+                                          seconds(hold.servo->fault().time) - of.from * 1e-3)
+                            : "");
+    EXPECT_LE(hold.most, 1.2 * kWanted);
+    if (of.from > 1500) {
+        EXPECT_NEAR(hold.before, kWanted, 0.02);
+    }
+    if (held < haptics::kLeastHeld) {
+        ASSERT_EQ(hold.servo->fault().kind, haptics::FaultKind::keeps_late);
+        EXPECT_EQ(hold.servo->fault().limit, haptics::kLeastHeld);
+        EXPECT_LE(hold.servo->fault().value, (1 + of.late) * 1e-3);
+        EXPECT_NE(hold.status & kKeepsLate, 0u);
+        EXPECT_EQ(hold.last, 0);
+        return;
+    }
+    EXPECT_FALSE(hold.servo->fault());
+    EXPECT_NEAR(hold.stiffness, std::min(1000.0, held), 0.02 * held);
+    if (held < 1000) {
+        EXPECT_NE(hold.status & kSoftened, 0u);
+    }
+    // what is left of the grip: the same target through a softer spring
+    const double k = hold.stiffness;
+    EXPECT_NEAR(hold.last, kDepth * 300 * k / (300 + k), 0.03);
+}
+
+std::vector<Case> cases() {
+    std::vector<Case> out;
+    for (const char* backend : {"real", "openhaptics", "forcedimension"}) {
+        for (const Hold::What what : {Hold::What::wall, Hold::What::block}) {
+            for (const int late : {2, 5, 10, 20, 38}) {
+                // while it is held, in the middle of closing, and from the beginning
+                for (const int from : {2000, 750, 0}) out.push_back({backend, what, late, from});
+            }
+        }
+    }
+    return out;
+}
+INSTANTIATE_TEST_SUITE_P(Servo, KeepsLate, ::testing::ValuesIn(cases()));
+
+using What = Hold::What;
+constexpr Time kHeld = milliseconds(2000);  // the hand has come to rest long since
+
+TEST(Late, NoneChangesABit) {
+    // as far apart as they are meant to be, and the same on devices that pass for simulated ones
+    Hold real(What::block);
+    Hold simulated(What::block, "simulated");
+    for (int i = 0; i < 2000; ++i, real.now += milliseconds(1), simulated.now += milliseconds(1)) {
+        real.tick();
+        simulated.tick();
+        ASSERT_EQ(real.last, simulated.last) << i;
+    }
+    EXPECT_EQ(real.softest, 1000);
+    EXPECT_EQ(real.status & kSoftened, 0u);
+}
+
+TEST(Late, ASinglePauseIsNotFelt) {
+    for (const int pause : {10, 39}) {
+        Hold hold(What::wall);
+        double least = kWanted;
+        const auto look = [&] {
+            if (hold.now >= kHeld) least = std::min(least, hold.last);
+        };
+        hold.run(kHeld, milliseconds(1), kHeld, look);
+        hold.now += milliseconds(pause);
+        hold.run(Time(0), milliseconds(1), hold.now + milliseconds(1000), look);
+        EXPECT_EQ(hold.softest, 1000);
+        EXPECT_GT(least, 0.99 * kWanted) << pause;
+        EXPECT_LT(hold.most, 1.01 * kWanted) << pause;
+        EXPECT_FALSE(hold.servo->fault());
+    }
+}
+
+TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
+    Hold hold(What::wall);
+    hold.run(kHeld, milliseconds(11), kHeld + milliseconds(3000));
+    EXPECT_LT(hold.stiffness, 430);
+    double last = hold.last;
+    double step = 0;
+    hold.run(Time(0), milliseconds(1), hold.now + milliseconds(3000), [&] {
+        step = std::max(step, std::abs(hold.last - last));
+        last = hold.last;
+    });
+    EXPECT_EQ(hold.stiffness, 1000);
+    EXPECT_NEAR(hold.last, kWanted, 1e-3);
+    EXPECT_LT(step, 0.02);
+    EXPECT_LT(hold.most, 1.1 * kWanted);
+    EXPECT_EQ(hold.servo->tick(hold.now, {}).status & kSoftened, 0u);
+}
+
+TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
+    // as long as its ticks come at the same times
+    Settings settings;
+    settings.coupling.damping = 2;
+    Hold hold(What::block, "real", settings);
+    Hold replay(What::block, "real", settings);
+    double softest = 1000;
+    Time now{0};
+    for (int i = 0; i < 2500; ++i) {
+        // in time, late in turn with ticks in time, all late, and in time again
+        now += milliseconds(i < 500 ? 1 : i < 900 ? 1 + 12 * (i % 2) : i < 1200 ? 13 : 1);
+        const Frame& frame = hold.servo->tick(now, {});
+        const haptics::Tuning in_force{haptics::CouplingKind::implicit, frame.stiffness,
+                                       frame.damping, frame.smoothing};
+        const Frame& again =
+            replay.servo->tick(now, [&](const Frame&, std::span<const haptics::Handle>,
+                                        Commands& commands) { commands.tuning = in_force; });
+        ASSERT_EQ(again.fingers[0].f_sent_W, frame.fingers[0].f_sent_W) << i;
+        ASSERT_EQ(again.stiffness, frame.stiffness) << i;
+        ASSERT_EQ(again.damping, frame.damping) << i;
+        softest = std::min(softest, frame.stiffness);
+    }
+    EXPECT_LT(softest, 500);
+    EXPECT_EQ(hold.servo->tick(now + milliseconds(1), {}).stiffness, 1000);
+}
+
+TEST(Late, AllocatesNothing) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    Hold hold(What::block);
+    hold.run(milliseconds(100), milliseconds(1), milliseconds(100));
+    const testing::AllocationGuard guard;
+    for (int i = 0; i < 300; ++i, hold.now += milliseconds(11)) hold.tick();
+    EXPECT_EQ(guard.count(), 0u);
+    EXPECT_NE(hold.status & kSoftened, 0u);
+}
+
+TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
+    Hold hold(What::wall, "simulated");
+    hold.run(kHeld, milliseconds(70), kHeld + milliseconds(3000));
+    EXPECT_FALSE(hold.servo->fault());
+    EXPECT_FALSE(hold.servo->real());
+    EXPECT_EQ(hold.softest, 1000);
+    EXPECT_NE(hold.status & kLate, 0u);
+    EXPECT_EQ(hold.status & (kForceOff | kSoftened), 0u);
+    // and below max_pause
+    Settings settings;
+    settings.safety.hand_damping = 1;
+    Hold often(What::wall, "simulated", settings);
+    often.run(kHeld, milliseconds(39), kHeld + milliseconds(3000));
+    EXPECT_FALSE(often.servo->fault());
+    EXPECT_EQ(often.softest, 1000);
+    EXPECT_NE(often.status & kKeepsLate, 0u);
+    EXPECT_EQ(often.status & (kLate | kForceOff), 0u);
+}
+
+TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
+    Settings settings;
+    settings.safety.max_late = 3e-3;
+    Hold hold(What::wall, "real", settings);
+    hold.run(kHeld, milliseconds(1), kHeld);
+    hold.now += milliseconds(3);  // and 1 ms that run() had added
+    hold.tick();
+    EXPECT_FALSE(hold.servo->fault());
+    EXPECT_GT(hold.last, 1);
+    hold.now += milliseconds(5);
+    hold.tick();
+    EXPECT_EQ(hold.last, 0);
+    EXPECT_EQ(hold.servo->fault().kind, haptics::FaultKind::late);
+    EXPECT_NEAR(hold.servo->fault().value, 4e-3, 1e-9);
+    EXPECT_EQ(hold.servo->fault().limit, 3e-3);
+    // a wake-up that was late, of a tick that has the time at which it was due
+    Hold woken(What::wall, "real", settings);
+    woken.run(kHeld, milliseconds(1), kHeld);
+    woken.servo->note_timing(2.9e-3, 1e-5, false);
+    woken.tick();
+    EXPECT_FALSE(woken.servo->fault());
+    woken.now += milliseconds(1);
+    woken.servo->note_timing(3.1e-3, 1e-5, false);
+    woken.tick();
+    EXPECT_EQ(woken.last, 0);
+    EXPECT_EQ(woken.servo->fault().value, 3.1e-3);
+}
+
+TEST(Late, ASessionThatGoesOnAfterItBeginsAnew) {
+    Settings settings;
+    settings.safety.hand_damping = 1;
+    Hold hold(What::wall, "real", settings);
+    hold.run(kHeld, milliseconds(21), kHeld + milliseconds(3000));
+    ASSERT_EQ(hold.servo->fault().kind, haptics::FaultKind::keeps_late);
+    hold.servo->resume();
+    hold.run(Time(0), milliseconds(1), hold.now + milliseconds(2000));
+    EXPECT_FALSE(hold.servo->fault());
+    EXPECT_NEAR(hold.last, kWanted, 0.01);
+}
+
+}  // namespace
+}  // namespace dihaptic::servo
