@@ -10,6 +10,7 @@
 #include "keeper/force_off.h"
 #include "keeper/kept_devices.h"
 #include "keeper/messages.h"
+#include "fake_makers.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 

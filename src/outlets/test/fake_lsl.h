@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "fake_lsl_library.h"
+
 namespace dihaptic::outlets {
 
 enum class FakeLslFails { nothing, describing, opening, every_push, codes_only };

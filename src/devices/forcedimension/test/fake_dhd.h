@@ -58,7 +58,8 @@ struct FakeDhd {
     std::function<void()> reset;
 };
 
-#ifdef DIHAPTIC_FAKE_DHD
+#if __has_include("fake_makers.h")  // not where the library itself is built
+#include "fake_makers.h"
 /// The one in this program, as it is; and made anew.
 inline FakeDhd& fake_dhd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_DHD, RTLD_LAZY | RTLD_LOCAL);

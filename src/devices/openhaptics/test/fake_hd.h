@@ -66,7 +66,8 @@ struct FakeHd {
     std::function<void()> reset;
 };
 
-#ifdef DIHAPTIC_FAKE_HD
+#if __has_include("fake_makers.h")  // not where the library itself is built
+#include "fake_makers.h"
 /// The one in this program, as it is; and made anew.
 inline FakeHd& fake_hd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_HD, RTLD_LAZY | RTLD_GLOBAL);
