@@ -67,7 +67,9 @@ void EventFinder::add(const servo::Frame& frame) {
         events_.push_back({frame.sequence, now, frame.trial, what, std::move(detail)});
     };
 
-    if (frame.trial != trial_ || frame.task.attempt != attempt_) {
+    // a task's trials begin with their first state: before it the last one's feedback is seen
+    const bool begun = frame.phase > 0 || frame.task.attempt == 0;
+    if (begun && (frame.trial != trial_ || frame.task.attempt != attempt_)) {
         trial_ = frame.trial;
         attempt_ = frame.task.attempt;
         if (attempt_ > 0) say("trial", fmt::format("attempt {}", attempt_));

@@ -262,10 +262,18 @@ Table event_table(const std::vector<Event>& events, const recording::Showings& s
                      {"event", "what happened"},
                      {"detail", "to whom, or what"},
                      {"shown_s", "when the first picture of it came to the screen; empty: none"}};
-    for (const Event& event : events) {
-        table.rows.push_back({event.time, static_cast<double>(event.trial), event.name,
-                              event.detail, showings.onset(event.tick, event.time)});
+    // a message is seen in pictures from before the next one's
+    int64_t gone = recording::Showings::kStays;
+    for (size_t i = events.size(); i-- > 0;) {
+        const Event& event = events[i];
+        const bool message = event.name == "message";
+        const double shown =
+            showings.onset(event.tick, event.time, message ? gone : recording::Showings::kStays);
+        if (message) gone = event.tick;
+        table.rows.push_back(
+            {event.time, static_cast<double>(event.trial), event.name, event.detail, shown});
     }
+    std::reverse(table.rows.begin(), table.rows.end());
     return table;
 }
 

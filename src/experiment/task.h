@@ -43,7 +43,7 @@ struct Exit {
     std::string to;        ///< state
     std::string outcome;   ///< of the trial, which ends
     bool redo = false;     ///< the trial is to be done again
-    std::string feedback;  ///< shown until the next message
+    std::string feedback;  ///< shown for Task::feedback at least, then until the next message
     Place place;
 
     template <class Visitor>
@@ -246,6 +246,8 @@ struct Task {
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
     int most_attempts = 3;  ///< at a trial
+    /// So long a feedback stays: no message takes its place, and no trial begins [s].
+    double feedback = 1;
     std::optional<ReachMeasure> reach;
     Place place;
 
@@ -261,6 +263,7 @@ struct Task {
         v("blocks", blocks, Field::text().required());
         v("redo", redo);
         v("most_attempts", most_attempts, Field::number().within(1, 100));
+        v("feedback", feedback, Field::of(Quantity::time).within(0, 60));
         v("reach", reach);
         if constexpr (requires { v.place(); }) place = v.place();
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "experiment/clearance.h"
 #include "servo/displayed.h"
@@ -38,16 +39,22 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
 void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
                               servo::Commands& commands) noexcept {
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
-    if (queue_.empty()) {  // of a session that was over when it was resumed
-        commands.stop = true;
+    if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
+    // taken in every tick: what comes between trials answers none
+    const Input input{key_.exchange(0, std::memory_order_relaxed),
+                      trigger_.exchange(0, std::memory_order_relaxed)};
+    if (queue_.empty()) {
+        order_end(now, commands);
         return;
     }
     if (skip_.exchange(false, std::memory_order_relaxed)) {
-        finish(plan_.skipped, false, commands);
+        finish(plan_.skipped, false, now, commands);
         return;
     }
     if (state_ < 0) {
-        if (clear(last)) {
+        if (now < feedback_until_) {
+            // it is being read
+        } else if (clear(last)) {
             for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
                 const bool there =
                     last.sequence >= 0 &&
@@ -60,12 +67,16 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         } else {
             message_ = plan_.move_away;
         }
-    } else if (const TaskPlan::Way* way = way_out(last, handles, now)) {
-        if (way->feedback >= 0) message_ = way->feedback;
+    } else if (const TaskPlan::Way* way = way_out(last, handles, input, now)) {
+        if (way->feedback >= 0) {
+            message_ = way->feedback;
+            next_message_ = -1;
+            feedback_until_ = now + plan_.task.feedback - tick_ / 2;
+        }
         if (way->state >= 0) {
             enter(way->state, now, commands);
         } else {
-            finish(way->outcome, way->exit.redo, commands);
+            finish(way->outcome, way->exit.redo, now, commands);
             return;
         }
     }
@@ -92,15 +103,13 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
     entered_ = now;
     std::fill(since_.begin(), since_.end(), kNever);
     const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
-    if (stage.message >= 0) message_ = stage.message;
+    if (stage.message >= 0) (now < feedback_until_ ? next_message_ : message_) = stage.message;
     commands.task.marker = stage.marker;
 }
 
 const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
                                            std::span<const haptics::Handle> handles,
-                                           double now) noexcept {
-    const Input input{key_.exchange(0, std::memory_order_relaxed),
-                      trigger_.exchange(0, std::memory_order_relaxed)};
+                                           const Input& input, double now) noexcept {
     const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
     for (size_t i = 0; i < ways.size(); ++i) {
         const TaskPlan::Way& way = ways[i];
@@ -180,11 +189,13 @@ bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
     return std::popcount(which) >= fingers;
 }
 
-void TaskDirector::finish(int outcome, bool redo, servo::Commands& commands) noexcept {
-    commands.trial = queue_.trial() + 1;
+void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept {
+    last_trial_ = queue_.trial() + 1;
+    last_attempt_ = queue_.attempt();
+    commands.trial = last_trial_;
     // one that is skipped before it began has its only frame in its first state
     commands.phase = std::max(state_, 0) + 1;
-    commands.task.attempt = queue_.attempt();
+    commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;
     commands.task.message = message_;
     take_answer(outcome);
@@ -192,7 +203,17 @@ void TaskDirector::finish(int outcome, bool redo, servo::Commands& commands) noe
     skip_done();
     state_ = -1;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
-    commands.stop = queue_.empty();
+    commands.stop = queue_.empty() && now >= feedback_until_;
+}
+
+/// After the last trial: until its feedback was seen. A session that was over when it was resumed
+/// ends at once.
+void TaskDirector::order_end(double now, servo::Commands& commands) const noexcept {
+    commands.stop = now >= feedback_until_;
+    commands.trial = last_trial_;
+    commands.phase = 0;
+    commands.task.attempt = last_attempt_;
+    commands.task.message = message_;
 }
 
 void TaskDirector::skip_done() noexcept {

@@ -47,8 +47,9 @@ class TaskDirector {
                std::span<const haptics::Handle> handles, const Input& input) const noexcept;
     bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
     const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                                 double now) noexcept;
-    void finish(int outcome, bool redo, servo::Commands& commands) noexcept;
+                                 const Input& input, double now) noexcept;
+    void finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept;
+    void order_end(double now, servo::Commands& commands) const noexcept;
     void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
                servo::Commands& commands) const noexcept;
 
@@ -65,6 +66,10 @@ class TaskDirector {
     int state_ = -1;      // -1: between trials
     double entered_ = 0;  // [s]
     int message_ = -1;
+    int next_message_ = -1;       // waits until a feedback was seen
+    double feedback_until_ = -1;  // [s]
+    int last_trial_ = 0;          // that ended, from 1; 0: none yet
+    int last_attempt_ = 0;
     std::vector<double> since_;  // by way: when its condition began to hold; -1: it does not [s]
     std::atomic<char> key_{0};
     std::atomic<int> trigger_{0};

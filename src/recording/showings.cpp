@@ -35,11 +35,11 @@ Showings::Showings(const SessionFolder& folder) {
     }
 }
 
-double Showings::onset(int64_t tick, double time) const {
+double Showings::onset(int64_t tick, double time, int64_t until) const {
     const auto first =
         std::lower_bound(showings_.begin(), showings_.end(), tick,
                          [](const Showing& showing, int64_t t) { return showing.tick < t; });
-    if (first == showings_.end() || first->time - time > kSeen)
+    if (first == showings_.end() || first->tick >= until || first->time - time > kSeen)
         return std::numeric_limits<double>::quiet_NaN();
     return first->time;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <fstream>
+#include <limits>
 #include <vector>
 
 #include "recording/session.h"
@@ -34,8 +35,9 @@ class Showings {
 
     bool empty() const { return showings_.empty(); }
     /// When what changed in a tick, at `time` [s], came to the screen [s]; NaN when that took
-    /// longer than kSeen: there was no picture.
-    double onset(int64_t tick, double time) const;
+    /// longer than kSeen, or when no picture came before tick `until`, in which it was gone.
+    double onset(int64_t tick, double time, int64_t until = kStays) const;
+    static constexpr int64_t kStays = std::numeric_limits<int64_t>::max();
     static constexpr double kSeen = 1;  // [s]
 
   private:

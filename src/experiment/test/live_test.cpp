@@ -388,7 +388,11 @@ TEST(Live, EndsInAPause) {
     std::this_thread::sleep_for(milliseconds(50));
     desk.end();
     EXPECT_EQ(desk.result.fault, "");
-    EXPECT_GT(desk.result.ticks, 90);
+    // in session time: a busy machine leaves ticks out
+    EXPECT_GE(desk.result.simulated, 0.1);
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    ASSERT_FALSE(frames.empty());
+    EXPECT_NE(frames.back().status & servo::kPaused, 0u);
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 
 #include "base/geometry.h"
 #include "devices/test/felt_outside.h"
+#include "fake_makers.h"
 #include "keeper/force_off.h"
 #include "keeper/kept_devices.h"
 #include "keeper/messages.h"
-#include "fake_makers.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 
