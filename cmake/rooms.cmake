@@ -1,3 +1,19 @@
+# The headers of other libraries that nearly every source includes are compiled once for all rooms (by
+# dihaptic_base) and once for all tests (by dihaptic_testing): a quarter of the time of a first build. Each
+# source includes what it needs all the same.
+function(dihaptic_precompile target by)
+    if(CCACHE)
+        return()
+    endif()
+    if(NOT target STREQUAL by)
+        target_precompile_headers(${target} REUSE_FROM ${by})
+        return()
+    endif()
+    target_precompile_headers(${target} PRIVATE ${ARGN} <Eigen/Dense> <fmt/format.h> <algorithm> <atomic>
+        <chrono> <filesystem> <fstream> <functional> <map> <memory> <optional> <random> <sstream> <string>
+        <thread> <variant> <vector>)
+endfunction()
+
 # A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and
 # its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus beside it; test/support/fuzz.h).
 #
@@ -30,6 +46,9 @@ function(dihaptic_room name)
     target_include_directories(${room} ${scope} ${include_root})
     list(TRANSFORM ROOM_USES PREPEND dihaptic_)
     target_link_libraries(${room} ${scope} dihaptic_flags ${ROOM_USES})
+    if(sources)
+        dihaptic_precompile(${room} dihaptic_base)
+    endif()
     if(ROOM_LINKS)
         target_link_libraries(${room} PRIVATE ${ROOM_LINKS})
     endif()
@@ -38,6 +57,7 @@ function(dihaptic_room name)
     if(tests)
         add_executable(${name}_test ${tests})
         target_link_libraries(${name}_test PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
+        dihaptic_precompile(${name}_test dihaptic_testing)
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
             PROPERTIES LABELS ${name} TIMEOUT 900)
     endif()
