@@ -216,53 +216,46 @@ struct FrictionOnly {
 };
 
 /// Coulomb's law with the disc replaced by a polygon: Stewart and Trinkle's, multipliers
-/// eliminated. Without torsion only.
+/// eliminated.
+template <int T>
 struct Polygonal {
-    std::span<const Polygon> polygon;  ///< by contact
+    std::span<const Polygon<T>> polygon;  ///< by contact
+    using Tangent = Eigen::Matrix<double, T, 1>;
 
     template <int D>
     double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                      const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
                      size_t contact) const noexcept {
-        static_assert(D == 3);
+        static_assert(D == T + 1);
         const double g = linearise_normal<D>(scale, r, u, rho, out);
         if (out.open) return r.squaredNorm();
-        const Eigen::Vector2d r_t = r.template tail<2>();
-        const Eigen::Vector2d u_t = u.template tail<2>();
+        const Tangent r_t = r.template tail<T>();
+        const Tangent u_t = u.template tail<T>();
         const double radius = scale.mu * g;
-        const Polygon::Projection on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
-        // P = radius * per_radius + F z, with F the projector on the edge (none at a vertex):
-        // as a disc with s = 1 along the edge, and no turning
-        const Eigen::Vector2d phi = r_t - on.point;
+        const auto on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
+        // P = radius * per_radius + F z, with F the projector on the facet (none at a vertex): as a
+        // disc with s = 1 along the facet, and no turning
+        const Tangent phi = r_t - on.point;
+        auto G_t = out.G.template bottomRightCorner<T, T>();
+        auto c_t = out.c.template tail<T>();
         if (on.inside) {
-            out.G(1, 1) = out.G(2, 2) = 1 / rho;
-            out.c.template tail<2>() = u_t / rho;
+            G_t = Eigen::Matrix<double, T, T>::Identity() / rho;
+            c_t = u_t / rho;
         } else {
-            const double along = on.edge.dot(u_t);
-            out.c.template tail<2>() = phi - on.edge * on.edge.dot(phi) + on.edge * (along / rho);
-            out.c.template tail<2>() +=
-                scale.mu * (1 - rho * scale.a_n) * u[0] / rho * on.per_radius;
-            out.G.template bottomLeftCorner<2, 1>() = scale.mu / rho * on.per_radius;
-            out.G.template bottomRightCorner<2, 2>() = on.edge * on.edge.transpose() / rho;
+            G_t = on.along / rho;
+            c_t = phi - on.along * phi + on.along * u_t / rho +
+                  scale.mu * (1 - rho * scale.a_n) * u[0] / rho * on.per_radius;
+            out.G.template bottomLeftCorner<T, 1>() = scale.mu / rho * on.per_radius;
         }
         const double phi_n = scale.a_n * u[0];
         return phi_n * phi_n + phi.squaredNorm();
     }
     template <int D>
-    double residual(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
-                    const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
-        const double error = r[0] - std::max(0.0, r[0] - u[0]);
-        const Eigen::Vector2d x = (r - u).template tail<2>();
-        const Eigen::Vector2d on =
-            polygon[contact].project(x, scale.mu * std::max(0.0, r[0])).point;
-        return error * error + (r.template tail<2>() - on).squaredNorm();
-    }
-    template <int D>
     void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
                const Eigen::Matrix<double, D, 1>& u, size_t contact) const noexcept {
         r[0] = std::max(0.0, r[0] - scale.a_n * u[0]);
-        const Eigen::Vector2d x = r.template tail<2>() - scale.a_t * u.template tail<2>();
-        r.template tail<2>() = polygon[contact].project(x, scale.mu * r[0]).point;
+        const Tangent x = r.template tail<T>() - scale.a_t * u.template tail<T>();
+        r.template tail<T>() = polygon[contact].project(x, scale.mu * r[0]).point;
     }
 };
 

@@ -1,71 +1,136 @@
-// A regular friction polygon: n directions in the contact's tangent plane, the first of them at
-// `angle`. Its vertices lie on the circle of radius mu N, so friction is mu N along a direction and
-// mu N cos(pi / n) between two.
+// A friction polygon: n directions in the contact's tangent plane, evenly spread, the first of them
+// along axes.col(0). Its vertices lie on the circle of radius mu N, so friction is mu N along a
+// direction and mu N cos(pi / n) between two. With torsion (T = 3) it is a double pyramid: the
+// polygon, and two more vertices on either side, along axes.col(2).
+//
+// A regular polygon, and such a pyramid, are symmetric about the planes through neighbouring
+// directions. So what lies in the sector between them has its nearest point there: on the one facet
+// that spans the sector's T vertices.
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace dihaptic::contact {
 
+template <int T>
 struct Polygon {
-    int directions = 8;
-    double angle = 0;  ///< of direction 0 from the first tangent [rad]
+    static_assert(T == 2 || T == 3);
+    using Tangent = Eigen::Matrix<double, T, 1>;
+    using Square = Eigen::Matrix<double, T, T>;
 
-    double direction_angle(int i) const noexcept {
-        return angle + 2 * std::numbers::pi * i / directions;
+    int directions = 8;
+    Square axes = Square::Identity();  ///< orthonormal
+
+    /// The first direction along a vector; as it was where that has no direction.
+    void turn_to(const Tangent& first) noexcept {
+        const double length = first.norm();
+        if (!(length > 0) || !std::isfinite(length)) return;
+        axes.col(0) = first / length;
+        if constexpr (T == 2) {
+            axes.col(1) = Tangent(-axes(1, 0), axes(0, 0));
+        } else {
+            // across the first, in the tangent plane when that is possible
+            const Tangent across(-axes(1, 0), axes(0, 0), 0);
+            const double size = across.norm();
+            axes.col(1) = size > 1e-6 ? Tangent(across / size) : Tangent::UnitX();
+            axes.col(2) = axes.col(0).cross(axes.col(1));
+        }
     }
-    Eigen::Vector2d direction(int i) const noexcept {
-        const double phi = direction_angle(i);
-        return {std::cos(phi), std::sin(phi)};
+
+    int count() const noexcept { return T == 2 ? directions : directions + 2; }
+    /// Direction i of the polygon; the pyramids' tips come after them.
+    Tangent direction(int i) const noexcept {
+        if constexpr (T == 3) {
+            if (i == directions) return axes.col(2);
+            if (i == directions + 1) return -axes.col(2);
+        }
+        const double phi = 2 * std::numbers::pi * i / directions;
+        return std::cos(phi) * axes.col(0) + std::sin(phi) * axes.col(1);
     }
-    /// The direction before a vector: it lies between this one and the next.
-    int before(const Eigen::Vector2d& x) const noexcept {
+
+    /// The sector in which a vector lies.
+    struct Sector {
+        std::array<int, T> index;  ///< of its directions
+        Square vertices;           ///< them, a column each
+        Square inverse;            ///< of vertices: a vector's shares of them
+    };
+    Sector sector(const Tangent& x) const noexcept {
         const double pitch = 2 * std::numbers::pi / directions;
-        double turns = (std::atan2(x[1], x[0]) - angle) / pitch;
+        double turns = std::atan2(axes.col(1).dot(x), axes.col(0).dot(x)) / pitch;
         turns -= std::floor(turns / directions) * directions;
         // also of what is no number there is one, whose index exists
-        return turns >= 0 && turns < directions ? static_cast<int>(turns) : 0;
+        const int before = turns >= 0 && turns < directions ? static_cast<int>(turns) : 0;
+        Sector out;
+        out.index[0] = before;
+        out.index[1] = (before + 1) % directions;
+        if constexpr (T == 3) out.index[2] = axes.col(2).dot(x) >= 0 ? directions : directions + 1;
+        for (int i = 0; i < T; ++i)
+            out.vertices.col(i) = direction(out.index[static_cast<size_t>(i)]);
+        out.inverse = out.vertices.inverse();
+        return out;
+    }
+
+    /// The largest d_k . x.
+    double support(const Tangent& x) const noexcept {
+        const Sector in = sector(x);
+        return (in.vertices.transpose() * x).maxCoeff();
     }
 
     struct Projection {
-        Eigen::Vector2d point;
+        Tangent point;
         bool inside = false;
-        Eigen::Vector2d edge;        ///< unit vector along the edge hit; zero at a vertex
-        Eigen::Vector2d per_radius;  ///< d point / d radius
+        Square along;        ///< projector on the facet or edge hit; zero at a vertex
+        Tangent per_radius;  ///< d point / d radius
     };
     /// Nearest point of the polygon with vertices at `radius`.
-    Projection project(const Eigen::Vector2d& x, double radius) const noexcept {
+    Projection project(const Tangent& x, double radius) const noexcept {
         Projection out;
-        out.edge.setZero();
+        out.along.setZero();
         out.per_radius.setZero();
-        if (radius <= 0) {
-            out.point.setZero();
-            return out;
-        }
-        const int i = before(x);
-        const Eigen::Vector2d from = direction(i);
-        const Eigen::Vector2d to = direction(i + 1);
-        const Eigen::Vector2d normal = (from + to).normalized();
-        const double apothem = normal.dot(from);  // of the unit polygon
-        const Eigen::Vector2d edge(-normal[1], normal[0]);
-        if (normal.dot(x) <= radius * apothem) {
+        out.point.setZero();
+        if (radius <= 0) return out;
+        const Sector in = sector(x);
+        // the facet's plane is normal . x = radius
+        const Tangent normal = in.inverse.transpose() * Tangent::Ones();
+        const double beyond = normal.dot(x) - radius;
+        if (beyond <= 0) {
             out.point = x;
             out.inside = true;
             return out;
         }
-        const double along = edge.dot(x);
-        const double half = radius * edge.dot(to);
-        if (along >= half) {
-            out.per_radius = to;
-        } else if (along <= -half) {
-            out.per_radius = from;
-        } else {
-            out.edge = edge;
-            out.per_radius = apothem * normal;
+        const double square = normal.squaredNorm();
+        const Tangent on_plane = x - beyond / square * normal;
+        if ((in.inverse * on_plane).minCoeff() >= 0) {
+            out.point = on_plane;
+            out.along = Square::Identity() - normal * normal.transpose() / square;
+            out.per_radius = normal / square;
+            return out;
         }
-        out.point = radius * out.per_radius + out.edge * along;
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto offer = [&](const Tangent& per_radius, const Square& along) {
+            const Tangent point = radius * per_radius + along * x;
+            const double distance = (point - x).squaredNorm();
+            if (distance >= nearest) return;
+            nearest = distance;
+            out.point = point;
+            out.along = along;
+            out.per_radius = per_radius;
+        };
+        for (int i = 0; i < T; ++i) offer(in.vertices.col(i), Square::Zero());
+        if constexpr (T == 3) {
+            for (int i = 0; i < T; ++i) {
+                const Tangent from = in.vertices.col(i);
+                const Tangent edge = in.vertices.col((i + 1) % T) - from;
+                const double share = edge.dot(x / radius - from) / edge.squaredNorm();
+                if (share <= 0 || share >= 1) continue;
+                const Square along = edge * edge.transpose() / edge.squaredNorm();
+                offer(from - along * from, along);
+            }
+        }
         return out;
     }
 };

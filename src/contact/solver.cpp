@@ -49,30 +49,35 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
     project();
 
     Outcome outcome;
+    stats.route = Route::newton;
     if (solver == Solver::staggered_projections) {
+        stats.route = Route::staggered_projections;
         outcome = staggered_projections(system, r, kTolerance, kMostStaggeredIterations,
                                         memory.staggered);
     } else if (solver == Solver::stewart_trinkle) {
         StewartTrinkle<System> method(system, polygon, kTolerance, memory.stewart_trinkle);
         const StewartTrinkleOutcome answer = method.solve(r);
         outcome = answer;
-        if (detail != nullptr) *detail = {answer.route, answer.lcp_residual};
+        stats.route = answer.route;
+        if (detail != nullptr) *detail = {answer.lcp_residual};
     } else {
         outcome = newton(system, r, kTolerance, newton_memory);
     }
+    if (outcome.iterations == 0) stats.route = r.empty() ? Route::none : Route::start;
     stats.iterations = outcome.iterations;
     stats.fallback = !outcome.converged;
-    const auto hand_over = [&](const auto& solve) {
+    const auto hand_over = [&](Route route, const auto& solve) {
         if (outcome.converged) return;
         outcome = solve();
         stats.iterations += outcome.iterations;
+        stats.route = route;
     };
     if (solver != Solver::newton)
-        hand_over([&] { return newton(system, r, kTolerance, newton_memory); });
+        hand_over(Route::newton, [&] { return newton(system, r, kTolerance, newton_memory); });
     if (solver != Solver::stewart_trinkle && System::D == 3) {
         // where no start leads to an answer on the cone, an answer on a coarse polygon, turned with
         // sliding, is found, and is near one
-        hand_over([&] {
+        hand_over(Route::coarse_polygon, [&] {
             constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
             StewartTrinkle<System> method(system, kCoarse, kTolerance, memory.stewart_trinkle);
             const int steps = method.solve_by_newton(r).iterations;
@@ -83,13 +88,13 @@ void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
         });
     }
     if (solver != Solver::staggered_projections) {
-        hand_over([&] {
+        hand_over(Route::staggered_projections, [&] {
             const auto pairs = static_cast<int>(kMostStaggeredWork / (n * n));
             return staggered_projections(
                 system, r, kTolerance, std::min(pairs, kMostStaggeredIterations), memory.staggered);
         });
     }
-    hand_over([&] {
+    hand_over(Route::sweeps, [&] {
         const int sweeps = std::min(kLastSweeps, static_cast<int>(kMostSweepWork / n));
         system.sweep(law::Coulomb{}, r, sweeps);
         Outcome last = newton(system, r, kTolerance, newton_memory);

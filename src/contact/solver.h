@@ -12,6 +12,7 @@
 #include <span>
 
 #include "contact/problem.h"
+#include "contact/route.h"
 #include "contact/stewart_trinkle.h"
 
 namespace dihaptic::contact {
@@ -31,11 +32,15 @@ struct SolveStats {
     int iterations = 0;
     double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
     bool fallback = false;  ///< another solver than the one asked for answered
-    bool missed = false;    ///< so did that: the best impulses found are in use
+    bool missed = false;    ///< the impulses in use, the best found, are not within tolerance
     bool refused = false;   ///< the problem held what is no number: there are no impulses
+    Route route = Route::none;
 
-    /// Of several problems of one step: the worst of each.
+    /// Of several problems of one step: the worst of each; the route of one that another solver
+    /// answered, where there is one, and otherwise the last of the list.
     void join(const SolveStats& other) noexcept {
+        if (std::pair(other.fallback, other.route) > std::pair(fallback, route))
+            route = other.route;
         iterations = std::max(iterations, other.iterations);
         residual = std::max(residual, other.residual);
         fallback = fallback || other.fallback;
@@ -46,8 +51,7 @@ struct SolveStats {
 
 /// What there is to know about one solve beyond its statistics.
 struct SolveDetail {
-    StewartTrinkleRoute route = StewartTrinkleRoute::none;
-    double lcp_residual = 0;
+    double lcp_residual = 0;  ///< stewart_trinkle: of its own complementarity problem, as given
 };
 
 class ContactSolvers {

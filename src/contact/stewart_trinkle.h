@@ -9,15 +9,18 @@
 // directions weaker by up to cos(pi/n); or the first is laid along each contact's friction force,
 // so that sliding is isotropic. A soft finger's torsion adds two directions, about +n and -n.
 //
-// Three ways lead to an answer, and which did is told: the cone's own solution, when it happens to
-// solve this problem too (with aligned directions it nearly always does); Newton's method on the
-// polygon; and Lemke's, in proximal steps that take its regularisation out of the answer.
+// Two methods solve it, and which did is told: Newton's on the polygon, and where that fails
+// Lemke's, in proximal steps that take its regularisation out of the answer. Where directions
+// follow friction, the problem is solved with the directions as they lie, they are turned, and it
+// is solved again, until friction opposes sliding: then the answer is Coulomb's as well.
 #pragma once
 
 #include <numbers>
 
+#include "contact/anderson.h"
 #include "contact/lemke.h"
 #include "contact/newton.h"
+#include "contact/route.h"
 
 namespace dihaptic::contact {
 
@@ -31,28 +34,26 @@ struct PolygonSettings {
     DirectionFrame frame = DirectionFrame::sliding;
 };
 
-enum class StewartTrinkleRoute { none, cone, polygon_newton, lemke };
-
 struct StewartTrinkleOutcome : Outcome {
-    StewartTrinkleRoute route = StewartTrinkleRoute::none;
+    Route route = Route::none;
     double lcp_residual = 0;  ///< norm of min(z, w) over 1 + |q|, of the problem as given
 };
 
 constexpr int kMostDirections = 32;
 
-/// Directions of one contact's friction, in its scaled tangent space (and spin).
-template <int D>
-struct Directions {
-    Eigen::Matrix<double, D - 1, kMostDirections + 2> d;
-    int count = 0;
-};
-
 template <class System>
 struct StewartTrinkleMemory {
+    static constexpr int T = System::D - 1;
+    /// Of one contact, written out for Lemke's matrix.
+    using Directions = Eigen::Matrix<double, T, kMostDirections + 2>;
+
     NewtonMemory<System> newton;
-    std::vector<Directions<System::D>> directions;
-    std::vector<Polygon> polygons;
+    std::vector<Polygon<T>> polygons;
+    std::vector<Directions> directions;
     std::vector<typename System::Vec> best;
+    std::vector<double> aim;    // first directions that polygons were given
+    std::vector<double> image;  // those that the answer with them asks for
+    Anderson anderson;
     std::vector<double> last;  // z of the last proximal step
     Lemke lemke;
 
@@ -60,9 +61,12 @@ struct StewartTrinkleMemory {
     /// without it.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
-        directions.reserve(contacts);
         polygons.reserve(contacts);
+        directions.reserve(lemke_contacts);
         best.reserve(contacts);
+        aim.reserve(contacts * T);
+        image.reserve(contacts * T);
+        anderson.reserve(contacts * T);
         last.reserve(lemke_contacts * (kMostDirections + 4));
         lemke.reserve(static_cast<int>(lemke_contacts * 12));
     }
@@ -72,184 +76,179 @@ template <class System>
 class StewartTrinkle {
   public:
     static constexpr int D = System::D;
+    static constexpr int T = D - 1;
     using Vec = typename System::Vec;
+    using Tangent = Eigen::Matrix<double, T, 1>;
+    using Shares = Eigen::Matrix<double, T, 1>;
 
     StewartTrinkle(System& system, const PolygonSettings& settings, double tolerance,
                    StewartTrinkleMemory<System>& memory)
         : system_(system), settings_(settings), tolerance_(tolerance), m_(memory) {
         const size_t n = system.size();
-        m_.directions.resize(n);
-        m_.polygons.resize(n);
+        m_.polygons.assign(n, {settings.directions});
         m_.best.resize(n);
         m_.newton.resize(n);
+        m_.aim.resize(n * T);
+        m_.image.resize(n * T);
         load_ = load(system);
     }
 
-    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u.
+    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. Converged:
+    /// its own problem is solved; with directions that follow friction, Coulomb's as well.
     StewartTrinkleOutcome solve(std::span<Vec> r) {
         StewartTrinkleOutcome out;
-        aim(r);
         std::copy(r.begin(), r.end(), m_.best.begin());
         system_.velocity(r, m_.newton.u);
-        if (accept(r, StewartTrinkleRoute::cone, out)) return out;
-
-        const Outcome cone = newton(system_, r, tolerance_, m_.newton);
-        out.iterations += cone.iterations;
-        aim(r);
-        if (accept(r, StewartTrinkleRoute::cone, out)) return out;
-        polygon_newton(r, out);
-        if (!out.converged) lemke(r, out);
-        std::copy(m_.best.begin(), m_.best.end(), r.begin());
-        system_.velocity(r, m_.newton.u);
+        if (follows()) turn(r);
+        if (accept(r, Route::start, out)) return out;
+        solve_and_turn(r, out, [&](double enough) { newton_once(r, enough, out); });
+        if (!out.converged)
+            solve_and_turn(r, out, [&](double enough) { lemke_once(r, enough, out); });
+        restore(r);
         return out;
     }
 
-    /// Only Newton's method on the polygon, from r.
+    /// Only Newton's method, with each polygon laid along what the start asks for, and left there.
     StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
         StewartTrinkleOutcome out;
-        aim(r);
-        polygon_newton(r, out);
+        system_.velocity(r, m_.newton.u);
+        turn(r);
+        settings_.frame = DirectionFrame::fixed;
+        newton_once(r, 0, out);
         return out;
     }
 
     /// Only Lemke's method, from no impulse at all.
     StewartTrinkleOutcome solve_by_lemke(std::span<Vec> r) {
         StewartTrinkleOutcome out;
-        aim(r);
-        lemke(r, out);
-        std::copy(m_.best.begin(), m_.best.end(), r.begin());
+        for (Vec& impulse : r) impulse.setZero();
         system_.velocity(r, m_.newton.u);
+        if (follows()) turn(r);
+        solve_and_turn(r, out, [&](double enough) { lemke_once(r, enough, out); });
+        restore(r);
         return out;
     }
 
-    /// Norm of min(z, w), z = (r_N, b, lambda).
-    Residual residual(std::span<const Vec> r, std::span<const Vec> u) {
+    /// Norm of min(z, w), z = (r_N, b, lambda), with the polygons as they lie.
+    Residual residual(std::span<const Vec> r, std::span<const Vec> u) const {
         double scaled = 0;
         double given = 0;
         for (size_t j = 0; j < r.size(); ++j) {
-            const Directions<D>& directions = m_.directions[j];
-            const double mu = system_.scale(j).mu;
             const double unit = system_.unit(j);
-            Eigen::Matrix<double, kMostDirections + 2, 1> beta;
-            double sum = 0;
-            double missing = resolve(j, r[j], beta, sum);
-            double lambda = 0;
-            for (int k = 0; k < directions.count; ++k) {
-                lambda = std::max(lambda, -directions.d.col(k).dot(u[j].template tail<D - 1>()));
-            }
+            const Tangent u_t = u[j].template tail<T>();
+            const double lambda = std::max(0.0, m_.polygons[j].support(-u_t));
+            const auto in = m_.polygons[j].sector(r[j].template tail<T>());
             const auto add = [&](double z, double w, double z_unit) {
                 const double in_system = std::min(z, w);
                 const double as_given = std::min(z * z_unit, w / z_unit);
                 scaled += in_system * in_system;
                 given += as_given * as_given;
             };
+            const Shares b = in.inverse * r[j].template tail<T>();
             add(r[j][0], u[j][0], unit);
-            for (int k = 0; k < directions.count; ++k) {
-                add(beta[k], directions.d.col(k).dot(u[j].template tail<D - 1>()) + lambda, unit);
-            }
-            add(lambda, mu * r[j][0] - sum, 1 / unit);
-            scaled += missing * missing;
-            given += missing * missing * unit * unit;
+            // other directions have no share, and their w is not negative
+            for (int i = 0; i < T; ++i) add(b[i], in.vertices.col(i).dot(u_t) + lambda, unit);
+            add(lambda, system_.scale(j).mu * r[j][0] - b.sum(), 1 / unit);
         }
         return load_.residual(scaled, given);
     }
 
   private:
-    /// Lays each contact's directions, along r where they follow sliding.
-    void aim(std::span<const Vec> r) {
+    /// Answers with polygons as they lie are warm starts for those that are turned a little.
+    static constexpr int kMostTurns = 60;
+    static constexpr double kInnerOfLast = 1e-3;
+    static constexpr size_t kMostWork = 32000;  // contacts times steps, as newton's
+
+    bool follows() const { return settings_.frame == DirectionFrame::sliding; }
+
+    /// Lays first directions along z = r_T - a_T u_T, of which the law says where friction points:
+    /// along r_T where it sticks, against u_T where that opposes it.
+    void turn(std::span<const Vec> r) {
+        for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(asked(j, r[j]));
+    }
+    Tangent asked(size_t j, const Vec& r) const {
+        return r.template tail<T>() - system_.scale(j).a_t * m_.newton.u[j].template tail<T>();
+    }
+    /// The same as one step of an iteration, accelerated over its last ones. What sticks inside its
+    /// polygon, and what is open, need not turn: its direction would only disturb the others'.
+    void turn_faster(std::span<const Vec> r) {
+        constexpr double kInside = 1e-9;
+        using Map = Eigen::Map<Tangent>;
         for (size_t j = 0; j < r.size(); ++j) {
-            using Tangent = Eigen::Matrix<double, D - 1, 1>;
-            Tangent first = Tangent::UnitX();
-            const Tangent r_t = r[j].template tail<D - 1>();
-            if (settings_.frame == DirectionFrame::sliding && r_t.norm() > 0)
-                first = r_t.normalized();
-            Directions<D>& out = m_.directions[j];
-            out.count = 0;
-            Tangent second;
-            if constexpr (D == 3) {
-                second = {-first[1], first[0]};
-                m_.polygons[j] = {settings_.directions, std::atan2(first[1], first[0])};
-            } else {
-                // across the first, in the tangent plane when that is possible
-                second = Tangent{-first[1], first[0], 0};
-                second = second.norm() > 1e-6 ? Tangent(second.normalized()) : Tangent::UnitX();
-            }
-            for (int k = 0; k < settings_.directions; ++k) {
-                const double angle = 2 * std::numbers::pi * k / settings_.directions;
-                out.d.col(out.count++) = std::cos(angle) * first + std::sin(angle) * second;
-            }
-            if constexpr (D == 4) {
-                const Tangent third = first.cross(second);
-                out.d.col(out.count++) = third;
-                out.d.col(out.count++) = -third;
-            }
+            Map now(&m_.aim[j * T]);
+            Map next(&m_.image[j * T]);
+            const Polygon<T>& polygon = m_.polygons[j];
+            now = next = polygon.axes.col(0);
+            const Tangent r_t = r[j].template tail<T>();
+            const double limit = system_.scale(j).mu * r[j][0];
+            if (limit <= 0 || (polygon.sector(r_t).inverse * r_t).sum() < (1 - kInside) * limit)
+                continue;
+            const Tangent along = asked(j, r[j]);
+            if (along.norm() > 0) next = along.normalized();
+        }
+        m_.anderson.advance(m_.aim, m_.image);
+        for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(Map(&m_.aim[j * T]));
+    }
+
+    /// Has `once` solve the problem with the polygons as they lie; where directions follow
+    /// friction, as often as they turn.
+    template <class Once>
+    void solve_and_turn(std::span<Vec> r, StewartTrinkleOutcome& out, const Once& once) {
+        m_.anderson.start(m_.aim.size());
+        double last = std::numeric_limits<double>::infinity();
+        for (int turn = 0; turn <= kMostTurns; ++turn) {
+            once(std::isfinite(last) ? kInnerOfLast * last : 0);
+            if (!follows() || out.residual <= kTarget * tolerance_ ||
+                (out.converged && residual_ > kStalledShare * last) ||
+                static_cast<size_t>(out.iterations) * r.size() > kMostWork)
+                return;
+            last = residual_;
+            turn_faster(r);
         }
     }
 
-    /// The friction of a contact as a sum of at most D - 1 of its directions; returns how much of
-    /// it no sum of directions makes.
-    double resolve(size_t j, const Vec& r, Eigen::Matrix<double, kMostDirections + 2, 1>& beta,
-                   double& sum) const {
-        using Tangent = Eigen::Matrix<double, D - 1, 1>;
-        const Directions<D>& directions = m_.directions[j];
-        beta.setZero();
-        sum = 0;
-        Tangent rest = r.template tail<D - 1>();
-        if constexpr (D == 4) {
-            const int last = directions.count - 2;
-            const double along = directions.d.col(last).dot(rest);
-            beta[along >= 0 ? last : last + 1] = std::abs(along);
-            sum += std::abs(along);
-            rest -= along * directions.d.col(last);
-        }
-        // the two directions on either side of what is left
-        const int n = settings_.directions;
-        const Tangent first = directions.d.col(0);
-        Tangent second = directions.d.col(1) - directions.d.col(1).dot(first) * first;
-        second.normalize();
-        const Eigen::Vector2d plane(first.dot(rest), second.dot(rest));
-        const Polygon polygon{n, 0};
-        const int k = polygon.before(plane);
-        const int next = (k + 1) % n;
-        const double phi = std::atan2(plane[1], plane[0]) - polygon.direction_angle(k);
-        const double pitch = 2 * std::numbers::pi / n;
-        const double length = plane.norm();
-        beta[next] = std::max(0.0, length * std::sin(phi) / std::sin(pitch));
-        beta[k] += std::max(0.0, length * std::sin(pitch - phi) / std::sin(pitch));
-        sum += beta[k] + beta[next];
-        const Tangent made = beta[k] * directions.d.col(k) + beta[next] * directions.d.col(next);
-        return (rest - made).norm();
-    }
-
-    bool accept(std::span<const Vec> r, StewartTrinkleRoute route, StewartTrinkleOutcome& out) {
-        const Residual now = residual(r, m_.newton.u);
-        if (now.judged() < out.residual) {
-            out.residual = now.judged();
-            out.lcp_residual = now.given;
+    /// Whether r is an answer that needs no more work.
+    bool accept(std::span<const Vec> r, Route route, StewartTrinkleOutcome& out) {
+        const std::span<const Vec> u(m_.newton.u);
+        const Residual own = residual(r, u);
+        residual_ = own.judged();
+        if (follows())
+            residual_ = std::max(residual_, coulomb_residual(system_, r, u, load_).judged());
+        if (residual_ < out.residual) {
+            out.residual = residual_;
+            out.lcp_residual = own.given;
             out.route = route;
             std::copy(r.begin(), r.end(), m_.best.begin());
         }
         out.converged = out.residual <= tolerance_;
         return out.residual <= kTarget * tolerance_;
     }
+    void restore(std::span<Vec> r) {
+        std::copy(m_.best.begin(), m_.best.end(), r.begin());
+        system_.velocity(r, m_.newton.u);
+    }
 
-    /// Not with torsion.
-    void polygon_newton(std::span<Vec> r, StewartTrinkleOutcome& out) {
-        if constexpr (D == 3) {
-            const law::Polygonal law{m_.polygons};
-            const Outcome polygon =
-                proximal_newton(system_, law, r, tolerance_, m_.newton,
-                                [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                                    return residual(impulse, u).judged();
-                                });
-            out.iterations += polygon.iterations;
-            accept(r, StewartTrinkleRoute::polygon_newton, out);
+    /// By Newton's method, to `enough` at least.
+    void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
+        auto starts = kNewtonStarts;
+        if (enough > 0) {  // from an answer with the polygons a little turned
+            starts[0].rho = std::clamp(residual_, 1e-7, starts[0].rho);
+            starts[0].sweeps = 0;
         }
+        const Outcome outcome = proximal_newton(
+            system_, law::Polygonal<T>{m_.polygons}, r, std::max(tolerance_, enough), m_.newton,
+            [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+                return residual(impulse, u).judged();
+            },
+            starts);
+        out.iterations += outcome.iterations;
+        accept(r, Route::own_newton, out);
     }
 
     void fill(double rho, std::span<const double> last) {
         Lemke& lcp = m_.lemke;
-        const int block = m_.directions[0].count + 2;
+        const int directions = m_.polygons[0].count();
+        const int block = directions + 2;
         const auto n = static_cast<int>(system_.size());
         lcp.start(n * block);
         for (int j = 0; j < n; ++j) {
@@ -260,24 +259,24 @@ class StewartTrinkle {
                     system_.delassus_block(static_cast<size_t>(j), static_cast<size_t>(k));
                 const auto& D_k = m_.directions[static_cast<size_t>(k)];
                 lcp.M(j * block, k * block) = W(0, 0);
-                for (int b = 0; b < D_k.count; ++b) {
-                    const Vec column = W.template rightCols<D - 1>() * D_k.d.col(b);
+                for (int b = 0; b < directions; ++b) {
+                    const Vec column = W.template rightCols<T>() * D_k.col(b);
                     lcp.M(j * block, k * block + 1 + b) = column[0];
-                    for (int a = 0; a < D_j.count; ++a) {
+                    for (int a = 0; a < directions; ++a) {
                         lcp.M(j * block + 1 + a, k * block + 1 + b) =
-                            D_j.d.col(a).dot(column.template tail<D - 1>());
+                            D_j.col(a).dot(column.template tail<T>());
                     }
                 }
-                for (int a = 0; a < D_j.count; ++a) {
+                for (int a = 0; a < directions; ++a) {
                     lcp.M(j * block + 1 + a, k * block) =
-                        D_j.d.col(a).dot(W.col(0).template tail<D - 1>());
+                        D_j.col(a).dot(W.col(0).template tail<T>());
                 }
             }
             const auto q = system_.q(static_cast<size_t>(j));
             lcp.q(j * block) = q[0];
             lcp.M(lambda, j * block) = system_.scale(static_cast<size_t>(j)).mu;
-            for (int a = 0; a < D_j.count; ++a) {
-                lcp.q(j * block + 1 + a) = D_j.d.col(a).dot(q.template tail<D - 1>());
+            for (int a = 0; a < directions; ++a) {
+                lcp.q(j * block + 1 + a) = D_j.col(a).dot(q.template tail<T>());
                 lcp.M(j * block + 1 + a, lambda) = 1;
                 lcp.M(lambda, j * block + 1 + a) = -1;
             }
@@ -288,27 +287,39 @@ class StewartTrinkle {
         }
     }
 
-    void lemke(std::span<Vec> r, StewartTrinkleOutcome& out) {
+    /// z of the best so far, where the proximal steps begin; zero when there is none.
+    void begin_proximal(int block, const StewartTrinkleOutcome& out) {
+        m_.last.assign(m_.polygons.size() * static_cast<size_t>(block), 0.0);
+        if (out.route == Route::none) return;
+        for (size_t j = 0; j < m_.polygons.size(); ++j) {
+            const auto in = m_.polygons[j].sector(m_.best[j].template tail<T>());
+            const Shares b = in.inverse * m_.best[j].template tail<T>();
+            const size_t first = j * static_cast<size_t>(block);
+            m_.last[first] = m_.best[j][0];
+            for (int i = 0; i < T; ++i) {
+                const auto at = static_cast<size_t>(in.index[static_cast<size_t>(i)]);
+                m_.last[first + 1 + at] = std::max(0.0, b[i]);
+            }
+        }
+    }
+
+    /// By Lemke's method, to `enough` at least.
+    void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;
         constexpr int kAttempts = 4;
         if (system_.size() == 0) return;
         Lemke& lcp = m_.lemke;
-        const int block = m_.directions[0].count + 2;
+        const int directions = m_.polygons[0].count();
+        const int block = directions + 2;
         const int variables = static_cast<int>(system_.size()) * block;
         if (variables > lcp.capacity()) return;
-        m_.last.assign(static_cast<size_t>(variables), 0.0);
-        if (out.route != StewartTrinkleRoute::none) {  // begin at the best so far
-            for (size_t j = 0; j < r.size(); ++j) {
-                Eigen::Matrix<double, kMostDirections + 2, 1> beta;
-                double sum = 0;
-                resolve(j, m_.best[j], beta, sum);
-                const size_t first = j * static_cast<size_t>(block);
-                m_.last[first] = m_.best[j][0];
-                for (int k = 0; k < m_.directions[j].count; ++k)
-                    m_.last[first + 1 + static_cast<size_t>(k)] = beta[k];
-            }
+        m_.directions.resize(system_.size());
+        for (size_t j = 0; j < r.size(); ++j) {
+            for (int k = 0; k < directions; ++k)
+                m_.directions[j].col(k) = m_.polygons[j].direction(k);
         }
+        begin_proximal(block, out);
         for (int step = 0; step < kMostProximal; ++step) {
             fill(kRho, m_.last);
             bool solved = step > 0 && lcp.try_last_basis();
@@ -320,13 +331,13 @@ class StewartTrinkle {
                 const int first = static_cast<int>(j) * block;
                 r[j].setZero();
                 r[j][0] = lcp.z(first);
-                for (int k = 0; k < m_.directions[j].count; ++k) {
-                    r[j].template tail<D - 1>() += lcp.z(first + 1 + k) * m_.directions[j].d.col(k);
-                }
+                for (int k = 0; k < directions; ++k)
+                    r[j].template tail<T>() += lcp.z(first + 1 + k) * m_.directions[j].col(k);
             }
             for (int i = 0; i < variables; ++i) m_.last[static_cast<size_t>(i)] = lcp.z(i);
             system_.velocity(r, m_.newton.u);
-            if (accept(r, StewartTrinkleRoute::lemke, out)) return;
+            if (accept(r, Route::lemke, out)) return;
+            if (residual(r, m_.newton.u).judged() <= kTarget * std::max(tolerance_, enough)) return;
         }
     }
 
@@ -335,6 +346,7 @@ class StewartTrinkle {
     double tolerance_;
     StewartTrinkleMemory<System>& m_;
     Load load_;
+    double residual_ = std::numeric_limits<double>::infinity();  ///< of what was tried last
 };
 
 }  // namespace dihaptic::contact

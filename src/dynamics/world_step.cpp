@@ -266,6 +266,8 @@ contact::SolveStats World::Impl::solve_batch(double h) {
                                                 collision->dispatcher());
     square_root_factors(false);
     stats.residual = problem.judge(batch_contacts);
+    stats.missed = !(stats.residual <= contact::kTolerance);
+    stats.route = contact::Route::sequential_impulse;
     return stats;
 }
 

@@ -47,9 +47,7 @@ void run(const Trial& trial, int steps, const Watch& watch) {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
     world.setGravity(to_bullet(trial.scene.gravity));
-    // our World, in the same program, changes it
-    constexpr double kBulletsDefault = 0.02;
-    gContactBreakingThreshold = kBulletsDefault;
+    gContactBreakingThreshold = kBulletBreakingThreshold;
     std::vector<Body> bodies;
     for (const scene::Body& body : trial.scene.bodies) {
         bodies.push_back(make_body(body));

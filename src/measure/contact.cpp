@@ -45,6 +45,7 @@ ContactFigures measure(const contact::DelassusProblem& problem, contact::Solver 
     out.residual = contact::natural_map_residual(problem, r);
     out.iterations = stats.iterations;
     out.fallback = stats.fallback;
+    out.route = std::string(enum_name(stats.route));
     if (solver == contact::Solver::stewart_trinkle) out.lcp_residual = detail.lcp_residual;
     return out;
 }
@@ -139,6 +140,7 @@ std::string to_json(const std::vector<ContactFigures>& figures) {
                                                                 {"us", f.us},
                                                                 {"iterations", f.iterations},
                                                                 {"fallback", f.fallback}});
+        if (!f.route.empty()) row["route"] = f.route;
         if (f.lcp_residual) row["lcp_residual"] = *f.lcp_residual;
     }
     return out.dump(2) + "\n";
@@ -151,13 +153,13 @@ std::string to_table(const std::vector<ContactFigures>& figures) {
     };
     for (const ContactFigures& f : figures) width = std::max(width, stem(f).size());
     std::string out =
-        fmt::format("{:{}s}  contacts  {:21s}  residual       LCP          us  iterations\n",
+        fmt::format("{:{}s}  contacts  {:21s}  residual       LCP          us  iterations  route\n",
                     "file", width, "solver");
     for (const ContactFigures& f : figures) {
-        out += fmt::format("{:{}s}  {:8d}  {:21s}  {:8.1e}  {:>8s} {:11.1f}  {:10d}{}\n", stem(f),
-                           width, f.contacts, f.solver, f.residual,
+        out += fmt::format("{:{}s}  {:8d}  {:21s}  {:8.1e}  {:>8s} {:11.1f}  {:10d}  {}{}\n",
+                           stem(f), width, f.contacts, f.solver, f.residual,
                            f.lcp_residual ? fmt::format("{:8.1e}", *f.lcp_residual) : "-", f.us,
-                           f.iterations, f.fallback ? "  fallback" : "");
+                           f.iterations, f.route, f.fallback ? ", fallback" : "");
     }
     return out;
 }

@@ -28,6 +28,7 @@ struct ContactFigures {
     std::optional<double> lcp_residual;  ///< stewart_trinkle: of its own problem
     double us = 0;                       ///< the best of several runs
     int iterations = 0;
+    std::string route;  ///< what found the answer: a contact::Route; none of peers
     bool fallback = false;
 };
 

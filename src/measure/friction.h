@@ -15,12 +15,15 @@ struct FrictionFigures {
     double drift_mm = 0;
     double accel_error = 0;
     double direction_error_deg = 0;
-    double stack_drift_mm = 0;
-    std::optional<double> cards_drift_mm;  ///< nothing: it fell
-    int cards_storeys = 0;                 ///< of the highest house that stands; 0: fewer than two
-    std::optional<double> arch_drift_mm;   ///< nothing: it fell
-    std::optional<double> pinch_mm;        ///< nothing: it fell
-    std::optional<double> creep_mm;        ///< nothing: a peer, which has no fingers
+    double stack_drift_mm = 0;               ///< from the pose drawn
+    double stack_settled_mm = 0;             ///< from the pose after a second
+    std::optional<double> cards_drift_mm;    ///< nothing: it fell
+    std::optional<double> cards_settled_mm;  ///< the same
+    int cards_storeys = 0;                  ///< of the highest house that stands; 0: fewer than two
+    std::optional<double> arch_drift_mm;    ///< nothing: it fell
+    std::optional<double> arch_settled_mm;  ///< the same
+    std::optional<double> pinch_mm;         ///< nothing: it fell
+    std::optional<double> creep_mm;         ///< nothing: a peer, which has no fingers
 };
 
 /// All figures of one solver.

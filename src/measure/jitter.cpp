@@ -117,8 +117,11 @@ JitterFigures bench_jitter(const BenchSetup& base, double whole, bool view,
     return figures;
 }
 
-std::string to_json(const JitterFigures& f) {
-    using Json = nlohmann::ordered_json;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json as_json(const JitterFigures& f) {
     const auto spread_json = [](const Spread& s) {
         return Json{{"median", s.median}, {"p99", s.p99}, {"p999", s.p999}, {"max", s.max}};
     };
@@ -141,7 +144,96 @@ std::string to_json(const JitterFigures& f) {
     out["view_hz"] = f.pictures > 0 ? Json(f.pictures) : Json();
     out["overruns_without_view"] = f.pictures > 0 ? Json(f.quiet_overruns) : Json();
     out["refused"] = f.refused.empty() ? Json() : Json(f.refused);
+    return out;
+}
+
+/// Median, least and most of one figure of several runs.
+struct OfRuns {
+    double median = 0;
+    double least = 0;
+    double most = 0;
+};
+template <class Of>
+OfRuns of_runs(const JitterRuns& all, const Of& of) {
+    std::vector<double> values;
+    for (const JitterFigures& f : all.runs) values.push_back(static_cast<double>(of(f)));
+    std::sort(values.begin(), values.end());
+    const size_t middle = values.size() / 2;
+    const double median =
+        values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+    return {median, values.front(), values.back()};
+}
+
+double overruns(const JitterFigures& f) {
+    return static_cast<double>(f.overruns);
+}
+double cyclictest_late(const JitterFigures& f) {
+    return static_cast<double>(f.cyclictest_late());
+}
+double p999_ratio(const JitterFigures& f) {
+    return f.p999_ratio();
+}
+double tick_p99_share(const JitterFigures& f) {
+    return f.tick.p99 / f.period();
+}
+
+}  // namespace
+
+std::string to_json(const JitterFigures& f) {
+    return as_json(f).dump(2) + "\n";
+}
+
+int JitterRuns::within_bar() const {
+    return static_cast<int>(std::count_if(runs.begin(), runs.end(), [](const JitterFigures& f) {
+        return f.overruns <= f.cyclictest_late();
+    }));
+}
+
+std::string to_json(const JitterRuns& all) {
+    const auto spread_json = [&](double (*of)(const JitterFigures&)) {
+        const OfRuns s = of_runs(all, of);
+        return Json{{"median", s.median}, {"least", s.least}, {"most", s.most}};
+    };
+    Json out;
+    out["runs"] = Json::array();
+    for (const JitterFigures& f : all.runs) out["runs"].push_back(as_json(f));
+    out["lateness_p999_ratio"] = spread_json(p999_ratio);
+    out["overruns"] = spread_json(overruns);
+    out["cyclictest_late"] = spread_json(cyclictest_late);
+    out["tick_p99_share"] = spread_json(tick_p99_share);
+    out["within_bar"] = all.within_bar();
     return out.dump(2) + "\n";
+}
+
+std::string to_table(const JitterRuns& all) {
+    const JitterFigures& first = all.runs.front();
+    std::string out = fmt::format(
+        "{} of {:g} s at {:g} Hz{}\n\n"
+        "run      overruns  cyclictest's  p99.9 over cyclictest's  tick's p99, % of the period\n",
+        counted(static_cast<int64_t>(all.runs.size()), "run"), first.seconds, first.rate,
+        first.extra > 0 ? fmt::format(", {} awake on the table", counted(first.extra, "more block"))
+                        : "");
+    const auto row = [&](const std::string& name, double ours, double theirs, double ratio,
+                         double share) {
+        out += fmt::format("{:7s} {:9.0f} {:13.0f} {:24.2f} {:28.1f}\n", name, ours, theirs, ratio,
+                           100 * share);
+    };
+    for (size_t i = 0; i < all.runs.size(); ++i) {
+        const JitterFigures& f = all.runs[i];
+        row(std::to_string(i + 1), overruns(f), cyclictest_late(f), f.p999_ratio(),
+            tick_p99_share(f));
+    }
+    const OfRuns ours = of_runs(all, overruns);
+    const OfRuns theirs = of_runs(all, cyclictest_late);
+    const OfRuns ratio = of_runs(all, p999_ratio);
+    const OfRuns share = of_runs(all, tick_p99_share);
+    row("least", ours.least, theirs.least, ratio.least, share.least);
+    row("median", ours.median, theirs.median, ratio.median, share.median);
+    row("most", ours.most, theirs.most, ratio.most, share.most);
+    if (!first.no_cyclictest.empty()) return out + "no peer: " + first.no_cyclictest + "\n";
+    return out +
+           fmt::format("bar: no more overruns than cyclictest's, in each run: met in {} of {}\n",
+                       all.within_bar(), all.runs.size());
 }
 
 std::string to_table(const JitterFigures& f) {

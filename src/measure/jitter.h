@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "measure/cyclictest.h"
 #include "measure/grasp.h"
@@ -49,5 +50,16 @@ JitterFigures bench_jitter(const BenchSetup& setup, double seconds, bool view,
 
 std::string to_json(const JitterFigures& figures);
 std::string to_table(const JitterFigures& figures);
+
+/// Several runs: how a figure of one spreads over them, and the bar that it is held against.
+struct JitterRuns {
+    std::vector<JitterFigures> runs;
+
+    /// Runs with no more overruns than cyclictest would have had.
+    int within_bar() const;
+};
+std::string to_json(const JitterRuns& runs);
+/// A row for each run, then what they have in common.
+std::string to_table(const JitterRuns& runs);
 
 }  // namespace dihaptic::measure

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/bench_log.h"
+#include "measure/simulator.h"
 
 namespace dihaptic::measure {
 namespace {
@@ -43,6 +44,7 @@ double measure_bullet(const BenchSetup& setup, const HandleTrace& trace) {
     btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
     const auto vector = [](const Vec3& v) { return btVector3(v.x(), v.y(), v.z()); };
     world.setGravity(vector(scene.gravity));
+    gContactBreakingThreshold = kBulletBreakingThreshold;
     btContactSolverInfo& info = world.getSolverInfo();
     const dynamics::Settings& settings = setup.settings.dynamics;
     info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
@@ -137,7 +139,9 @@ std::string to_json(const std::vector<ScaleFigures>& figures) {
         out["tick"].push_back({{"extra", f.extra},
                                {"awake", cost(f.awake)},
                                {"asleep", cost(f.asleep)},
-                               {"bullet_us", f.bullet_us}});
+                               {"bullet_us", f.bullet_us},
+                               {"most_us", f.most_us()},
+                               {"within_bar", f.within_bar()}});
     }
     return out.dump(2) + "\n";
 }
@@ -145,14 +149,17 @@ std::string to_json(const std::vector<ScaleFigures>& figures) {
 std::string to_table(const std::vector<ScaleFigures>& figures) {
     std::string out =
         "extra        awake, us               asleep, us          bare Bullet\n"
-        "blocks  median    p99     max   median    p99     max   median, us   awake/bare\n";
+        "blocks  median    p99     max   median    p99     max   median, us   awake/bare   bar, "
+        "us\n";
     for (const ScaleFigures& f : figures) {
         out += fmt::format(
-            "{:6d} {:7.1f} {:7.1f} {:7.0f}  {:7.1f} {:7.1f} {:7.0f} {:11.1f} {:12.2f}\n", f.extra,
-            f.awake.median_us, f.awake.p99_us, f.awake.max_us, f.asleep.median_us, f.asleep.p99_us,
-            f.asleep.max_us, f.bullet_us, f.awake.median_us / f.bullet_us);
+            "{:6d} {:7.1f} {:7.1f} {:7.0f}  {:7.1f} {:7.1f} {:7.0f} {:11.1f} {:12.2f} {:9.1f}{}\n",
+            f.extra, f.awake.median_us, f.awake.p99_us, f.awake.max_us, f.asleep.median_us,
+            f.asleep.p99_us, f.asleep.max_us, f.bullet_us, f.awake.median_us / f.bullet_us,
+            f.most_us(), f.within_bar() ? "" : "  missed");
     }
-    return out;
+    return out + fmt::format("bar: an awake median up to {} times the bare step and {} us\n",
+                             ScaleFigures::kMostTimes, ScaleFigures::kMostMore);
 }
 
 }  // namespace dihaptic::measure

@@ -19,6 +19,12 @@ struct ScaleFigures {
     Cost awake;
     Cost asleep;
     double bullet_us = 0;  ///< median bare Bullet step of the same world, nothing asleep
+
+    /// The bar: what else a tick does may take so much on top of a bare step.
+    static constexpr double kMostTimes = 1.3;
+    static constexpr double kMostMore = 10;  ///< [us]
+    double most_us() const { return kMostTimes * bullet_us + kMostMore; }
+    bool within_bar() const { return awake.median_us <= most_us(); }
 };
 
 /// The whole tick, recording included, over the script of `bench grasp`.

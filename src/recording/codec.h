@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,10 +31,19 @@ enum class Bodies { changed, all };
 size_t encode(const servo::Frame& frame, std::span<std::byte> out,
               Bodies bodies = Bodies::changed) noexcept;
 
-/// Reads a frame onto the one before it; false when the bytes are no frame of this layout.
-bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame);
+/// Fields that an older log does not have, each as its line of the schema.
+using MissingFields = std::set<std::string>;
+
+/// Reads a frame onto the one before it; false when the bytes are no frame of this layout. Fields
+/// that are missing stay as they are.
+bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame,
+            const MissingFields& missing = {});
 
 /// Names, types and units of all fields, a line each: logs of another version are told apart by it.
 std::string schema();
+
+/// What a log with this schema lacks of our fields. nullopt: it has others, or in another order,
+/// and cannot be read.
+std::optional<MissingFields> missing_fields(const std::string& recorded_schema);
 
 }  // namespace dihaptic::recording

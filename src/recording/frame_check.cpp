@@ -38,7 +38,8 @@ bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
     return frame.sequence >= 0 && frame.sequence < kMostTicks && frame.time >= Time{0} &&
            frame.time < kLongest && frame.trial >= 0 && frame.phase >= -1 &&
            names<haptics::CouplingKind>(frame.coupling) && names<haptics::ProxyKind>(frame.proxy) &&
-           names<contact::Solver>(frame.solver) && is_possible(frame.task, layout.bodies, all) &&
+           names<contact::Solver>(frame.solver) && names<contact::Route>(frame.solver_route) &&
+           is_possible(frame.task, layout.bodies, all) &&
            std::all_of(frame.contacts.begin(), frame.contacts.end(),
                        [&](const servo::ContactFrame& contact) {
                            const bool both = contact.a >= 0 && contact.b >= 0;

@@ -133,11 +133,14 @@ void RawLogReader::read_head() {
     const Node text =
         parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
     const Node* recorded = text.find("schema");
-    if (recorded == nullptr || recorded->scalar != schema()) {
+    const std::optional<MissingFields> missing =
+        recorded == nullptr ? std::nullopt : missing_fields(recorded->scalar);
+    if (!missing) {
         throw Error({file_, 0}, "",
                     "was written by another version of Dihaptic, whose frames differ",
                     "Read it with that version; session.yaml names it.");
     }
+    missing_ = *missing;
     Node fields = text;
     std::erase_if(fields.entries, [](const auto& entry) { return entry.key == "schema"; });
     Diagnostics diagnostics;
@@ -246,7 +249,7 @@ bool RawLogReader::read_frame() {
     uint32_t length = 0;
     if (rest_.size() >= sizeof(length)) std::memcpy(&length, rest_.data(), sizeof(length));
     const bool fits = rest_.size() >= sizeof(length) + length;
-    if (!fits || !decode(rest_.subspan(sizeof(length), length), layout_, frame_) ||
+    if (!fits || !decode(rest_.subspan(sizeof(length), length), layout_, frame_, missing_) ||
         !is_possible(frame_, layout_)) {
         health_.note(Stray::Kind::no_frame, 1, static_cast<int64_t>(rest_.size()));
         rest_ = {};

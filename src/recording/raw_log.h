@@ -114,6 +114,7 @@ class RawLogReader {
     ChunkReader chunks_;
     LogHead head_;
     Layout layout_;
+    MissingFields missing_;
     std::span<const std::byte> rest_;  // of the chunk's records
     bool ended_ = false;
     servo::Frame frame_;

@@ -91,9 +91,10 @@ StatusText describe(Status bit) {
         case kStopped:
             return {"the operator switched force off", ""};
         case kSolverMissed:
-            return {"no contact solver reached its tolerance, and the best answer was used",
-                    "look at what the objects do in these ticks; report the session's folder as a "
-                    "bug"};
+            return {"the contact solver missed its tolerance, and the best answer was used",
+                    "nothing with sequential_impulse, which ends near the answer, or in a heap; "
+                    "otherwise look at what the objects do in these ticks, and report the "
+                    "session's folder as a bug"};
     }
     return {};
 }

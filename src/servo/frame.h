@@ -171,6 +171,7 @@ struct Frame {
     int32_t solver = 0;         ///< that was asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;         ///< 1: another solver than that answered
+    int32_t solver_route = 0;            ///< by what means: index into contact::Route
     double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|
     double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
@@ -204,6 +205,7 @@ struct Frame {
         v("solver", f.solver, "1");
         v("solver_iterations", f.solver_iterations, "1");
         v("solver_fallback", f.solver_fallback, "1");
+        v("solver_route", f.solver_route, "1");
         v("solver_residual", f.solver_residual, "1");
         v("lateness", f.lateness, "s");
         v("tick_duration", f.tick_duration, "s");

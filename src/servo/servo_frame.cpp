@@ -97,6 +97,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.solver_iterations = world_.solve_stats().iterations;
     frame_.solver_residual = world_.solve_stats().residual;
     frame_.solver_fallback = world_.solve_stats().fallback;
+    frame_.solver_route = static_cast<int32_t>(world_.solve_stats().route);
     for (size_t i = 0; i < fingers_.size(); ++i) {
         FingerFrame& out = frame_.fingers[i];
         const dynamics::BodyState& proxy = world_.state(fingers_[i].proxy());

@@ -118,10 +118,12 @@ TEST(BlockLuTest, AChainFillsNothing) {
 TEST(PolygonTest, ProjectsToItsNearestPoint) {
     Random random(3, "polygon");
     for (int trial = 0; trial < 300; ++trial) {
-        const Polygon polygon{4 + trial % 9, random.uniform(-4, 4)};
+        const double angle = random.uniform(-4, 4);
+        Polygon<2> polygon{4 + trial % 9};
+        polygon.turn_to({std::cos(angle), std::sin(angle)});
         const double radius = random.uniform(0.1, 2);
         const Eigen::Vector2d x(random.uniform(-3, 3), random.uniform(-3, 3));
-        const Polygon::Projection on = polygon.project(x, radius);
+        const auto on = polygon.project(x, radius);
         double nearest = std::numeric_limits<double>::infinity();
         bool inside = true;
         for (int i = 0; i < polygon.directions; ++i) {
@@ -141,6 +143,62 @@ TEST(PolygonTest, ProjectsToItsNearestPoint) {
     }
 }
 
+TEST(PolygonTest, WithTorsionProjectsToItsNearestPoint) {
+    Random random(5, "pyramid");
+    const auto vector = [&](double size) {
+        return Vec3(random.uniform(-size, size), random.uniform(-size, size),
+                    random.uniform(-size, size));
+    };
+    int facets = 0;
+    int edges = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        Polygon<3> polygon{4 + trial % 9};
+        polygon.turn_to(vector(1));
+        EXPECT_LT((polygon.axes.transpose() * polygon.axes - Mat3::Identity()).norm(), 1e-12);
+        const double radius = random.uniform(0.1, 2);
+        const Vec3 x = vector(3);
+        const auto on = polygon.project(x, radius);
+        // a convex body's nearest point, and only that: none of it lies beyond the plane there
+        double beyond = 0;
+        for (int i = 0; i < polygon.count(); ++i) {
+            beyond = std::max(beyond, (x - on.point).dot(radius * polygon.direction(i) - on.point));
+        }
+        EXPECT_LT(beyond, 1e-12);
+        // and it is of the body: a sum of its vertices
+        const auto in = polygon.sector(on.point);
+        const Vec3 shares = in.inverse * on.point / radius;
+        EXPECT_GT(shares.minCoeff(), -1e-12);
+        EXPECT_LT(shares.sum(), 1 + 1e-12);
+        EXPECT_NEAR(polygon.support(x), (polygon.sector(x).vertices.transpose() * x).maxCoeff(),
+                    1e-12);
+        if (on.inside) continue;
+        facets += on.along.trace() > 1.5;
+        edges += on.along.trace() > 0.5 && on.along.trace() < 1.5;
+        const double step = 1e-7;
+        const Vec3 further = polygon.project(x, radius + step).point;
+        EXPECT_LT(((further - on.point) / step - on.per_radius).norm(), 1e-5);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Vec3 moved = polygon.project(x + step * Vec3::Unit(axis), radius).point;
+            EXPECT_LT(((moved - on.point) / step - on.along.col(axis)).norm(), 1e-5);
+        }
+    }
+    EXPECT_GT(facets, 50);
+    EXPECT_GT(edges, 50);
+}
+
+TEST(PolygonTest, SupportIsItsLargestReach) {
+    Random random(6, "support");
+    for (int trial = 0; trial < 200; ++trial) {
+        Polygon<3> polygon{4 + trial % 9};
+        polygon.turn_to(Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.1));
+        const Vec3 x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        double most = 0;
+        for (int i = 0; i < polygon.count(); ++i)
+            most = std::max(most, polygon.direction(i).dot(x));
+        EXPECT_NEAR(polygon.support(x), most, 1e-12);
+    }
+}
+
 TEST(AndersonTest, SolvesALinearIterationInAsManyStepsAsItHasUnknowns) {
     const Eigen::Matrix3d A{{0.9, 0.05, 0}, {0.02, 0.8, 0.1}, {0, 0.3, 0.6}};
     const Eigen::Vector3d b(1, 2, 3);
@@ -157,34 +215,40 @@ TEST(AndersonTest, SolvesALinearIterationInAsManyStepsAsItHasUnknowns) {
 }
 
 /// G and c of a law against differences of its equation: (I + G W) d = -c must be Newton's step.
-template <class Law>
+template <int D, class Law>
 void check_linearisation(const Law& law, uint64_t seed) {
+    using Vec = Eigen::Matrix<double, D, 1>;
+    using Tangent = Eigen::Matrix<double, D - 1, 1>;
+    using Square = Eigen::Matrix<double, D, D>;
     Random random(seed, "law");
     for (int trial = 0; trial < 500; ++trial) {
         const Scale scale{random.uniform(0.1, 1.5), random.uniform(0.5, 2), random.uniform(0.5, 2)};
         const double rho = std::pow(10, random.uniform(-3, 0));
-        Vec3 r(random.uniform(-0.5, 2), random.uniform(-1, 1), random.uniform(-1, 1));
-        Vec3 u(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        const auto phi = [&](const Vec3& at_r, const Vec3& at_u) {
+        Vec r;
+        Vec u;
+        r[0] = random.uniform(-0.5, 2);
+        for (int i = 1; i < D; ++i) r[i] = random.uniform(-1, 1);
+        for (int i = 0; i < D; ++i) u[i] = random.uniform(-1, 1);
+        const auto phi = [&](const Vec& at_r, const Vec& at_u) {
             const double g = std::max(0.0, at_r[0] - scale.a_n * at_u[0]);
-            Vec3 out;
+            Vec out;
             out[0] = at_r[0] - g;
-            const Eigen::Vector2d z = at_r.tail<2>() - scale.a_t * at_u.tail<2>();
-            out.tail<2>() = at_r.tail<2>() - law.project_tangent(z, scale.mu * g);
+            const Tangent z = at_r.template tail<D - 1>() - scale.a_t * at_u.template tail<D - 1>();
+            out.template tail<D - 1>() =
+                at_r.template tail<D - 1>() - law.project_tangent(z, scale.mu * g);
             return out;
         };
-        Mat3 A;
-        Mat3 B;
+        Square A;
+        Square B;
         const double step = 1e-7;
-        for (int i = 0; i < 3; ++i) {
-            A.col(i) =
-                (phi(r, u + step * Vec3::Unit(i)) - phi(r, u - step * Vec3::Unit(i))) / (2 * step);
-            B.col(i) =
-                (phi(r + step * Vec3::Unit(i), u) - phi(r - step * Vec3::Unit(i), u)) / (2 * step);
+        for (int i = 0; i < D; ++i) {
+            const Vec d = step * Vec::Unit(i);
+            A.col(i) = (phi(r, u + d) - phi(r, u - d)) / (2 * step);
+            B.col(i) = (phi(r + d, u) - phi(r - d, u)) / (2 * step);
         }
-        Linearised<3> l;
-        law.law.template linearise<3>(scale, r, u, rho, l, 0);
-        const Mat3 K = (B + rho * A).inverse();
+        Linearised<D> l;
+        law.law.template linearise<D>(scale, r, u, rho, l, 0);
+        const Square K = (B + rho * A).inverse();
         EXPECT_LT((l.G - K * A).norm(), 1e-4 * (1 + l.G.norm())) << trial;
         EXPECT_LT((l.c - K * phi(r, u)).norm(), 1e-4 * (1 + l.c.norm())) << trial;
     }
@@ -197,18 +261,31 @@ TEST(Law, CoulombsLinearisationIsItsDerivative) {
             return z.norm() <= radius ? z : Eigen::Vector2d(radius * z.normalized());
         }
     } cone;
-    check_linearisation(cone, 1);
+    check_linearisation<3>(cone, 1);
 }
 
 TEST(Law, ThePolygonsLinearisationIsItsDerivative) {
-    const Polygon polygon{8, 0.3};
+    Polygon<2> polygon{8};
+    polygon.turn_to({std::cos(0.3), std::sin(0.3)});
     struct {
-        law::Polygonal law;
+        law::Polygonal<2> law;
         Eigen::Vector2d project_tangent(const Eigen::Vector2d& z, double radius) const {
             return law.polygon[0].project(z, radius).point;
         }
     } of_polygon{{std::span(&polygon, 1)}};
-    check_linearisation(of_polygon, 2);
+    check_linearisation<3>(of_polygon, 2);
+}
+
+TEST(Law, ThePolygonsLinearisationWithTorsionIsItsDerivative) {
+    Polygon<3> polygon{8};
+    polygon.turn_to({0.3, 0.8, -0.4});
+    struct {
+        law::Polygonal<3> law;
+        Vec3 project_tangent(const Vec3& z, double radius) const {
+            return law.polygon[0].project(z, radius).point;
+        }
+    } of_pyramid{{std::span(&polygon, 1)}};
+    check_linearisation<4>(of_pyramid, 3);
 }
 
 TEST(StewartTrinkleTest, LemkeAloneSolvesGrasps) {
@@ -227,7 +304,7 @@ TEST(StewartTrinkleTest, LemkeAloneSolvesGrasps) {
         const StewartTrinkleOutcome out = method.solve_by_lemke(r);
         if (!out.converged) continue;
         ++solved;
-        EXPECT_EQ(out.route, StewartTrinkleRoute::lemke);
+        EXPECT_EQ(out.route, Route::lemke);
         EXPECT_LE(out.lcp_residual, kTolerance);
     }
     EXPECT_GE(solved, 48);

@@ -75,6 +75,78 @@ TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
     }
 }
 
+TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
+    // nothing is aligned: the fall line is 15 degrees off the first of four directions
+    const double slope = 30 * kDegree;
+    const Vec3 fall(std::cos(slope), 0, -std::sin(slope));
+    ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
+    for (ProblemContact& contact : problem.contacts) {
+        const Vec3 normal = contact.R_WC.col(0);
+        contact.R_WC.col(1) = Eigen::AngleAxisd(15 * kDegree, normal) * fall;
+        contact.R_WC.col(2) = normal.cross(contact.R_WC.col(1));
+    }
+    const auto off_fall_line = [&](DirectionFrame frame) {
+        const Answer a = answer(Solver::stewart_trinkle, problem, {4, frame});
+        EXPECT_EQ(a.stats.route, Route::own_newton);
+        const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
+        return std::atan2(v.cross(fall).norm(), v.dot(fall)) / kDegree;
+    };
+    // a little of friction across keeps sliding at 45 degrees, where two directions are as good
+    EXPECT_NEAR(off_fall_line(DirectionFrame::fixed), 30, 1e-4);
+    EXPECT_LT(off_fall_line(DirectionFrame::sliding), 1e-5);
+}
+
+TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
+    // turned polygons end at Coulomb's law; fixed ones at their own problem's answer, torsion or
+    // not
+    Random random(9, "random problems");
+    for (const DirectionFrame frame : {DirectionFrame::fixed, DirectionFrame::sliding}) {
+        for (const double radius : {0.0, 0.005}) {
+            int own = 0;
+            for (int i = 0; i < 200; ++i) {
+                const ContactProblem problem =
+                    random_problem(random, 1 + i % 4, 1 + i % 10, radius);
+                const Answer a = answer(Solver::stewart_trinkle, problem, {8, frame});
+                if (a.stats.fallback) continue;
+                EXPECT_TRUE(a.stats.route == Route::start || a.stats.route == Route::own_newton ||
+                            a.stats.route == Route::lemke);
+                EXPECT_LE(a.detail.lcp_residual, 1e-8);
+                if (frame == DirectionFrame::sliding) {
+                    EXPECT_LE(natural_map_residual(problem, a.r), 2e-8) << i;
+                }
+                ++own;
+            }
+            // where polygons turn, a few in a hundred go round in circles, more with torsion
+            const bool hard = frame == DirectionFrame::sliding && radius > 0;
+            EXPECT_GE(own, hard ? 190 : 195)
+                << static_cast<int>(frame) << ", torsion radius " << radius;
+        }
+    }
+}
+
+TEST(Routes, AreTold) {
+    const ContactProblem slides = block_on_plane(tilted(30 * kDegree, 0.3), 0.5);
+    EXPECT_EQ(answer(Solver::newton, slides).stats.route, Route::newton);
+    EXPECT_EQ(answer(Solver::stewart_trinkle, slides).stats.route, Route::own_newton);
+    EXPECT_EQ(answer(Solver::staggered_projections, slides).stats.route,
+              Route::staggered_projections);
+    ContactProblem parts = block_on_plane(Vec3::UnitZ(), 0.5);
+    parts.bodies[0].v_W = Vec3(0, 0, 1);
+    EXPECT_EQ(answer(Solver::newton, parts).stats.route, Route::start);
+    EXPECT_EQ(answer(Solver::newton, {}).stats.route, Route::none);
+
+    SolveStats all;
+    SolveStats other;
+    all.route = Route::start;
+    other.route = Route::lemke;
+    all.join(other);
+    EXPECT_EQ(all.route, Route::lemke);
+    other.route = Route::newton;
+    other.fallback = true;
+    all.join(other);
+    EXPECT_EQ(all.route, Route::newton);
+}
+
 /// A block between two pads that press with 5 N each along x, carrying its weight.
 ContactProblem pinch(double mu, double press, double torsion_radius, double torque) {
     const double h = 1e-3;
@@ -390,9 +462,11 @@ TEST(Polygon, HasADirectionBeforeAnything) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
     for (const int n : {4, 8, kMostDirections}) {
-        for (const double angle : {0.0, 1.0, -7.0, 1e300, nan, infinite}) {
+        for (const double along : {0.0, 1.0, -7.0, 1e300, nan, infinite}) {
+            Polygon<2> polygon{n};
+            polygon.turn_to({1.0, along});
             for (const double x : {0.0, 1.0, -1e-300, 1e300, nan, infinite, -infinite}) {
-                const int before = Polygon{n, angle}.before({x, -x});
+                const int before = polygon.sector({x, -x}).index[0];
                 EXPECT_GE(before, 0);
                 EXPECT_LT(before, n);
             }

@@ -89,6 +89,49 @@ TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
     }
 }
 
+TEST(Codec, ReadsFramesFromBeforeAFieldWasAdded) {
+    const std::string field = "solver_route int32 1";
+    const std::string whole = schema();
+    std::string older = whole;
+    older.erase(older.find(field), field.size() + 1);
+    const std::optional<MissingFields> missing = missing_fields(older);
+    ASSERT_TRUE(missing);
+    EXPECT_EQ(*missing, MissingFields{field});
+    EXPECT_EQ(missing_fields(whole), MissingFields{});
+
+    // where the field stands is where the bytes differ
+    servo::Frame in = frame(5);
+    std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
+    bytes.resize(encode(in, bytes));
+    in.solver_route = 3;
+    std::vector<std::byte> other(bytes.size());
+    encode(in, other);
+    const auto at = std::mismatch(bytes.begin(), bytes.end(), other.begin()).first;
+    bytes.erase(at, at + sizeof(in.solver_route));
+    servo::Frame out;
+    EXPECT_FALSE(decode(bytes, head().layout(), out));
+    out = {};
+    ASSERT_TRUE(decode(bytes, head().layout(), out, *missing));
+    EXPECT_EQ(out.solver_route, 0);
+    EXPECT_EQ(out.sequence, 5);
+    EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
+    EXPECT_EQ(out.contacts.size(), 2u);
+}
+
+TEST(Codec, DoesNotReadFramesThatDifferOtherwise) {
+    const std::string ours = schema();
+    const auto without = [&](const std::string& line) {
+        std::string out = ours;
+        return out.erase(out.find(line), line.size() + 1);
+    };
+    EXPECT_FALSE(missing_fields(ours + "colour int32 1\n"));
+    EXPECT_FALSE(missing_fields(without("  force_sent float64[3] N")));
+    std::string renamed = ours;
+    renamed.replace(renamed.find("grip_force"), 10, "grip_farce");
+    EXPECT_FALSE(missing_fields(renamed));
+    EXPECT_FALSE(missing_fields(""));
+}
+
 /// Reads a log to its end; returns the number of frames, each checked to be the next.
 int64_t count(RawLogReader& reader) {
     int64_t n = 0;

@@ -1,0 +1,50 @@
+// A hundred thousand problems of bodies thrown together, from zero impulses: what no solver's
+// starts were chosen on. How often each hands over, and how often all of them miss.
+#include <gtest/gtest.h>
+
+#include "contact/test/problems.h"
+
+namespace dihaptic::contact {
+namespace {
+
+struct Case {
+    Solver solver;
+    bool torsion;
+};
+
+class Problems : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Soak, Problems,
+                         ::testing::Values(Case{Solver::newton, false}, Case{Solver::newton, true},
+                                           Case{Solver::staggered_projections, false},
+                                           Case{Solver::stewart_trinkle, false},
+                                           Case{Solver::stewart_trinkle, true}),
+                         [](const auto& of) {
+                             return std::string(enum_names(
+                                        Solver{})[static_cast<size_t>(of.param.solver)]) +
+                                    (of.param.torsion ? "_torsion" : "");
+                         });
+
+TEST_P(Problems, AreAnswered) {
+    constexpr int kProblems = 100'000;
+    Random random(2012, "thrown together");
+    ContactSolvers solvers;
+    solvers.reserve(6, 24, true);
+    int fallbacks = 0;
+    int missed = 0;
+    std::vector<Impulse> r;
+    for (int i = 0; i < kProblems; ++i) {
+        const ContactProblem problem =
+            testing::random_problem(random, 1 + i % 6, 1 + i % 24, GetParam().torsion ? 0.005 : 0);
+        r.assign(problem.contacts.size(), Impulse::Zero());
+        SolveStats stats;
+        ASSERT_TRUE(solvers.solve(GetParam().solver, {}, problem, r, stats));
+        fallbacks += stats.fallback;
+        missed += stats.missed;
+    }
+    std::printf("%d problems: %d fallbacks, %d missed\n", kProblems, fallbacks, missed);
+    EXPECT_LE(fallbacks, kProblems / (GetParam().solver == Solver::newton ? 1000 : 100));
+    EXPECT_LE(missed, kProblems / 10'000);
+}
+
+}  // namespace
+}  // namespace dihaptic::contact
