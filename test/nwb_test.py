@@ -4,6 +4,8 @@ Usage: nwb_test.py PROGRAM, from the project's folder.
 """
 import datetime
 import glob
+import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -12,6 +14,13 @@ import unittest
 import h5py
 import numpy as np
 
+STUDY = """study:
+  experimenters: ["Doe, J.", "Roe, R."]
+  institution: University
+  lab: Hands
+  keywords: [grip, load]
+"""
+
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 
 
@@ -19,7 +28,10 @@ class Nwb(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        subprocess.run([PROGRAM, "run", "experiments/lift-block.yaml", "--out", cls.folder.name, "--participant", "S07",
+        experiment = pathlib.Path(cls.folder.name, "lift-block.yaml")
+        experiment.write_text(pathlib.Path("experiments/lift-block.yaml").read_text().replace("../", os.getcwd() + "/").replace(
+            "title: ", "title: Lift, hold; ", 1) + STUDY)
+        subprocess.run([PROGRAM, "run", str(experiment), "--out", cls.folder.name, "--participant", "S07",
                         "--set", "coupling.stiffness_N_m=900"], check=True, capture_output=True)
         (name,) = glob.glob(cls.folder.name + "/*/session.nwb")
         cls.file = h5py.File(name, "r")
@@ -119,9 +131,43 @@ class Nwb(unittest.TestCase):
         self.assertEqual(rows["coupling.stiffness_N_m"], ("900", "command line"))
         self.assertEqual(rows["rate_Hz"], ("1000", "default"))
 
+    def test_text_is_text_and_counts_are_whole_numbers(self):
+        trials = self.file["intervals/trials"]
+        self.assertEqual(trials["experiment"].asstr()[0], self.text("session_description"))
+        self.assertIn(",", trials["experiment"].asstr()[0])
+        self.assertNotIn('"', trials["experiment"].asstr()[0])
+        for name in ["trial_num", "session_num", "block_num"]:
+            self.assertTrue(np.issubdtype(trials[name].dtype, np.integer), name)
+        for name in ["trial", "phase", "status", "sequence", "solver", "marker", "thumb_buttons", "block_awake"]:
+            self.assertTrue(np.issubdtype(self.file[f"acquisition/{name}/data"].dtype, np.integer), name)
+
+    def test_codes_are_explained(self):
+        for name, meaning in {"phase": "3: hold", "status": "2: a force or a torque was cut", "solver": "3: newton", "coupling": "0: implicit",
+                              "outcome": "-1: none", "message": "-1: none", "thumb_status": "2: a force or a torque was cut"}.items():
+            self.assertIn(meaning, self.file["acquisition/" + name].attrs["description"], name)
+
+    def test_axes_are_those_of_the_data(self):
+        for finger in ["thumb", "index"]:
+            device = self.file[f"acquisition/{finger}_device_position"]
+            self.assertTrue(device["reference_frame"].asstr()[()].startswith("Device:"))
+            handle = self.file[f"acquisition/{finger}_handle_position"]
+            self.assertTrue(handle["reference_frame"].asstr()[()].startswith("World:"))
+            self.assertFalse(np.allclose(device["data"][100], handle["data"][100], atol=1e-3))
+            self.assertIn("device's axes", self.file[f"acquisition/{finger}_device_velocity"].attrs["description"])
+            self.assertIn("world's axes", self.file[f"acquisition/{finger}_force_sent"].attrs["description"])
+
+    def test_who_did_it_and_where(self):
+        general = self.file["general"]
+        self.assertEqual(list(general["experimenter"].asstr()), ["Doe, J.", "Roe, R."])
+        self.assertEqual(self.text("general/institution"), "University")
+        self.assertEqual(self.text("general/lab"), "Hands")
+        self.assertEqual(list(general["keywords"].asstr()), ["grip", "load"])
+
     def test_subject_and_devices(self):
         self.assertEqual(self.text("general/subject/subject_id"), "S07")
-        self.assertEqual(self.text("general/subject/species"), "Homo sapiens")
+        # a script is nobody of any species
+        self.assertNotIn("species", self.file["general/subject"])
+        self.assertTrue(self.text("general/subject/description").startswith("Simulated: the file's script moved the hand."))
         self.assertIn("premium", self.file["general/devices/thumb"].attrs["description"])
 
 

@@ -2,13 +2,8 @@
 
 #include <filesystem>
 
-#include "analysis/recovery.h"
-#include "base/field_reader.h"
-#include "base/plural.h"
-#include "base/regular_file.h"
 #include "command.h"
-#include "person/person.h"
-#include "recording/raw_log.h"
+#include "session/resume.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -21,32 +16,18 @@ struct Options {
 };
 
 void resume(const Options& options) {
-    const auto folder = recording::SessionFolder::open(options.session);
-    Diagnostics ignored;  // recovering says it
-    const recording::RawLogReader log(folder.raw_log());
-    if (folder.read_info(log.head(), ignored).state == recording::SessionState::running) {
-        const analysis::Recovery recovery = analysis::recover_session(folder, {});
-        print(recovery.warnings);
-    }
-    recording::SessionInfo info;
-    experiment::Plan plan = experiment::make_rest(options.session, info);
-    if (const std::string person = folder.file("person.yaml"); is_there(person)) {
-        Diagnostics diagnostics;
-        person::Traits traits;
-        read_fields(traits, read_yaml(person), diagnostics);
-        diagnostics.throw_if_errors();
-        person::sit_down(plan, traits);
-    }
-    fmt::print("goes on with {}: {} done\n", folder.path(),
-               counted(static_cast<int64_t>(plan.done.size()), "attempt"));
+    const session::Rest rest = session::rest_of(options.session, experiment::Seat::terminal, {});
+    const recording::SessionInfo& info = rest.before;
+    print(rest.warnings);
+    fmt::print("{}", rest.describe());
     experiment::RunOptions run;
     run.clock = info.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
     run.command = command_line();
     run.sync = options.sync;
     run.participant = info.participant;
-    const std::string parent = std::filesystem::path(folder.path()).parent_path().string();
+    const std::string parent = std::filesystem::path(rest.plan.resumes).parent_path().string();
     run.out = !options.out.empty() ? options.out : parent.empty() ? "." : parent;
-    run_plan(plan, run);
+    run_plan(rest.plan, run);
 }
 
 }  // namespace
@@ -61,7 +42,9 @@ void add_resume(CLI::App& app) {
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(
         "\nFinished trials stay; the one that was interrupted is done again. The new session's\n"
-        "trials.csv has all of them.\n"
+        "trials.csv has all of them. What moved the hand moves it again: a person at devices, the "
+        "file's\nscript, a simulated person. Trials done by mouse go on in the window (dihaptic "
+        "gui).\n"
         "\nExample:\n"
         "  dihaptic resume sessions/2026-01-31_093000_visuomotor-rotation_S07");
     command->callback([options] { resume(*options); });

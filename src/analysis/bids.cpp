@@ -1,21 +1,15 @@
 #include "analysis/bids.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <vector>
 
+#include "analysis/bids/data_set.h"
+#include "analysis/bids/events.h"
+#include "analysis/bids/motion.h"
 #include "base/regular_file.h"
-#include "base/table.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
 
@@ -23,118 +17,8 @@ namespace dihaptic::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-struct Channel {
-    std::string name;
-    std::string component;  ///< x, y, z, quat_x, ...; n/a
-    std::string type;       ///< as Motion-BIDS has them; forces are MISC
-    std::string point;      ///< that is tracked
-    std::string unit;
-    std::function<double(const servo::Frame&, size_t finger)> value;
-};
-
-/// Of a finger, in world axes.
-std::vector<Channel> channels_of(const std::string& finger) {
-    std::vector<Channel> out;
-    const auto vector = [&](const std::string& what, const std::string& type,
-                            const std::string& unit, Vec3 servo::FingerFrame::*field) {
-        for (int i = 0; i < 3; ++i) {
-            const std::string axis(1, "xyz"[i]);
-            out.push_back({fmt::format("{}_{}_{}", finger, what, axis),
-                           type == "MISC" ? "n/a" : axis, type,
-                           what.starts_with("proxy") ? finger + "_proxy" : finger, unit,
-                           [field, i](const servo::Frame& frame, size_t f) {
-                               return (frame.fingers[f].*field)[i];
-                           }});
-        }
-    };
-    vector("position", "POS", "m", &servo::FingerFrame::p_WH);
-    vector("velocity", "VEL", "m/s", &servo::FingerFrame::v_WH);
-    vector("proxy_position", "POS", "m", &servo::FingerFrame::p_WP);
-    vector("force_sent", "MISC", "N", &servo::FingerFrame::f_sent_W);
-    vector("contact_force", "MISC", "N", &servo::FingerFrame::f_contact_W);
-    out.push_back({finger + "_latency", "n/a", "LATENCY", "n/a", "s",
-                   [](const servo::Frame& frame, size_t) { return seconds(frame.time); }});
-    return out;
-}
-
-/// Labels of BIDS have letters and digits only.
-std::string label(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0) out += c;
-    }
-    return out.empty() ? "unnamed" : out;
-}
-
-/// A cell of a TSV, which has no quotes.
-std::string tsv(std::string text) {
-    if (text.empty()) return "n/a";
-    for (char& c : text) {
-        if (c == '\t' || c == '\n' || c == '\r') c = ' ';
-    }
-    return text;
-}
-
-std::string lines(const std::vector<std::vector<std::string>>& rows) {
-    std::string out;
-    for (const auto& row : rows) {
-        for (size_t i = 0; i < row.size(); ++i) out += (i > 0 ? "\t" : "") + tsv(row[i]);
-        out += "\n";
-    }
-    return out;
-}
-
-std::vector<std::vector<std::string>> read_tsv(const std::string& file) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream in(read_text_file(file, kMostTable));
-    for (std::string line; std::getline(in, line);) {
-        std::vector<std::string>& row = rows.emplace_back();
-        for (size_t at = 0; at <= line.size();) {
-            const size_t end = std::min(line.find('\t', at), line.size());
-            row.push_back(line.substr(at, end - at));
-            at = end + 1;
-        }
-    }
-    return rows;
-}
-
-enum class Known { stays, replaced };
-
-/// Adds a row to a table, made with its header when it is not there.
-void add_row(const std::string& file, const std::vector<std::string>& header,
-             const std::vector<std::string>& row, Known known) {
-    auto rows = is_there(file) ? read_tsv(file) : std::vector<std::vector<std::string>>{header};
-    const auto same = [&](const auto& r) { return !r.empty() && r[0] == row[0]; };
-    const auto found = std::find_if(rows.begin(), rows.end(), same);
-    if (found == rows.end()) {
-        rows.push_back(row);
-    } else if (known == Known::stays) {
-        return;
-    } else {
-        *found = row;
-    }
-    write_file(lines(rows), file);
-}
-
-/// One export at a time gives a data set's runs their numbers, and adds rows to its tables.
-class DataSetLock {
-  public:
-    explicit DataSetLock(const std::string& folder)
-        : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-        // a file system without locks has none to wait for
-        if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
-    }
-    ~DataSetLock() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    DataSetLock(const DataSetLock&) = delete;
-    DataSetLock& operator=(const DataSetLock&) = delete;
-
-  private:
-    int descriptor_;
-};
+using bids::label;
+using bids::TrackingSystem;
 
 /// A folder for files in the making: what a killed export left there goes with the next one.
 class Staging {
@@ -166,36 +50,45 @@ class Exporter {
     Exporter(const recording::SessionFolder& session, const std::string& data_set)
         : session_(session),
           info_(session.read_info()),
-          data_set_(data_set),
-          subject_("sub-" + label(info_.participant.id.empty() ? "unknown" : info_.participant.id)),
-          task_(label(fs::path(info_.experiment).stem().string())),
-          folder_((fs::path(data_set) / subject_ / "motion").string()) {
+          folder_of_set_(data_set),
+          data_set_(data_set, session_, info_),
+          task_(fs::path(info_.experiment).stem().string()),
+          folder_((fs::path(data_set) / data_set_.subject() / "motion").string()) {
         if (info_.state == recording::SessionState::running) {
             throw Error({session.file("session.yaml"), 0}, "", "the session has not ended",
                         "If it was killed, run: dihaptic recover " + session.path());
+        }
+        if (!is_there(session.raw_log()) && is_there(session.file("trials.csv"))) {
+            throw Error({session.path(), 0}, "", "has no recording any more, only tables",
+                        "Rehearse with --keep-recordings to have one.");
         }
     }
 
     Exported run(const std::function<void(double)>& progress) {
         recording::RawLogReader log(session_.raw_log());
         session_.check_log(info_, log.head());
-        fingers_ = log.head().fingers;
         tick_ = log.head().tick;
-        if (fingers_.empty()) {
+        if (log.head().fingers.empty()) {
             throw Error({session_.raw_log(), 0}, "", "has no finger, whose motion it would be",
                         "Give another session.");
         }
+        systems_ = bids::tracking_systems(session_, info_, log.head());
+        data_set_.check();  // before the work
         const Staging staging(folder_);
         making_ = staging.path();
         write_motion(log, progress);
-        for (size_t f = 0; f < fingers_.size(); ++f) {
-            write_channels(fingers_[f], channels_[f]);
-            write_description(fingers_[f], channels_[f]);
+        for (const TrackingSystem& system : systems_) {
+            write_file(bids::channels_tsv(system, tick_), making(system, "channels.tsv"));
+            write_file(bids::channels_json(), making(system, "channels.json"));
+            write_file(bids::motion_json(system, task_, info_, tick_, ticks_),
+                       making(system, "motion.json"));
         }
         const bool events = write_events();
-        const DataSetLock lock(data_set_);
-        while (is_there(file(fingers_.front(), "motion.tsv"))) ++run_;
-        write_data_set();
+        const bids::Lock lock(folder_of_set_);
+        data_set_.check();
+        while (is_there(file(systems_.front(), "motion.tsv"))) ++run_;
+        check_task();
+        data_set_.add(recordings());
         give_names(events);
         Exported out{folder_, {}};
         if (log.health().damaged(info_.ticks))
@@ -204,41 +97,76 @@ class Exporter {
     }
 
   private:
-    std::string stem() const { return fmt::format("{}_task-{}", subject_, task_); }
-    std::string file(const std::string& finger, const std::string& what) const {
-        return fmt::format("{}/{}_tracksys-{}_run-{:02}_{}", folder_, stem(), label(finger), run_,
-                           what);
+    /// Of the run's files, in the subject's folder.
+    std::string stem() const {
+        return fmt::format("{}/{}_task-{}", folder_, data_set_.subject(), label(task_));
     }
-    std::string events_file() const {
-        return fmt::format("{}/{}_run-{:02}_events.tsv", folder_, stem(), run_);
+    std::string file(const TrackingSystem& system, const std::string& what) const {
+        return fmt::format("{}_tracksys-{}_run-{:02}_{}", stem(), label(system.name), run_, what);
+    }
+    std::string events_file(const char* extension) const {
+        return fmt::format("{}_run-{:02}_events.{}", stem(), run_, extension);
     }
     /// The same while it is made.
-    std::string making(const std::string& finger, const std::string& what) const {
-        return fmt::format("{}/{}_{}", making_, label(finger), what);
+    std::string making(const TrackingSystem& system, const std::string& what) const {
+        return fmt::format("{}/{}_{}", making_, label(system.name), what);
+    }
+    std::vector<std::string> recordings() const {
+        std::vector<std::string> out;
+        for (const TrackingSystem& system : systems_)
+            out.push_back("motion/" + fs::path(file(system, "motion.tsv")).filename().string());
+        return out;
     }
 
     void write_motion(recording::RawLogReader& log, const std::function<void(double)>& progress) {
         std::vector<std::ofstream> out;
-        for (const std::string& finger : fingers_) {
-            out.emplace_back(making(finger, "motion.tsv"));
-            channels_.push_back(channels_of(finger));
-        }
+        for (const TrackingSystem& system : systems_)
+            out.emplace_back(making(system, "motion.tsv"));
         std::string line;
         while (const servo::Frame* frame = log.next()) {
-            for (size_t f = 0; f < fingers_.size(); ++f) {
+            for (size_t i = 0; i < systems_.size(); ++i) {
                 line.clear();
-                for (const Channel& channel : channels_[f])
+                for (const bids::Channel& channel : systems_[i].channels)
                     fmt::format_to(std::back_inserter(line), "{}{:.9g}", line.empty() ? "" : "\t",
-                                   channel.value(*frame, f));
-                out[f] << line << '\n';
+                                   channel.value(*frame));
+                out[i] << line << '\n';
             }
             if (++ticks_ % 5000 == 0 && progress) progress(log.share());
         }
-        for (size_t f = 0; f < fingers_.size(); ++f) {
-            out[f].close();
-            if (out[f]) continue;
-            throw Error({file(fingers_[f], "motion.tsv"), 0}, "", "cannot be written",
+        for (size_t i = 0; i < systems_.size(); ++i) {
+            out[i].close();
+            if (out[i]) continue;
+            throw Error({file(systems_[i], "motion.tsv"), 0}, "", "cannot be written",
                         "Check the folder's permissions and the disk's space.");
+        }
+    }
+
+    /// Of all tracking systems, on their common time; false without any.
+    bool write_events() const {
+        const auto events = bids::events_of(session_, info_);
+        if (!events) return false;
+        write_file(bids::to_tsv(events->rows), making_ + "/events.tsv");
+        write_file(events->json, making_ + "/events.json");
+        return true;
+    }
+
+    /// Tasks whose labels are the same would be taken for runs of one.
+    void check_task() const {
+        for (int run = 1; run < run_; ++run) {
+            const std::string there = fmt::format("{}_tracksys-{}_run-{:02}_motion.json", stem(),
+                                                  label(systems_.front().name), run);
+            if (!is_there(there)) continue;
+            const auto json = nlohmann::json::parse(read_text_file(there), nullptr, false);
+            const std::string name =
+                json.is_object() && json.contains("TaskName") && json["TaskName"].is_string()
+                    ? json["TaskName"].get<std::string>()
+                    : "";
+            // earlier programs wrote the label
+            if (name.empty() || name == task_ || name == label(task_)) continue;
+            throw Error({there, 0}, "TaskName",
+                        fmt::format("is {}, and {} would have the same label in file names: {}",
+                                    name, task_, label(task_)),
+                        "Name another folder, or rename the experiment's file before the session.");
         }
     }
 
@@ -251,99 +179,26 @@ class Exporter {
             throw Error({to, 0}, "", "cannot be written: " + failed.message(),
                         "Check the folder's permissions and the disk's space.");
         };
-        if (events) name(making_ + "/events.tsv", events_file());
-        for (size_t f = fingers_.size(); f-- > 0;) {
+        for (const char* extension : {"tsv", "json"}) {
+            if (events)
+                name(fmt::format("{}/events.{}", making_, extension), events_file(extension));
+        }
+        for (size_t i = systems_.size(); i-- > 0;) {
             for (const char* what : {"channels.tsv", "channels.json", "motion.json", "motion.tsv"})
-                name(making(fingers_[f], what), file(fingers_[f], what));
-        }
-    }
-
-    void write_channels(const std::string& finger, const std::vector<Channel>& channels) {
-        std::vector<std::vector<std::string>> rows{{"name", "component", "type", "tracked_point",
-                                                    "units", "sampling_frequency",
-                                                    "reference_frame"}};
-        for (const Channel& c : channels)
-            rows.push_back({c.name, c.component, c.type, c.point, c.unit,
-                            fmt::format("{:g}", 1 / tick_), "global"});
-        write_file(lines(rows), making(finger, "channels.tsv"));
-        const Json levels{
-            {"reference_frame",
-             {{"Levels",
-               {{"global",
-                 {{"SpatialAxes", "RAS"},
-                  {"RotationRule", "right-hand"},
-                  {"RotationOrder", "n/a"},
-                  {"Description", "x to the right, y away from the person, z up"}}}}}}}};
-        write_file(levels.dump(2) + "\n", making(finger, "channels.json"));
-    }
-
-    void write_description(const std::string& finger, const std::vector<Channel>& channels) {
-        std::map<std::string, int> counts;
-        for (const Channel& c : channels) ++counts[c.type];
-        std::string model = "unknown";
-        for (const recording::DeviceRecord& device : info_.devices) {
-            if (device.finger == finger) model = device.model;
-        }
-        Json json{{"TaskName", task_},
-                  {"TaskDescription", info_.title},
-                  {"SamplingFrequency", 1 / tick_},
-                  {"TrackingSystemName", label(finger)},
-                  {"ManufacturersModelName", model},
-                  {"SoftwareVersions", info_.program},
-                  {"MotionChannelCount", channels.size()},
-                  {"TrackedPointsCount", 2},
-                  {"RecordingType", "continuous"},
-                  {"RecordingDuration", static_cast<double>(ticks_) * tick_}};
-        for (const auto& [type, count] : counts) json[type + "ChannelCount"] = count;
-        write_file(json.dump(2) + "\n", making(finger, "motion.json"));
-    }
-
-    /// Of all tracking systems, on their common time; false without any.
-    bool write_events() {
-        const std::string events = session_.file("events.csv");
-        if (!is_there(events)) return false;
-        const CsvFile csv(events);
-        std::vector<std::vector<std::string>> rows{
-            {"onset", "duration", "trial_type", "trial", "value"}};
-        for (size_t i = 0; i < csv.rows(); ++i)
-            rows.push_back({csv.text(i, "time_s"), "n/a", csv.text(i, "event"),
-                            csv.text(i, "trial"), csv.text(i, "detail")});
-        write_file(lines(rows), making_ + "/events.tsv");
-        return true;
-    }
-
-    void write_data_set() {
-        const auto top = [&](const char* name) { return (fs::path(data_set_) / name).string(); };
-        if (!is_there(top("dataset_description.json"))) {
-            const Json json{{"Name", info_.title},
-                            {"BIDSVersion", "1.9.0"},
-                            {"DatasetType", "raw"},
-                            {"GeneratedBy", Json::array({{{"Name", info_.program}}})}};
-            write_file(json.dump(2) + "\n", top("dataset_description.json"));
-        }
-        const recording::Participant& p = info_.participant;
-        add_row(top("participants.tsv"), {"participant_id", "age", "sex", "handedness"},
-                {subject_, p.age, p.sex, p.handedness}, Known::stays);
-        const std::string scans =
-            (fs::path(data_set_) / subject_ / (subject_ + "_scans.tsv")).string();
-        for (const std::string& finger : fingers_) {
-            const std::string name = fs::path(file(finger, "motion.tsv")).filename().string();
-            add_row(scans, {"filename", "acq_time"},
-                    {"motion/" + name, info_.started.substr(0, 19)}, Known::replaced);
+                name(making(systems_[i], what), file(systems_[i], what));
         }
     }
 
     const recording::SessionFolder& session_;
     recording::SessionInfo info_;
-    std::string data_set_;
-    std::string subject_;
-    std::string task_;
-    std::string folder_;
+    std::string folder_of_set_;
+    bids::DataSet data_set_;
+    std::string task_;    // name
+    std::string folder_;  // of motion
     std::string making_;  // folder of files in the making
     int run_ = 1;
-    std::vector<std::string> fingers_;
-    std::vector<std::vector<Channel>> channels_;  // by finger
-    double tick_ = 1e-3;                          // [s]
+    std::vector<TrackingSystem> systems_;
+    double tick_ = 1e-3;  // [s]
     int64_t ticks_ = 0;
 };
 

@@ -158,7 +158,8 @@ Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_
     return dataset(parent, name, H5T_NATIVE_INT64, list(values.size()), values.data());
 }
 
-Rows::Rows(hid_t parent, const std::string& name, size_t columns) : columns_(columns) {
+Rows::Rows(hid_t parent, const std::string& name, size_t columns, Numbers numbers)
+    : columns_(columns) {
     const int rank = columns == 1 ? 1 : 2;
     const hsize_t none[2] = {0, columns};
     const hsize_t most[2] = {H5S_UNLIMITED, columns};
@@ -168,8 +169,8 @@ Rows::Rows(hid_t parent, const std::string& name, size_t columns) : columns_(col
     check(H5Pset_chunk(create, rank, chunk));
     check(H5Pset_shuffle(create));
     check(H5Pset_deflate(create, kDeflate));
-    dataset_ = Id(H5Dcreate2(parent, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, create,
-                             H5P_DEFAULT));
+    const hid_t type = numbers == Numbers::whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
+    dataset_ = Id(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT));
     buffer_.reserve(kChunkRows * columns);
 }
 

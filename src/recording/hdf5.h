@@ -57,10 +57,12 @@ Id write_dataset(hid_t parent, const std::string& name, double value);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<double>& values);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_t>& values);
 
+enum class Numbers { real, whole };  ///< double, or 64-bit integers
+
 /// A compressed dataset of rows that grows as they are added. One column: one-dimensional.
 class Rows {
   public:
-    Rows(hid_t parent, const std::string& name, size_t columns);
+    Rows(hid_t parent, const std::string& name, size_t columns, Numbers numbers = Numbers::real);
 
     void add(const double* row);
     /// Writes what is buffered; call it before the file is closed.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <optional>
 #include <random>
 
+#include "recording/codes.h"
 #include "recording/hdf5.h"
 #include "recording/raw_log.h"
 
@@ -55,20 +57,19 @@ std::string nwb_unit(const std::string& unit) {
 /// One series of a tick's values.
 class Series {
   public:
+    /// `frame`: whose axes positions are in; "": it is no position.
     Series(hid_t acquisition, const std::string& name, size_t columns, const std::string& unit,
-           const std::string& description, bool spatial)
-        : group_(create_group(acquisition, name)), rows_(group_, "data", columns) {
-        mark(group_, spatial ? "SpatialSeries" : "TimeSeries");
+           const std::string& description, const std::string& frame,
+           hdf5::Numbers numbers = hdf5::Numbers::real)
+        : group_(create_group(acquisition, name)), rows_(group_, "data", columns, numbers) {
+        mark(group_, frame.empty() ? "TimeSeries" : "SpatialSeries");
         write_attribute(group_, "description", description);
         write_attribute(group_, "comments", "no comments");
         write_attribute(rows_.dataset(), "unit", nwb_unit(unit));
         write_attribute(rows_.dataset(), "conversion", 1.0F);
         write_attribute(rows_.dataset(), "offset", 0.0F);
         write_attribute(rows_.dataset(), "resolution", -1.0F);
-        if (spatial) {
-            write_dataset(group_, "reference_frame",
-                          "World: x right, y away from the person, z up; origin on the table top.");
-        }
+        if (!frame.empty()) write_dataset(group_, "reference_frame", frame);
     }
     void add(const double* row) { rows_.add(row); }
     void close(double tick, const std::vector<double>* times) {
@@ -136,13 +137,14 @@ class FrameExporter {
     template <class T>
     void operator()(const char* name, const T& value, const char* unit) {
         if constexpr (std::is_same_v<T, Vec3>) {
-            put(name, value.data(), 3, unit);
+            put(name, value.data(), 3, unit, hdf5::Numbers::real);
         } else if constexpr (std::is_same_v<T, Quat>) {
             const double wxyz[4] = {value.w(), value.x(), value.y(), value.z()};
-            put(name, wxyz, 4, unit);
+            put(name, wxyz, 4, unit, hdf5::Numbers::real);
         } else if constexpr (!std::is_same_v<T, Time>) {
             const auto number = static_cast<double>(value);
-            put(name, &number, 1, unit);
+            constexpr bool whole = std::is_integral_v<T>;
+            put(name, &number, 1, unit, whole ? hdf5::Numbers::whole : hdf5::Numbers::real);
         }
     }
     void each(const char*, const std::vector<servo::FingerFrame>& fingers) {
@@ -179,7 +181,7 @@ class FrameExporter {
                                                      name, maker.names.substr(2));
                 found = lists_
                             .emplace(name, List{Series(acquisition_, fmt::format("task_{}", name),
-                                                       maker.row.size(), "n/a", what, false),
+                                                       maker.row.size(), "n/a", what, ""),
                                                 {}})
                             .first;
             }
@@ -209,8 +211,8 @@ class FrameExporter {
                                   "order, then the fingers), "
                                   "points, centre of pressure x y z [m], normal x y z from a to b, "
                                   "smallest gap [m], "
-                                  "normal force [N], force on b x y z [N].",
-                                  false);
+                                  "normal force [N], force on b x y z [N]. In the world's axes.",
+                                  "");
             }
             contacts_->add(row);
             contact_times_.push_back(times_.back());
@@ -218,20 +220,33 @@ class FrameExporter {
     }
 
   private:
-    void put(const std::string& name, const double* value, size_t columns, const char* unit) {
+    void put(const std::string& name, const double* value, size_t columns, const char* unit,
+             hdf5::Numbers numbers) {
         if (next_ == series_.size()) {
-            const std::string full = prefix_ + name;
             const bool spatial = columns == 3 && name.ends_with("position");
-            const std::string order = columns == 4 ? " Columns: w, x, y, z." : "";
-            series_.emplace_back(acquisition_, full, columns, unit, describe(name) + order,
-                                 spatial);
+            series_.emplace_back(acquisition_, prefix_ + name, columns, unit,
+                                 describe(name, columns), spatial ? frame_of(name) : "", numbers);
         }
         series_[next_++].add(value);
     }
-    std::string describe(const std::string& name) const {
+    /// In whose axes a field is: its name begins with what it is of.
+    static std::string frame_of(const std::string& name) {
+        if (name.starts_with("device_")) {
+            return "Device: its own axes, from its own origin; general/devices and the rig in the "
+                   "session's folder say where that stands in the world.";
+        }
+        return "World: x right, y away from the person, z up; origin on the table top.";
+    }
+    std::string describe(const std::string& name, size_t columns) const {
         std::string words = prefix_.empty() ? name : prefix_ + name;
         for (char& c : words) c = c == '_' ? ' ' : c;
-        return words + ", every tick of the servo.";
+        words += ", every tick of the servo.";
+        if (columns > 1)
+            words +=
+                name.starts_with("device_") ? " In the device's axes." : " In the world's axes.";
+        if (columns == 4) words += " Columns: w, x, y, z.";
+        const std::string codes = codes_of(name, head_);
+        return codes.empty() ? words : words + " " + codes + ".";
     }
 
     hid_t acquisition_;
@@ -251,6 +266,27 @@ class FrameExporter {
     std::vector<double> contact_times_;
 };
 
+/// Columns that count or number something.
+bool is_whole(const std::string& column) {
+    return column == "trial" || column == "attempt" || column == "slips" ||
+           column.ends_with("_num") || column == "trial_num_in_block";
+}
+
+Id write_column(hid_t group, const std::string& name, const Table& table, size_t c) {
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    for (const auto& row : table.rows) {
+        const double* const number = std::get_if<double>(&row[c]);
+        if (number != nullptr) numbers.push_back(*number);
+        texts.push_back(number != nullptr ? to_csv(row[c]) : std::get<std::string>(row[c]));
+    }
+    if (numbers.size() < table.rows.size()) return write_dataset(group, name, texts);
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!is_whole(name) || !std::all_of(numbers.begin(), numbers.end(), finite))
+        return write_dataset(group, name, numbers);
+    return write_dataset(group, name, std::vector<int64_t>(numbers.begin(), numbers.end()));
+}
+
 /// A DynamicTable (or TimeIntervals) from a table; columns whose cells are all numbers are numeric.
 void write_dynamic_table(hid_t parent, const std::string& name, const Table& table,
                          const std::string& type, const std::string& space,
@@ -266,24 +302,25 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     const Id id = write_dataset(group, "id", ids);
     mark(id, "ElementIdentifiers", "hdmf-common");
     for (size_t c = 0; c < table.columns.size(); ++c) {
-        std::vector<double> numbers;
-        std::vector<std::string> texts;
-        for (const auto& row : table.rows) {
-            if (const double* number = std::get_if<double>(&row[c])) numbers.push_back(*number);
-            texts.push_back(to_csv(row[c]));
-        }
-        const Id column = numbers.size() == table.rows.size()
-                              ? write_dataset(group, names[c], numbers)
-                              : write_dataset(group, names[c], texts);
+        const Id column = write_column(group, names[c], table, c);
         mark(column, "VectorData", "hdmf-common");
         write_attribute(column, "description", table.columns[c].description);
     }
+}
+
+/// As far as it is known.
+void write_study(hid_t general, const Study& study) {
+    if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
+    if (!study.institution.empty()) write_dataset(general, "institution", study.institution);
+    if (!study.lab.empty()) write_dataset(general, "lab", study.lab);
+    if (!study.keywords.empty()) write_dataset(general, "keywords", study.keywords);
 }
 
 void write_general(hid_t file, const SessionInfo& info) {
     const Id general = create_group(file, "general");
     write_dataset(general, "session_id", info.title);
     write_dataset(general, "experiment_description", info.title);
+    write_study(general, info.study);
     if (!info.notes.empty()) {
         std::string notes;
         for (const std::string& note : info.notes) notes += note + "\n";
@@ -293,7 +330,9 @@ void write_general(hid_t file, const SessionInfo& info) {
     mark(subject, "Subject");
     write_dataset(subject, "subject_id",
                   info.participant.id.empty() ? "unknown" : info.participant.id);
-    write_dataset(subject, "species", "Homo sapiens");
+    write_dataset(subject, "description", info.moved_by.describe());
+    // only a person has one
+    if (info.moved_by.person()) write_dataset(subject, "species", "Homo sapiens");
     write_dataset(subject, "sex", info.participant.sex.empty() ? "U" : info.participant.sex);
     if (!info.participant.age.empty()) {
         const Id age = write_dataset(subject, "age", "P" + info.participant.age + "Y");

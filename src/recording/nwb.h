@@ -5,10 +5,12 @@
 //   acquisition/<finger>_force_sent, _force_asked, ...      TimeSeries [time, 3], newtons
 //   acquisition/<body>_position, <body>_orientation, ...    TimeSeries
 //   acquisition/grip_force, load_force, status, phase, ...  TimeSeries [time]
-//   acquisition/contacts                                    TimeSeries [contact, 14], a row a
-//   contact intervals/trials, phases, events                        TimeIntervals general/subject,
-//   general/devices scratch/settings                                        settings with their
-//   origins
+//   acquisition/contacts                                    TimeSeries [contact, 14]
+//   intervals/trials, phases, events                        TimeIntervals
+//   general/subject, general/devices
+//   scratch/settings                                        settings, each with its origin
+//
+// The schema is not within it (/specifications): readers use their own copy of that version.
 #pragma once
 
 #include <functional>

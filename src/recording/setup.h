@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "recording/moved_by.h"
+#include "recording/study.h"
 
 namespace dihaptic::recording {
 
@@ -74,6 +76,8 @@ struct Setup {
     std::string clock;       ///< virtual or real
     std::string seed;        ///< of everything random
     std::string object;      ///< the body that summaries are about
+    MovedBy moved_by;        ///< the hand
+    Study study;
     std::vector<DeviceRecord> devices;
     std::vector<PhaseInfo> phases;      ///< of every trial
     std::vector<std::string> outcomes;  ///< of trials, as frames count them
@@ -91,6 +95,8 @@ struct Setup {
         v("clock", clock);
         v("seed", seed);
         v("object", object);
+        v("moved_by", moved_by);
+        v("study", study);
         v("devices", devices);
         v("phases", phases);
         v("outcomes", outcomes);

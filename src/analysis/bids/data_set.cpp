@@ -1,0 +1,238 @@
+#include "analysis/bids/data_set.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "analysis/bids/motion.h"
+#include "analysis/bids/tsv.h"
+#include "base/regular_file.h"
+#include "base/text_file.h"
+
+namespace dihaptic::analysis::bids {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+constexpr const char* kSimulated = "Simulated";  // of dataset_description.json: true or false
+
+/// What dataset_description.json says of who is in the data set; unset: it says nothing, as those
+/// of earlier programs and of others.
+std::optional<bool> says_simulated(const std::string& file) {
+    const Json json = Json::parse(read_text_file(file), nullptr, false);
+    if (json.is_discarded() || !json.is_object()) {
+        throw Error({file, 0}, "", "is no JSON object", "Mend it, or name another folder.");
+    }
+    if (!json.contains(kSimulated) || !json[kSimulated].is_boolean()) return std::nullopt;
+    return json[kSimulated].get<bool>();
+}
+
+std::string readme(const recording::SessionInfo& info, bool simulated) {
+    const std::string who =
+        simulated
+            ? "THIS DATA SET IS A SIMULATION. No person took part in it: the hand was moved by a\n"
+              "simulated person, a script or a recorded movement, as the column moved_by of\n"
+              "participants.tsv says.\n"
+            : "Persons took part in it, at force-feedback devices, or by mouse at simulated ones, "
+              "as\n"
+              "the column moved_by of participants.tsv says.\n";
+    return info.title + "\n\n" + who +
+           "\nEach run has the motion of each finger as a tracking system of its own: the device's "
+           "handle,\n"
+           "the finger in the virtual world (proxy), the force on the handle and the force of what "
+           "is\n"
+           "touched. The tracking system `objects` has the virtual objects that can move. All are "
+           "in the\n"
+           "world's axes: x to the right, y away from the person, z up, origin on the table top; "
+           "in SI\n"
+           "units. Rows without a recording after damage are left out: the LATENCY column has each "
+           "row's\n"
+           "time.\n"
+           "\nevents.tsv has a row for each attempt at a trial (trial_type `trial`), with its "
+           "block,\n"
+           "condition, perturbation, outcome and measures, and a row for each moment: phases, "
+           "touches,\n"
+           "messages, markers, outcomes. events.json says what each column is.\n"
+           "\nAuthors, licence and funding stand in dataset_description.json as far as they are "
+           "known:\n"
+           "complete them before you share the data.\n"
+           "\nMade by " +
+           info.program + " with `dihaptic export`.\n";
+}
+
+const Json kParticipantColumns{
+    {"participant_id", {{"Description", "label of the participant"}}},
+    {"participant", {{"Description", "identifier in the recorded sessions"}}},
+    {"age", {{"Description", "of the participant"}, {"Units", "years"}}},
+    {"sex",
+     {{"Description", "as told"},
+      {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}, {"U", "not told"}}}}},
+    {"handedness",
+     {{"Description", "as told"},
+      {"Levels", {{"right", "right-handed"}, {"left", "left-handed"}, {"both", "ambidextrous"}}}}},
+    {"simulated",
+     {{"Description", "whether no person took part"},
+      {"Levels", {{"yes", "no person took part"}, {"no", "a person did"}}}}},
+    {"moved_by",
+     {{"Description", "what moved the hand; several, with commas, in different runs"},
+      {"Levels",
+       {{"devices", "a person held the devices"},
+        {"mouse", "a person moved simulated devices by mouse"},
+        {"recorded_movement", "a recording pulled the fingers of simulated devices"},
+        {"script", "a script moved simulated devices"},
+        {"simulated_person", "a model of a person moved simulated devices"}}}}},
+    {"program", {{"Description", "that simulated the person"}}},
+    {"population", {{"Description", "that the simulated person was drawn from"}}},
+    {"seed", {{"Description", "by which it was drawn"}}}};
+
+/// Of a list in one cell, with commas.
+std::string with(const std::string& list, const std::string& item) {
+    if (list.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos)
+        return list.empty() ? item : list;
+    return list + "," + item;
+}
+
+}  // namespace
+
+Lock::Lock(const std::string& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    // a file system without locks has none to wait for
+    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+}
+
+Lock::~Lock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+DataSet::DataSet(std::string folder, const recording::SessionFolder& session,
+                 const recording::SessionInfo& info)
+    : folder_(std::move(folder)),
+      session_(session),
+      info_(info),
+      subject_("sub-" + label(info.participant.id.empty() ? "unknown" : info.participant.id)) {}
+
+std::string DataSet::scans() const {
+    return file(subject_ + "/" + subject_ + "_scans.tsv");
+}
+
+void DataSet::check() const {
+    check_kind();
+    check_participant();
+    check_recordings();
+}
+
+void DataSet::check_kind() const {
+    const std::string description = file("dataset_description.json");
+    if (!is_there(description)) return;
+    const std::optional<bool> there = says_simulated(description);
+    const bool simulated = info_.moved_by.simulated() == "yes";
+    if (there == simulated || (!there && !simulated)) return;
+    throw Error({description, 0}, kSimulated,
+                simulated
+                    ? "does not say that the data set is a simulation, and this session is one"
+                    : "says that the data set is a simulation, and this session is none",
+                "Name another folder: simulations and persons have data sets of their own.");
+}
+
+void DataSet::check_participant() const {
+    const std::string name = file("participants.tsv");
+    const Tsv people(name, "participant_id");
+    const auto same = [&](const char* column, const std::string& here, const char* what) {
+        const std::string there = people.text(subject_, column);
+        if (there.empty() || here.empty() || there == here) return;
+        throw Error(
+            {name, 0}, subject_,
+            fmt::format("is {} {} there, and {} here: they are not the same", what, there, here),
+            "Name another folder, or give one of them another identifier: labels of BIDS "
+            "have letters and digits only.");
+    };
+    same("participant", info_.participant.id, "participant");
+    same("population", info_.moved_by.population, "of population");
+    same("seed", info_.moved_by.seed, "of seed");
+}
+
+void DataSet::check_recordings() const {
+    const Tsv scans_table(scans(), "filename");
+    const std::string own = fs::path(session_.path()).filename().string();
+    for (size_t i = 0; i < scans_table.rows(); ++i) {
+        const std::string recording = scans_table.text(i, "filename");
+        if (scans_table.text(i, "session") != own || !is_there(file(subject_ + "/" + recording)))
+            continue;
+        throw Error({scans(), 0}, own, "is in the data set: " + recording,
+                    "Export another session, or take this one out of the data set first.");
+    }
+}
+
+void DataSet::describe() const {
+    const bool simulated = info_.moved_by.simulated() == "yes";
+    if (const std::string name = file("dataset_description.json"); !is_there(name)) {
+        const size_t blank = info_.program.find(' ');
+        Json json{{"Name", simulated ? "Simulation: " + info_.title : info_.title},
+                  {"BIDSVersion", "1.9.0"},
+                  {"DatasetType", "raw"},
+                  {"GeneratedBy", Json::array({{{"Name", info_.program.substr(0, blank)},
+                                                {"Version", blank == std::string::npos
+                                                                ? "unknown"
+                                                                : info_.program.substr(blank + 1)},
+                                                {"Description", info_.moved_by.describe()}}})}};
+        if (info_.moved_by.known()) json[kSimulated] = simulated;
+        if (!info_.study.experimenters.empty()) json["Authors"] = info_.study.experimenters;
+        if (!info_.study.keywords.empty()) json["Keywords"] = info_.study.keywords;
+        write_file(json.dump(2) + "\n", name);
+    }
+    if (!is_there(file("README")) && !is_there(file("README.md")))
+        write_file(readme(info_, simulated), file("README"));
+    if (!is_there(file("participants.json")))
+        write_file(kParticipantColumns.dump(2) + "\n", file("participants.json"));
+}
+
+void DataSet::add_participant() const {
+    Tsv people(file("participants.tsv"), "participant_id");
+    const recording::Participant& p = info_.participant;
+    const recording::MovedBy& by = info_.moved_by;
+    std::vector<std::string> columns{"participant_id", "age",       "sex",     "handedness",
+                                     "participant",    "simulated", "moved_by"};
+    Row row{subject_,
+            p.age,
+            p.sex,
+            p.handedness,
+            p.id,
+            by.simulated(),
+            with(people.text(subject_, "moved_by"), by.name())};
+    if (by.mover == recording::Mover::simulated_person) {
+        columns.insert(columns.end(), {"program", "population", "seed"});
+        row.insert(row.end(), {by.program, by.population, by.seed});
+    }
+    if (people.has(subject_)) {
+        // what the data set says of somebody is not taken back, only added to
+        for (size_t i = 1; i < columns.size(); ++i) {
+            const std::string there = people.text(subject_, columns[i]);
+            if (columns[i] != "moved_by" && !there.empty()) row[i] = there;
+        }
+    }
+    people.put(columns, row);
+    people.write();
+}
+
+void DataSet::add(const std::vector<std::string>& recordings) const {
+    describe();
+    add_participant();
+    Tsv table(scans(), "filename");
+    for (const std::string& name : recordings) {
+        table.put({"filename", "acq_time", "session", "simulated", "moved_by"},
+                  {name, info_.started.substr(0, 19), fs::path(session_.path()).filename().string(),
+                   info_.moved_by.simulated(), info_.moved_by.name()});
+    }
+    table.write();
+    const Json columns{{"session", {{"Description", "folder of the recorded session"}}},
+                       {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
+                       {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
+    const std::string json = file(subject_ + "/" + subject_ + "_scans.json");
+    if (!is_there(json)) write_file(columns.dump(2) + "\n", json);
+}
+
+}  // namespace dihaptic::analysis::bids

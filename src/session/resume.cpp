@@ -1,0 +1,138 @@
+#include "session/resume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "analysis/recovery.h"
+#include "base/field_reader.h"
+#include "base/plural.h"
+#include "base/regular_file.h"
+#include "base/table.h"
+#include "person/person.h"
+#include "recording/raw_log.h"
+
+namespace dihaptic::session {
+namespace {
+
+namespace fs = std::filesystem;
+using recording::Mover;
+using recording::SessionState;
+
+/// The simulated person of that session takes its place again, with what it is like; what it had
+/// learned is lost.
+void sit_down_again(experiment::Plan& plan, const recording::SessionFolder& folder) {
+    const std::string file = folder.file("person.yaml");
+    if (!is_there(file)) {
+        throw Error({file, 0}, "", "is gone: it said what the simulated person was like",
+                    "Put it back, or rehearse the experiment again.");
+    }
+    Diagnostics diagnostics;
+    person::Traits traits;
+    read_fields(traits, read_yaml(file), diagnostics);
+    diagnostics.throw_if_errors();
+    person::sit_down(plan, traits);
+}
+
+const char* who_goes_on(Mover mover) {
+    switch (mover) {
+        case Mover::devices:
+            return "a person holds the devices, as before";
+        case Mover::mouse:
+            return "a person moves the hand by mouse, as before";
+        case Mover::script:
+            return "the file's script moves the hand, as before";
+        case Mover::simulated_person:
+            return "the same simulated person moves the hand, as before; what it had learned is "
+                   "lost";
+        default:
+            return "";
+    }
+}
+
+size_t trials_done(const recording::SessionFolder& folder) {
+    if (!is_there(folder.file("trials.csv"))) return 0;
+    const CsvFile trials(folder.file("trials.csv"));
+    std::set<std::string> done;  // a trial may have several attempts
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        if (trials.text(i, "outcome") != "interrupted") done.insert(trials.text(i, "trial_num"));
+    }
+    return done.size();
+}
+
+/// Whether nobody records or recovers it at this moment.
+bool at_rest(const recording::SessionFolder& folder) {
+    try {
+        const recording::SessionLock lock(folder);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+/// The session, if its trials are not all done.
+std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
+                                     const recording::SessionInfo& info) {
+    if (!is_there(folder.file("task.yaml")) || info.state == SessionState::complete ||
+        !at_rest(folder))
+        return std::nullopt;
+    Unfinished out{folder.path(), info.started, trials_done(folder), 0, info.moved_by};
+    out.trials = CsvFile(folder.file("trial-list.csv")).rows();
+    if (out.done >= out.trials) return std::nullopt;
+    return out;
+}
+
+}  // namespace
+
+std::string Rest::describe() const {
+    return fmt::format("goes on with {}: {} done\n{}\n", plan.resumes,
+                       counted(static_cast<int64_t>(plan.done.size()), "attempt"),
+                       who_goes_on(plan.moved_by.mover));
+}
+
+Rest rest_of(const std::string& session, experiment::Seat seat,
+             const std::function<void(double)>& progress) {
+    const auto folder = recording::SessionFolder::open(session);
+    Rest out;
+    Diagnostics ignored;  // recovering says it
+    const recording::RawLogReader log(folder.raw_log());
+    if (folder.read_info(log.head(), ignored).state == SessionState::running)
+        out.warnings = analysis::recover_session(folder, progress).warnings;
+    out.plan = experiment::make_rest(session, seat, out.before);
+    if (out.plan.moved_by.mover == Mover::simulated_person) {
+        const std::string population = out.before.moved_by.population;
+        sit_down_again(out.plan, folder);
+        if (!population.empty()) out.plan.moved_by.population = population;
+    }
+    return out;
+}
+
+std::vector<Unfinished> find_unfinished(const std::string& parent, const std::string& title,
+                                        const std::string& participant) {
+    std::vector<Unfinished> out;
+    std::set<std::string> gone_on_with;
+    std::error_code failed;  // without such a folder there are none
+    for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
+        try {
+            const auto folder = recording::SessionFolder::open(i->path().string());
+            const recording::SessionInfo info = folder.read_info();
+            if (!info.resumes.empty())
+                gone_on_with.insert(fs::path(info.resumes).filename().string());
+            if (info.title != title || info.participant.id != participant) continue;
+            if (auto found = unfinished(folder, info)) out.push_back(*std::move(found));
+        } catch (const Error&) {
+            continue;  // no session, or damaged
+        }
+    }
+    std::erase_if(out, [&](const Unfinished& session) {
+        return gone_on_with.contains(fs::path(session.folder).filename().string());
+    });
+    std::sort(out.begin(), out.end(),
+              [](const Unfinished& a, const Unfinished& b) { return a.folder > b.folder; });
+    return out;
+}
+
+}  // namespace dihaptic::session
