@@ -53,7 +53,7 @@ class Reports(unittest.TestCase):
 
     def test_a_session_has_its_curves_and_says_what_made_them(self):
         session = next(s for s in self.sessions if "S01" in s)
-        self.assertIn("report.html, adaptation.csv, fits.csv: of 1 session", dihaptic("report", session))
+        self.assertIn("report.html, adaptation.csv, fits.csv, adaptation-blocks.csv: of 1 session", dihaptic("report", session))
         dom = self.drawn(session + "/report.html", 4)
         self.assertIn("Adaptation to visuomotor rotations about four axes", dom)
         self.assertIn("seed 1", dom)
@@ -94,8 +94,8 @@ class Reports(unittest.TestCase):
         dihaptic("rehearse", "experiments/rotation-reversal.yaml", "--people", "2", "--jobs", "2", "--out", people)
         self.assertIn("of 2 sessions", dihaptic("report", people))
         self.drawn(people + "/report.html", 1)
-        self.assertIn("of 1 session", dihaptic("report", people + "/P001"))
-        self.drawn(people + "/P001/report.html", 1)
+        self.assertIn("of 1 session", dihaptic("report", people + "/sim-001"))
+        self.drawn(people + "/sim-001/report.html", 1)
         with open(people + "/population-adaptation.csv") as file:
             late = [float(r["mean"]) for r in csv.DictReader(file)][200:220]
         self.assertGreater(sum(late) / len(late), 15)

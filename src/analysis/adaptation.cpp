@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
+
+#include "analysis/report/statistics.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -23,24 +26,6 @@ std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     return out;
 }
 
-double mean(std::vector<double>::const_iterator first, std::vector<double>::const_iterator last) {
-    double sum = 0;
-    for (auto i = first; i != last; ++i) sum += *i;
-    return first == last ? kNaN : sum / static_cast<double>(last - first);
-}
-
-double mean(const std::vector<double>& x) {
-    return mean(x.begin(), x.end());
-}
-
-double mean_of_first(const std::vector<double>& x, size_t count) {
-    return mean(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(std::min(count, x.size())));
-}
-
-double mean_of_last(const std::vector<double>& x, size_t count) {
-    return mean(x.end() - static_cast<std::ptrdiff_t>(std::min(count, x.size())), x.end());
-}
-
 /// 100 ln(a / b); NaN where one of them is not positive.
 double in_percent(double a, double b) {
     return a > 0 && b > 0 ? 100 * std::log(a / b) : kNaN;
@@ -49,37 +34,94 @@ double in_percent(double a, double b) {
 /// Perturbations that differ by less are the same [deg], [%].
 constexpr double kSame = 0.5;
 
-double savings(const std::vector<AdaptationCurve::Stretch>& stretches) {
-    const auto learned = [](const AdaptationCurve::Stretch& s) {
-        return std::abs(s.perturbation) > kSame;
-    };
+using Stretch = AdaptationCurve::Stretch;
+using Window = AdaptationCurve::Window;
+
+Window window(std::span<const double> x) {
+    const Sample of = sample(x);
+    return {of.mean, of.mean_interval.low, of.mean_interval.high, of.count};
+}
+
+std::span<const double> first_of(const std::vector<double>& x, size_t count) {
+    return std::span(x).first(std::min(count, x.size()));
+}
+
+std::span<const double> last_of(const std::vector<double>& x, size_t count) {
+    return std::span(x).last(std::min(count, x.size()));
+}
+
+/// The mean of a less that of b, with Welch's interval.
+Window difference(std::span<const double> a, std::span<const double> b, double sign) {
+    const Sample of_a = sample(a);
+    const Sample of_b = sample(b);
+    Window out;
+    out.mean = sign * (of_a.mean - of_b.mean);
+    out.trials = of_a.count + of_b.count;
+    if (of_a.count < 2 || of_b.count < 2) return out;
+    const double half = welch_half_width(of_a, of_b);
+    out.low = out.mean - half;
+    out.high = out.mean + half;
+    return out;
+}
+
+bool of_kind(const Trial& trial, const char* kind) {
+    return trial.kind == kind;
+}
+
+std::vector<double> measured_kind(const Stretch& stretch, const char* kind) {
+    return measured(stretch.trials, [&](const Trial& t) { return of_kind(t, kind); });
+}
+
+bool is_perturbed(const Stretch& s) {
+    return std::any_of(s.trials.begin(), s.trials.end(),
+                       [](const Trial& t) { return of_kind(t, "perturbed"); });
+}
+
+bool only_catches(const Stretch& s) {
+    return std::all_of(s.trials.begin(), s.trials.end(),
+                       [](const Trial& t) { return of_kind(t, "catch"); });
+}
+
+/// What its perturbed trials were under that nothing measures.
+std::string under(const Stretch& s) {
+    for (const Trial& t : s.trials)
+        if (of_kind(t, "perturbed") && !t.under.empty()) return t.under;
+    return "";
+}
+
+/// One perturbation, as far as is known.
+bool alike(const Stretch& a, const Stretch& b) {
+    return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
+}
+
+Window savings(const std::vector<Stretch>& stretches) {
+    const auto learned = [](const Stretch& s) { return std::abs(s.perturbation) > kSame; };
     const auto first = std::find_if(stretches.begin(), stretches.end(), learned);
-    if (first == stretches.end()) return kNaN;
+    if (first == stretches.end()) return {};
     bool between = false;  // something else was done
     for (auto later = first + 1; later != stretches.end(); ++later) {
         const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
         if (same && between) {
-            const double gain =
-                mean_of_first(later->compensation, kFew) - mean_of_first(first->compensation, kFew);
-            return std::copysign(1.0, first->perturbation) * gain;
+            return difference(first_of(later->compensation, kFew),
+                              first_of(first->compensation, kFew),
+                              std::copysign(1.0, first->perturbation));
         }
         between = between || !same;
     }
-    return kNaN;
+    return {};
 }
 
-double rebound(const std::vector<AdaptationCurve::Stretch>& stretches) {
+Window rebound(const std::vector<Stretch>& stretches) {
     constexpr size_t kLast = 2;  // a reversal is short, and goes on changing
     double first = 0;
     for (size_t i = 1; i < stretches.size(); ++i) {
-        const AdaptationCurve::Stretch& before = stretches[i - 1];
+        const Stretch& before = stretches[i - 1];
         if (first == 0 && std::abs(before.perturbation) > kSame) first = before.perturbation;
         if (!stretches[i].clamp || first * before.perturbation >= 0) continue;
-        const double change = mean_of_last(stretches[i].compensation, kFew) -
-                              mean_of_last(before.compensation, kLast);
-        return std::copysign(1.0, first) * change;
+        return difference(last_of(stretches[i].compensation, kFew),
+                          last_of(before.compensation, kLast), std::copysign(1.0, first));
     }
-    return kNaN;
+    return {};
 }
 
 /// The last attempt of each trial, which counts: the others were to be done again.
@@ -98,9 +140,11 @@ std::vector<AdaptationCurve::Stretch> AdaptationCurve::stretches() const {
     std::vector<Stretch> out;
     const std::string* block = nullptr;
     for (const Trial& trial : trials) {
-        if (block == nullptr || *block != trial.block) out.push_back({0, true, {}});
+        if (block == nullptr || *block != trial.block)
+            out.push_back({trial.block, 0, true, {}, {}});
         block = &trial.block;
         Stretch& stretch = out.back();
+        stretch.trials.push_back(trial);
         stretch.clamp = stretch.clamp && trial.kind == "error_clamp";
         if (trial.kind == "catch") continue;
         if (std::abs(trial.perturbation) > std::abs(stretch.perturbation))
@@ -130,46 +174,138 @@ std::vector<model::AdaptationTrial> AdaptationCurve::schedule() const {
     return out;
 }
 
-AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
-    const auto of_kind = [&](const char* kind) {
-        return measured(trials, [&](const Trial& t) { return t.kind == kind; });
-    };
-    const auto perturbed = of_kind("perturbed");
-    const auto clamp = of_kind("error_clamp");
+std::vector<AdaptationCurve::Block> AdaptationCurve::blocks() const {
+    std::vector<Block> out;
+    for (const Stretch& stretch : stretches()) {
+        const auto own = measured(stretch.trials, [&](const Trial& t) {
+            return !of_kind(t, "catch") && (stretch.clamp || !of_kind(t, "error_clamp"));
+        });
+        Block& block = out.emplace_back();
+        block.name = stretch.block;
+        block.first = window(first_of(own, kFew));
+        block.last = window(last_of(own, kFew));
+        block.catch_trials = window(measured_kind(stretch, "catch"));
+        if (!stretch.clamp) block.inserted_clamps = window(measured_kind(stretch, "error_clamp"));
+    }
+    return out;
+}
+
+AdaptationCurve::Windows AdaptationCurve::windows() const {
     const std::vector<Stretch> parts = stretches();
-    return {mean(of_kind("baseline")),
-            mean_of_first(perturbed, kFew),
-            mean_of_last(perturbed, kFew),
-            mean(of_kind("catch")),
-            mean_of_first(clamp, kFew),
-            mean_of_last(clamp, kFew),
-            mean_of_first(of_kind("washout"), 1),
-            savings(parts),
-            rebound(parts)};
+    Windows out;
+    out.savings = savings(parts);
+    out.rebound = rebound(parts);
+    const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
+    std::vector<double> baseline;
+    for (auto part = parts.begin(); part != first; ++part) {
+        const auto own = measured_kind(*part, "baseline");
+        baseline.insert(baseline.end(), own.begin(), own.end());
+    }
+    out.baseline = window(baseline);
+    if (first == parts.end()) return out;
+    out.early = window(first_of(measured_kind(*first, "perturbed"), kFew));
+    auto last = first;
+    for (auto part = first; part != parts.end(); ++part) {
+        if (is_perturbed(*part) && alike(*part, *first)) {
+            last = part;
+        } else if (!only_catches(*part)) {
+            break;
+        }
+    }
+    out.late = window(last_of(measured_kind(*last, "perturbed"), kFew));
+    std::vector<double> catches;
+    for (auto part = first; part != last + 1; ++part) {
+        const auto own = measured_kind(*part, "catch");
+        catches.insert(catches.end(), own.begin(), own.end());
+    }
+    out.catch_trials = window(catches);
+    const auto clamp = std::find_if(first, parts.end(), [](const Stretch& s) { return s.clamp; });
+    if (clamp != parts.end()) {
+        out.clamp_first = window(first_of(clamp->compensation, kFew));
+        out.clamp_last = window(last_of(clamp->compensation, kFew));
+    }
+    for (auto part = first; part != parts.end(); ++part) {
+        const auto own = measured_kind(*part, "washout");
+        if (own.empty()) continue;
+        out.washout_first = window(first_of(own, kFew));
+        break;
+    }
+    return out;
+}
+
+AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
+    const Windows w = windows();
+    return {w.baseline.mean,      w.early.mean,       w.late.mean,
+            w.catch_trials.mean,  w.clamp_first.mean, w.clamp_last.mean,
+            w.washout_first.mean, w.savings.mean,     w.rebound.mean};
+}
+
+std::string AdaptationCurve::note() const {
+    std::string what;
+    for (const Trial& trial : trials) {
+        if (trial.under.empty() || what.find(trial.under) != std::string::npos) continue;
+        what += (what.empty() ? "" : ", ") + trial.under;
+    }
+    return what.empty() ? "" : "not measured under " + what;
 }
 
 std::vector<Table::Cell> AdaptationCurve::landmark_cells() const {
-    const Landmarks at = landmarks();
-    return {
-        unit,           perturbation(), at.baseline,      at.early,   at.late,   at.catch_trials,
-        at.clamp_first, at.clamp_last,  at.washout_first, at.savings, at.rebound};
+    const Windows w = windows();
+    const bool known = note().empty() || std::abs(perturbation()) > kSame;
+    std::vector<Table::Cell> row = {unit, known ? perturbation() : kNone};
+    for (const Window* at : {&w.baseline, &w.early, &w.late, &w.catch_trials, &w.clamp_first,
+                             &w.clamp_last, &w.washout_first, &w.savings, &w.rebound})
+        row.insert(row.end(), {at->mean, at->low, at->high});
+    return row;
 }
 
 std::vector<Table::Column> landmark_columns() {
-    return {{"unit", "of what follows"},
-            {"perturbation", ""},
-            {"baseline", "mean"},
-            {"early", "first eight perturbed trials"},
-            {"late", "last eight"},
-            {"catch", "mean of the catch trials"},
-            {"clamp_first", "first eight in the clamp"},
-            {"clamp_last", "last eight"},
-            {"washout_first", "first trial"},
-            {"savings", "learning it again: first eight trials, less those of the first time"},
-            {"rebound", "last eight of a clamp after the opposite, less what was before"}};
+    std::vector<Table::Column> out = {{"unit", "of what follows"}, {"perturbation", ""}};
+    const std::vector<Table::Column> windows = {
+        {"baseline", "mean before the first perturbed block"},
+        {"early", "first eight trials of the first perturbed block"},
+        {"late", "last eight of the last block that goes on with it"},
+        {"catch", "mean of the catch trials among them"},
+        {"clamp_first", "first eight of the first clamp block after it"},
+        {"clamp_last", "last eight of that block"},
+        {"washout_first", "first eight of the first washout block after it"},
+        {"savings", "learning it again: first eight trials, less those of the first time"},
+        {"rebound", "last eight of a clamp after the opposite, less the two before it"}};
+    for (const Table::Column& window : windows) {
+        out.push_back(window);
+        out.push_back({window.name + "_low", "95 %, over these trials"});
+        out.push_back({window.name + "_high", ""});
+    }
+    return out;
 }
 
-std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
+Table block_table(const std::vector<AdaptationCurve>& curves) {
+    Table table;
+    table.columns = {{"round", ""}, {"block", ""}, {"unit", "of what follows"}};
+    for (const char* name : {"first", "last", "catch", "inserted_clamps"}) {
+        const std::string window = name;
+        const bool eight = window == "first" || window == "last";
+        table.columns.push_back({window, eight ? "mean of eight trials at most" : "mean"});
+        table.columns.push_back({window + "_low", "95 %"});
+        table.columns.push_back({window + "_high", ""});
+        table.columns.push_back({window + "_trials", "that were measured"});
+    }
+    for (const AdaptationCurve& curve : curves) {
+        for (const AdaptationCurve::Block& block : curve.blocks()) {
+            std::vector<Table::Cell>& row = table.rows.emplace_back();
+            row = {curve.round, block.name, curve.unit};
+            for (const Window* at :
+                 {&block.first, &block.last, &block.catch_trials, &block.inserted_clamps}) {
+                row.insert(row.end(),
+                           {at->mean, at->low, at->high, static_cast<double>(at->trials)});
+            }
+        }
+    }
+    return table;
+}
+
+std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
+                                               const Unmeasured& unmeasured) {
     std::vector<AdaptationCurve> curves;
     const std::map<int, int> last = last_attempts(trials);
     bool any = false;
@@ -196,13 +332,20 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
         // what was seen in an attempt that is done again was seen, but does not count
         if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kNaN;
         any = any || !std::isnan(trial.compensation);
+        const auto under = unmeasured.find(trials.text(i, "perturbation"));
+        // what has no share of it is as it was without
+        if (under != unmeasured.end() && trials.number(i, "share") != 0) {
+            trial.under = under->second;
+            trial.clamp = true;
+            trial.perturbation = trial.compensation = kNaN;
+        }
         const std::string round = trials.text(i, "round");
         if (curves.empty() || curves.back().round != round) curves.push_back({round, "deg", {}});
         curves.back().trials.push_back(trial);
     }
     if (!any) curves.clear();
     if (extents) {
-        for (AdaptationCurve& curve : curves) curve.unit = "%";
+        for (AdaptationCurve& curve : curves) curve.unit = std::string(1, '%');
     }
     return curves;
 }
@@ -210,6 +353,7 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials) {
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
     constexpr size_t kLeast = 10;
     const auto all = [](const Trial&) { return true; };
+    if (!curve.note().empty()) return std::nullopt;  // what taught them is not known
     if (std::abs(curve.perturbation()) < 1e-6 || measured(curve.trials, all).size() < kLeast)
         return std::nullopt;
     AdaptationFits fits;

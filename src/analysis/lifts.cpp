@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analysis/savitzky_golay.h"
+#include "base/field.h"
 #include "model/grasp.h"
 
 namespace dihaptic::analysis {
@@ -20,6 +21,8 @@ constexpr double kLoaded = 0.2;        // [N]
 constexpr double kLagMost = 0.1;       // [s]
 constexpr double kSlipSpeed = 5e-3;    // [m/s]
 constexpr double kLeastRate = 0.2;     // without noise the quiet window has no spread [N/s]
+constexpr double kBounce = 0.05;       // parts a digit and the object for less [s]
+constexpr double kLoadShare = 0.02;    // of the load at lift-off: less is none
 
 using Signal = std::vector<double>;
 
@@ -198,22 +201,166 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
     return count > 0 ? sum / count : Lift::kNone;
 }
 
-/// The sample of lift-off, from the first at half of the height back.
-size_t find_lift_off(const GraspTrace& trace, const Signals& signals, double half) {
-    const auto found = std::find_if(signals.height.begin(), signals.height.end(),
-                                    [&](double h) { return h >= half; });
-    auto lifted = static_cast<size_t>(found - signals.height.begin());
-    while (lifted > 0 && signals.rise[lifted] > kRising) --lifted;
-    size_t free = lifted;
-    // what sleeps stands on something, and shows no contact
-    const auto stands = [&](const GraspTrace::Sample& s) { return s.on_support || !s.awake; };
-    while (free > 0 && !stands(trace.samples()[free - 1])) --free;
-    return free > 0 ? free : lifted;
+/// The object presses on something that is no finger. What sleeps stands, and shows no contact.
+bool stands(const GraspTrace::Sample& s) {
+    return s.on_support || !s.awake;
+}
+
+/// Samples of the events; of the digits', one for each that has it.
+struct Events {
+    size_t lift_off = 0;
+    std::vector<size_t> touches;
+    std::vector<size_t> onsets;
+    std::optional<size_t> replacement;
+    std::vector<std::optional<size_t>> releases;
+};
+
+/// The object's first and last samples at half of its height or above.
+Range high_of(const Signals& signals, double top) {
+    const auto high = [&](double h) { return h >= top / 2; };
+    const auto first = std::find_if(signals.height.begin(), signals.height.end(), high);
+    const auto last = std::find_if(signals.height.rbegin(), signals.height.rend(), high);
+    return {static_cast<size_t>(first - signals.height.begin()),
+            signals.size() - static_cast<size_t>(last - signals.height.rbegin())};
+}
+
+/// By the rules for data without contacts.
+class ByForce {
+  public:
+    ByForce(const GraspTrace& trace, const Signals& signals, Range high)
+        : trace_(trace), signals_(signals), high_(high) {
+        for (const Signal& force : signals.digit_grip)
+            rates_.push_back(savitzky_golay(force, signals.tick, kWindow, 1));
+    }
+
+    Events find() const {
+        Events out;
+        out.lift_off = lift_off();
+        for (size_t f = 0; f < trace_.fingers(); ++f) {
+            const Signal& force = signals_.digit_grip[f];
+            auto at = touch(signals_, force, rates_[f]);
+            if (at > out.lift_off)
+                at = touch(signals_, std::span(force).first(out.lift_off + 1), rates_[f]);
+            if (!at) continue;
+            out.touches.push_back(*at);
+            const auto onset = load_onset(signals_, signals_.digit_load[f], *at);
+            if (onset && *onset <= out.lift_off) out.onsets.push_back(*onset);
+        }
+        size_t replaced = high_.last - 1;
+        while (replaced < signals_.size() && signals_.rise[replaced] < kSinking) ++replaced;
+        if (replaced == signals_.size() || replaced < high_.last) return out;
+        out.replacement = replaced;
+        for (size_t f = 0; f < trace_.fingers(); ++f)
+            out.releases.push_back(release(signals_, signals_.digit_grip[f], rates_[f], replaced));
+        return out;
+    }
+
+  private:
+    /// Before the object rises fast; where it left its support before that, since it was lifted
+    /// slowly, then.
+    size_t lift_off() const {
+        size_t lifted = high_.first;
+        while (lifted > 0 && signals_.rise[lifted] > kRising) --lifted;
+        size_t free = lifted;
+        while (free > 0 && !stands(trace_.samples()[free - 1])) --free;
+        return free > 0 ? free : lifted;
+    }
+
+    const GraspTrace& trace_;
+    const Signals& signals_;
+    Range high_;
+    std::vector<Signal> rates_;
+};
+
+/// By contact: each event is the sample in which it happened.
+class ByContact {
+  public:
+    ByContact(const GraspTrace& trace, const Signals& signals, Range high)
+        : trace_(trace), signals_(signals), high_(high) {}
+
+    /// None where it is not seen how the object left what it stood on.
+    std::optional<Events> find() const {
+        Events out;
+        out.lift_off = high_.first;
+        while (out.lift_off > 0 && !stands(sample(out.lift_off - 1))) --out.lift_off;
+        if (out.lift_off == 0) return std::nullopt;
+        for (size_t f = 0; f < trace_.fingers(); ++f) {
+            const auto at = touch(f, out.lift_off);
+            if (!at) continue;
+            out.touches.push_back(*at);
+            if (const auto onset = load_onset(f, *at, out.lift_off)) out.onsets.push_back(*onset);
+        }
+        size_t replaced = high_.last;
+        while (replaced < signals_.size() && !stands(sample(replaced))) ++replaced;
+        if (replaced == signals_.size()) return out;
+        out.replacement = replaced;
+        for (size_t f = 0; f < trace_.fingers(); ++f) out.releases.push_back(release(f, replaced));
+        return out;
+    }
+
+  private:
+    const GraspTrace::Sample& sample(size_t i) const { return trace_.samples()[i]; }
+
+    /// When the pressing began that goes on to lift-off.
+    std::optional<size_t> touch(size_t f, size_t lift_off) const {
+        std::optional<size_t> began;
+        const size_t bounce = signals_.samples(kBounce);
+        for (size_t i = lift_off + 1; i-- > 0;) {
+            if (sample(i).touching[f]) {
+                began = i;
+            } else if (began.value_or(lift_off) > i + bounce) {
+                break;
+            }
+        }
+        return began;
+    }
+
+    std::optional<size_t> load_onset(size_t f, size_t touched, size_t lift_off) const {
+        const Signal& load = signals_.digit_load[f];
+        const double none = kLoadShare * load[lift_off];
+        if (none <= 0) return std::nullopt;
+        size_t i = lift_off;
+        while (i > touched && load[i - 1] > none) --i;
+        return i;
+    }
+
+    std::optional<size_t> release(size_t f, size_t replaced) const {
+        size_t last = replaced;  // pressed
+        const size_t bounce = signals_.samples(kBounce);
+        for (size_t i = replaced; i < signals_.size(); ++i) {
+            if (sample(i).touching[f]) {
+                last = i;
+            } else if (i > last + bounce) {
+                return last + 1;
+            }
+        }
+        return last + 1 < signals_.size() ? std::optional(last + 1) : std::nullopt;
+    }
+
+    const GraspTrace& trace_;
+    const Signals& signals_;
+    Range high_;
+};
+
+/// Fills in what the events are called, and which rule found them.
+Events find_events(Lift& lift, const GraspTrace& trace, const Signals& signals, Range high,
+                   std::optional<EventRule> rule) {
+    const auto& samples = trace.samples();
+    const bool seen = std::any_of(samples.begin(), samples.end(), stands);
+    if (rule.value_or(seen ? EventRule::contact : EventRule::force) == EventRule::contact) {
+        if (auto events = ByContact(trace, signals, high).find()) {
+            lift.rule = EventRule::contact;
+            return *std::move(events);
+        }
+    }
+    lift.rule = EventRule::force;
+    return ByForce(trace, signals, high).find();
 }
 
 }  // namespace
 
-Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction) {
+Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
+               std::optional<EventRule> rule) {
     Lift lift;
     lift.mark = "no touch";
     if (trace.samples().empty() || trace.fingers() == 0) return lift;
@@ -226,47 +373,30 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
         return lift;
     }
 
-    const auto top = std::max_element(signals.height.begin(), signals.height.end());
-    const size_t lifted = find_lift_off(trace, signals, *top / 2);
-    std::vector<Signal> digit_rates;
-    for (const Signal& force : signals.digit_grip)
-        digit_rates.push_back(savitzky_golay(force, signals.tick, kWindow, 1));
-    std::optional<size_t> touched;
-    std::vector<size_t> onsets;
-    for (size_t f = 0; f < trace.fingers(); ++f) {
-        const Signal& force = signals.digit_grip[f];
-        auto at = touch(signals, force, digit_rates[f]);
-        if (at > lifted) at = touch(signals, std::span(force).first(lifted + 1), digit_rates[f]);
-        if (!at) continue;
-        touched = std::min(touched.value_or(*at), *at);
-        if (const auto onset = load_onset(signals, signals.digit_load[f], *at))
-            onsets.push_back(*onset);
-    }
-    if (!touched) return lift;
-    lift.touch = time(*touched);
+    const double top = *std::max_element(signals.height.begin(), signals.height.end());
+    const Range high = high_of(signals, top);
+    const Events events = find_events(lift, trace, signals, high, rule);
+    if (events.touches.empty()) return lift;
+    const size_t touched = *std::min_element(events.touches.begin(), events.touches.end());
+    const size_t lifted = events.lift_off;
+    lift.touch = time(touched);
 
     lift.mark = "not lifted";
-    if (*top < kLeastHeight) return lift;
-    const auto high = [&](double h) { return h >= *top / 2; };
+    if (top < kLeastHeight) return lift;
     lift.lift_off = time(lifted);
     lift.lift_off_grip = signals.grip[lifted];
-    if (!onsets.empty()) {
-        std::erase_if(onsets, [&](size_t i) { return i > lifted; });
-        std::sort(onsets.begin(), onsets.end());
-    }
-    if (!onsets.empty()) {
-        lift.load_onset = time(onsets.front());
+    std::optional<size_t> loaded;  // first
+    if (!events.onsets.empty()) {
+        const auto [first, last] = std::minmax_element(events.onsets.begin(), events.onsets.end());
+        loaded = *first;
+        lift.load_onset = time(*first);
         lift.preload = lift.load_onset - lift.touch;
-        lift.loading = lift.lift_off - time(onsets.back());
+        lift.loading = lift.lift_off - time(*last);
     }
 
-    const size_t last_high =
-        signals.size() - 1 -
-        static_cast<size_t>(std::find_if(signals.height.rbegin(), signals.height.rend(), high) -
-                            signals.height.rbegin());
-    size_t lowered = last_high;
+    size_t lowered = high.last - 1;
     while (lowered > lifted && signals.rise[lowered] < kSinking) --lowered;
-    const Range up{*touched, lowered + 1};
+    const Range up{touched, lowered + 1};
     const auto up_grip = part(signals.grip, up);
     const auto peak = std::max_element(up_grip.begin(), up_grip.end());
     lift.peak_grip = *peak;
@@ -276,15 +406,14 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     lift.peak_load = *std::max_element(up_load.begin(), up_load.end());
     const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
     const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
-    const Range before{*touched, lifted + 1};
+    const Range before{touched, lifted + 1};
     const auto largest = [&](const Signal& rate) {
         const auto range = part(rate, before);
         return *std::max_element(range.begin(), range.end());
     };
     lift.peak_grip_rate = largest(grip_rate);
     lift.peak_load_rate = largest(load_rate);
-    if (!onsets.empty())
-        find_coupling(lift, signals, grip_rate, load_rate, {onsets.front(), lifted + 1});
+    if (loaded) find_coupling(lift, signals, grip_rate, load_rate, {*loaded, lifted + 1});
     find_slips(lift, trace, {lifted, lowered + 1});
 
     const size_t early = signals.samples(0.6);
@@ -299,26 +428,23 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
         if (lift.static_load > kLoaded && mu > 0)
             lift.safety_margin = model::safety_margin(lift.static_grip, lift.static_load, mu);
         lift.height = mean(part(signals.height, hold));
-        lift.overshoot = *top - lift.height;
+        lift.overshoot = top - lift.height;
     }
 
-    size_t replaced = last_high;
-    while (replaced < signals.size() && signals.rise[replaced] < kSinking) ++replaced;
     const auto touches = [&](size_t i) {
         const auto& touching = trace.samples()[i].touching;
         return std::any_of(touching.begin(), touching.end(), [](char t) { return t; });
     };
     lift.mark = "not put down";
-    if (replaced == signals.size() || signals.height[replaced] > *top / 2) return lift;
-    lift.replacement = time(replaced);
+    if (!events.replacement) return lift;
+    lift.replacement = time(*events.replacement);
     lift.mark = "dropped";
-    for (size_t i = lifted; i < replaced; ++i) {
+    for (size_t i = lifted; i < *events.replacement; ++i) {
         if (!touches(i)) return lift;
     }
     lift.mark = "not released";
-    size_t released = replaced;
-    for (size_t f = 0; f < trace.fingers(); ++f) {
-        const auto at = release(signals, signals.digit_grip[f], digit_rates[f], replaced);
+    size_t released = *events.replacement;
+    for (const std::optional<size_t>& at : events.releases) {
         if (!at) return lift;
         released = std::max(released, *at);
     }
@@ -333,6 +459,7 @@ Table lift_table(std::span<const Lift> lifts) {
     table.columns = {{"trial_num", "number in the session, from 1"},
                      {"attempt", "of the trial, from 1"},
                      {"lift", "complete, or what is not there"},
+                     {"events_by", "contact, or force: what the times are found by"},
                      {"touch_s", "first digit"},
                      {"load_onset_s", "first digit"},
                      {"lift_off_s", ""},
@@ -364,6 +491,7 @@ Table lift_table(std::span<const Lift> lifts) {
         table.rows.push_back({static_cast<double>(l.trial),
                               static_cast<double>(l.attempt),
                               l.mark,
+                              std::string(enum_name(l.rule)),
                               l.touch,
                               l.load_onset,
                               l.lift_off,

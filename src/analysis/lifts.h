@@ -1,17 +1,30 @@
 // A grip-lift: reach, touch, preload, loading, lift-off, hold, replacement, release (Johansson and
-// Westling 1984), found by the rules of the WAY-EEG-GAL data set (Luciw, Jarocka and Edin 2014).
-// Grip force GF is the mean of the digits' normal forces, load force LF the sum of their tangential
-// forces against gravity; rates are derivatives of cubics over 62 ms.
+// Westling 1984; rules from forces: Luciw, Jarocka and Edin 2014). Grip force GF is the mean of the
+// digits' normal forces, load force LF the sum of their tangential forces against gravity; rates
+// are derivatives of cubics over 62 ms.
 //
-// lift-off      from half of the height back to where the object rose by 1 cm/s or less; where it
-//               left its support before that, since it was lifted slowly, then
+// Events are found by contact, where the trace has contacts of the object with what it stands on:
+//
+// touch         of a digit: the first sample in which it presses the object and goes on to, until
+//               lift-off; what parts them for less than 50 ms is a bounce
+// load onset    of a digit: after the last sample before lift-off in which it carried no more than
+//               2 % of what it carries at lift-off
+// lift-off      after the last sample, before half of the height, in which the object stood
+// replacement   the first sample, after half of the height, in which it stands again
+// release       of a digit: after the last sample in which it pressed, as touch
+//
+// and by force elsewhere, by the rules of the WAY-EEG-GAL data set, which need no contacts and are
+// late or early by tens of milliseconds, since they smooth over 62 ms and wait for thresholds:
+//
+// touch         from a quarter of the digit's largest force back to where the force's rate is no
+//               more than mean + 4 SD of the trial's first 100 ms; of the force before lift-off,
+//               where the largest came from something later
+// load onset    from 0.2 N back to where the load's rate began to grow; none of lighter objects
+// lift-off      from half of the height back to where the object rose by 1 cm/s or less
 // replacement   from the last time at half of the height on to where it sinks by 2 cm/s or less
-// touch         of a digit: from a quarter of its largest force back to where the force's rate is
-//               no more than mean + 4 SD of the trial's first 100 ms; of the force before
-//               lift-off, where the largest came from something later
-// load onset    of a digit: from 0.2 N back to where the load's rate began to grow
-// hold          from 600 to 200 ms before the object is lowered
-// release       of a digit: from a quarter of its force at replacement on, as touch
+// release       from a quarter of the digit's force at replacement on, as touch
+//
+// hold          from 600 to 200 ms before the object is lowered, by either rule
 //
 // A pause takes the forces away, and hands close: a lift with one is marked, and has no figures.
 //
@@ -19,7 +32,9 @@
 // lift-off, release from replacement to the last digit's.
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +45,12 @@
 
 namespace dihaptic::analysis {
 
+/// What a lift's events are found by.
+enum class EventRule { contact, force };
+constexpr auto enum_names(EventRule) {
+    return std::array{"contact", "force"};
+}
+
 /// What there was no event for is NaN.
 struct Lift {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -39,6 +60,7 @@ struct Lift {
     /// complete, or what is not there: no touch, not lifted, dropped, no hold, not put down, not
     /// released; or paused.
     std::string mark;
+    EventRule rule = EventRule::force;
     double touch = kNone;  ///< by the first digit; all times in the session [s]
     double load_onset = kNone;
     double lift_off = kNone;
@@ -72,8 +94,10 @@ struct Lift {
 };
 
 /// The lift in the trace of one attempt, whose object lies at first. `friction`: of the object with
-/// each finger.
-Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction);
+/// each finger. `rule`: by contact where the trace has contacts that show when the object stands,
+/// unless it says otherwise.
+Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
+               std::optional<EventRule> rule = std::nullopt);
 
 Table lift_table(std::span<const Lift> lifts);
 

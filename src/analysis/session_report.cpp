@@ -34,6 +34,7 @@ struct Reading {
     Table fault;
     std::optional<TrialFinder> trials;  ///< of a task
     std::vector<Lift> lifts;
+    std::string why_no_facts;  ///< of the object; empty: they are known
 };
 
 PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -58,15 +59,24 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     return out;
 }
 
-/// Of the object; nothing is known when scene.yaml is not what it was, or cannot be read.
+/// Of the object; nothing is known, and `why` is said, when scene.yaml is not what it was or cannot
+/// be read.
 ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
-                     const recording::LogHead& head) {
-    if (name.empty() || !folder.changed(head.inputs, Severity::warning).empty()) return {};
+                     const recording::LogHead& head, std::string& why) {
+    if (name.empty()) return {};
+    const std::string lost = "; what needs the object's weight or friction is left empty";
+    if (const auto changed = folder.changed(head.inputs, Severity::warning); !changed.empty()) {
+        why = changed.front().place.file + " " + changed.front().what + lost;
+        return {};
+    }
     try {
         Diagnostics diagnostics;
         const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
         const int i = scene.find(name);
-        if (diagnostics.has_errors() || i < 0 || !recording::fits(head, scene)) return {};
+        if (diagnostics.has_errors() || i < 0 || !recording::fits(head, scene)) {
+            why = folder.file("scene.yaml") + " is not the scene of raw.log" + lost;
+            return {};
+        }
         const scene::Body& object = scene.bodies[static_cast<size_t>(i)];
         ObjectFacts facts;
         facts.mass = scene::mass(object);
@@ -80,90 +90,125 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
                 scene, object.name, object.friction, finger.name, finger.friction));
         }
         return facts;
-    } catch (const Error&) {
+    } catch (const Error& e) {
+        why = folder.file("scene.yaml") + " " + e.problems().front().what + lost;
         return {};
     }
 }
 
-Reading read(const recording::SessionFolder& folder, const recording::SessionInfo& info,
-             const std::function<void(double)>& progress) {
-    recording::RawLogReader log(folder.raw_log());
-    const std::vector<std::string>& bodies = log.head().bodies;
-    const auto found = std::find(bodies.begin(), bodies.end(), info.object);
-    const int object = found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
-    const ObjectFacts facts = facts_of(info.object, folder, log.head());
-    const double weight = facts.mass * facts.gravity.norm();
+}  // namespace
 
-    std::vector<std::string> names;
-    for (const recording::PhaseInfo& phase : info.phases) names.push_back(phase.name);
-    EventFinder events(log.head(), object, names);
-    GraspTrace trace(object, log.head().tick);
-    FaultRecord fault(log.head().fingers, log.head().turning_fingers());
-    Reading out;
-    SessionFigures& figures = out.figures;
-    figures.status_ticks.assign(servo::kStatusBits, 0);
+/// What one pass over the frames needs and gives.
+struct SessionReader::Pass {
+    Pass(const recording::SessionFolder& folder, const recording::SessionInfo& info,
+         const recording::LogHead& head)
+        : names(names_of(info)),
+          object(object_of(info, head)),
+          tick(head.tick),
+          facts(facts_of(info.object, folder, head, reading.why_no_facts)),
+          events(head, object, names),
+          trace(object, tick),
+          fault(head.fingers, head.turning_fingers()) {
+        reading.figures.status_ticks.assign(servo::kStatusBits, 0);
+        reading.figures.tick = tick;
+        reading.figures.fingers = head.fingers;
+        if (has_trials(folder)) reading.trials.emplace(folder, head.fingers);
+    }
 
-    if (has_trials(folder)) out.trials.emplace(folder, log.head().fingers);
+    static std::vector<std::string> names_of(const recording::SessionInfo& info) {
+        std::vector<std::string> out;
+        for (const recording::PhaseInfo& phase : info.phases) out.push_back(phase.name);
+        return out;
+    }
+    static int object_of(const recording::SessionInfo& info, const recording::LogHead& head) {
+        const auto found = std::find(head.bodies.begin(), head.bodies.end(), info.object);
+        return found == head.bodies.end() ? -1 : static_cast<int>(found - head.bodies.begin());
+    }
 
-    int trial = 0;
-    int attempt = 0;
-    int phase = -1;
-    size_t first = 0;
-    const auto end_trial = [&] {
+    void end_trial() {
         if (object >= 0 && !trace.samples().empty()) {
             const std::vector<Episode> episodes = find_episodes(trace, facts);
-            figures.episodes.insert(figures.episodes.end(), episodes.begin(), episodes.end());
+            auto& all = reading.figures.episodes;
+            all.insert(all.end(), episodes.begin(), episodes.end());
             // a task's phase 0 is between its trials
-            if (trace.fingers() > 1 && !(out.trials && phase == 0)) {
+            if (trace.fingers() > 1 && !(reading.trials && phase == 0)) {
                 Lift lift = find_lift(trace, facts.gravity, facts.finger_friction);
                 lift.trial = trial;
                 lift.attempt = std::max(attempt, 1);
-                out.lifts.push_back(std::move(lift));
+                reading.lifts.push_back(std::move(lift));
             }
         }
-        trace = GraspTrace(object, log.head().tick);
-    };
-    const auto close_phase = [&] {
+        trace = GraspTrace(object, tick);
+    }
+
+    void close_phase() {
         const Range range{first, trace.samples().size()};
         if (phase < 0 || range.size() == 0) return;
-        PhaseFigures figure = figures_of(trace, range, weight);
+        PhaseFigures figure = figures_of(trace, range, facts.mass * facts.gravity.norm());
         figure.trial = trial;
         const auto i = static_cast<size_t>(phase);
         figure.name = i < names.size() ? names[i] : std::to_string(phase);
-        figures.phases.push_back(figure);
-    };
-    while (const servo::Frame* frame = log.next()) {
-        const bool next_trial = frame->trial != trial || frame->task.attempt != attempt ||
-                                (out.trials && phase == 0 && frame->phase != 0);
-        if (frame->phase != phase || next_trial) {
+        reading.figures.phases.push_back(figure);
+    }
+
+    void add(const servo::Frame& frame) {
+        const bool next_trial = frame.trial != trial || frame.task.attempt != attempt ||
+                                (reading.trials && phase == 0 && frame.phase != 0);
+        if (frame.phase != phase || next_trial) {
             close_phase();
             if (next_trial) end_trial();  // objects are put back
-            phase = frame->phase;
-            attempt = frame->task.attempt;
-            trial = frame->trial;
+            phase = frame.phase;
+            attempt = frame.task.attempt;
+            trial = frame.trial;
             first = trace.samples().size();
         }
-        trace.add(*frame);
-        if (out.trials) out.trials->add(*frame);
-        events.add(*frame);
-        fault.add(*frame);
+        trace.add(frame);
+        if (reading.trials) reading.trials->add(frame);
+        events.add(frame);
+        fault.add(frame);
+        SessionFigures& figures = reading.figures;
         ++figures.frames;
-        figures.duration = seconds(frame->time);
-        figures.status |= frame->status;
+        figures.duration = seconds(frame.time);
+        figures.status |= frame.status;
         for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-            figures.status_ticks[static_cast<size_t>(bit)] += (frame->status >> bit) & 1u;
+            figures.status_ticks[static_cast<size_t>(bit)] += (frame.status >> bit) & 1u;
         }
-        if (progress && figures.frames % 5000 == 0) progress(log.share());
     }
-    close_phase();
-    end_trial();
-    figures.log = log.health();
-    figures.tick = log.head().tick;
-    figures.fingers = log.head().fingers;
-    out.events = events.events();
-    out.fault = fault.table();
-    return out;
+
+    void end(const recording::LogHealth& log) {
+        close_phase();
+        end_trial();
+        reading.figures.log = log;
+        reading.events = events.events();
+        reading.fault = fault.table();
+    }
+
+    std::vector<std::string> names;  // of phases
+    int object;
+    double tick;
+    Reading reading;
+    ObjectFacts facts;
+    EventFinder events;
+    GraspTrace trace;
+    FaultRecord fault;
+    int trial = 0;
+    int attempt = 0;
+    int phase = -1;
+    size_t first = 0;  // sample of the phase
+};
+
+SessionReader::SessionReader(const recording::SessionFolder& folder,
+                             const recording::SessionInfo& info, const recording::LogHead& head)
+    : pass_(std::make_unique<Pass>(folder, info, head)) {}
+
+SessionReader::SessionReader(SessionReader&&) noexcept = default;
+SessionReader::~SessionReader() = default;
+
+void SessionReader::add(const servo::Frame& frame) {
+    pass_->add(frame);
 }
+
+namespace {
 
 Table phase_table(const SessionFigures& figures) {
     Table table;
@@ -392,6 +437,44 @@ const PhaseFigures* SessionFigures::phase(const std::string& name) const {
     return nullptr;
 }
 
+namespace {
+
+/// Every table but NWB's.
+SessionFigures write_tables(const recording::SessionFolder& folder,
+                            const recording::SessionInfo& info, const Reading& reading,
+                            const recording::NwbContent& content, const Table& events) {
+    SessionFigures out = reading.figures;
+    if (reading.trials) out.trials = with_earlier(content.trials, folder);
+    write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
+    write_csv(content.phases, folder.file("phases.csv"));
+    const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
+    write_csv(by(episode_table(out)), folder.file("episodes.csv"));
+    if (!reading.lifts.empty()) write_csv(by(lift_table(reading.lifts)), folder.file("lifts.csv"));
+    write_csv(events, folder.file("events.csv"));
+    if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
+    folder.sync();  // all of them are on the disk before the state says so
+    folder.write_info(info);
+    return out;
+}
+
+recording::NwbContent content_of(const Reading& reading, const recording::SessionInfo& info) {
+    recording::NwbContent content;
+    content.info = info;
+    const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
+    content.trials =
+        by(reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info));
+    content.phases = by(phase_table(reading.figures));
+    return content;
+}
+
+Table events_of(const Reading& reading, const recording::SessionFolder& folder,
+                const recording::SessionInfo& info) {
+    return recording::marked(event_table(reading.events, recording::Showings(folder)),
+                             info.moved_by);
+}
+
+}  // namespace
+
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress) {
     const auto part = [&](double from, double to) {
@@ -399,34 +482,42 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
             if (progress) progress(from + share * (to - from));
         };
     };
-    const Reading reading = read(folder, info, part(0, 0.4));
+    recording::RawLogReader log(folder.raw_log());
+    SessionReader reader(folder, info, log.head());
+    const auto progressed = part(0, 0.4);
+    int64_t frames = 0;
+    while (const servo::Frame* frame = log.next()) {
+        reader.add(*frame);
+        if (++frames % 5000 == 0) progressed(log.share());
+    }
+    reader.pass_->end(log.health());
+    const Reading& reading = reader.pass_->reading;
     const SessionFigures& figures = reading.figures;
     const std::vector<std::string> damage =
         recording::describe(figures.log, info.ticks, info.planned());
     keep_longer_files(folder, figures, damage);
     if (figures.log.damaged(info.ticks)) info.state = recording::SessionState::recovered;
     for (const std::string& what : damage) add_note(info, what);
+    if (!reading.why_no_facts.empty()) add_note(info, reading.why_no_facts);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 
-    recording::NwbContent content;
-    content.info = info;
-    content.trials = reading.trials ? reading.trials->table(info) : trial_table(figures, info);
-    content.phases = phase_table(figures);
-    const Table events = event_table(reading.events, recording::Showings(folder));
+    recording::NwbContent content = content_of(reading, info);
+    const Table events = events_of(reading, folder, info);
     content.events = as_intervals(events);
     content.settings = settings_left(folder);
     recording::write_nwb(folder, content, part(0.4, 1));
-    SessionFigures out = figures;
-    if (reading.trials) out.trials = with_earlier(content.trials, folder);
-    write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
-    write_csv(content.phases, folder.file("phases.csv"));
-    write_csv(episode_table(figures), folder.file("episodes.csv"));
-    if (!reading.lifts.empty()) write_csv(lift_table(reading.lifts), folder.file("lifts.csv"));
-    write_csv(events, folder.file("events.csv"));
-    if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
-    folder.sync();  // all of them are on the disk before the state says so
-    folder.write_info(info);
-    return out;
+    return write_tables(folder, info, reading, content, events);
+}
+
+SessionFigures finish_tables(const recording::SessionFolder& folder,
+                             const recording::SessionInfo& info, SessionReader reader) {
+    recording::LogHealth whole;
+    whole.complete = true;
+    whole.last_tick = info.ticks - 1;
+    reader.pass_->end(whole);
+    const Reading& reading = reader.pass_->reading;
+    return write_tables(folder, info, reading, content_of(reading, info),
+                        events_of(reading, folder, info));
 }
 
 }  // namespace dihaptic::analysis

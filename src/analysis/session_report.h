@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "analysis/episodes.h"
 #include "base/table.h"
 #include "recording/log_health.h"
+#include "recording/raw_log.h"
 #include "recording/session.h"
 #include "servo/frame.h"
 
@@ -64,6 +66,30 @@ std::string finger_list(const Episode& episode, const std::vector<std::string>& 
 /// tell of more than the log does now.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
+
+/// Reads a session's frames, each in turn, as they arise or out of its log.
+class SessionReader {
+  public:
+    /// `folder` has the frozen inputs; of `info` its phases, object and participant are known.
+    SessionReader(const recording::SessionFolder& folder, const recording::SessionInfo& info,
+                  const recording::LogHead& head);
+    SessionReader(SessionReader&&) noexcept;
+    ~SessionReader();
+    void add(const servo::Frame& frame);
+
+  private:
+    friend SessionFigures finish_session(const recording::SessionFolder&, recording::SessionInfo,
+                                         const std::function<void(double)>&);
+    friend SessionFigures finish_tables(const recording::SessionFolder&,
+                                        const recording::SessionInfo&, SessionReader);
+    struct Pass;
+    std::unique_ptr<Pass> pass_;
+};
+
+/// The same as finish_session() of a session that was read while it ran, and has no log: all tables
+/// and session.yaml, no session.nwb.
+SessionFigures finish_tables(const recording::SessionFolder& folder,
+                             const recording::SessionInfo& info, SessionReader reader);
 
 /// Adds a note, unless it is there: a session may be recovered more than once.
 void add_note(recording::SessionInfo& info, const std::string& note);

@@ -1,8 +1,11 @@
 #include "analysis/thresholds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/diagnostics.h"
 #include "base/field.h"
 
 namespace dihaptic::analysis {
@@ -50,10 +53,30 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
     return out;
 }
 
-std::optional<PsychometricFit> fit_threshold(const ThresholdTrack& track) {
+ThresholdFit fit_threshold(const ThresholdTrack& track) {
+    ThresholdFit out;
     const std::vector<LevelCount> counts = count(track.answers);
-    if (track.answers.size() < kLeast || counts.size() < 2) return std::nullopt;
-    return fit_psychometric(counts, track.model);
+    if (track.answers.size() < kLeast) {
+        out.note = fmt::format("not possible: {} answers, and a fit takes {}", track.answers.size(),
+                               kLeast);
+        return out;
+    }
+    try {
+        out.fit = fit_psychometric(counts, track.model);
+    } catch (const Error& e) {  // of these answers alone: others can be fitted
+        out.note = "not possible: " + e.problems().front().what;
+        return out;
+    }
+    const double t = out.fit->function.threshold;
+    const double low = counts.front().level;
+    const double high = counts.back().level;
+    out.outside = t < low || t > high;
+    if (out.outside) {
+        out.note =
+            fmt::format("outside of the levels shown, {:.3g} to {:.3g}: a guess, no measurement",
+                        track.share(low), track.share(high));
+    }
+    return out;
 }
 
 PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,

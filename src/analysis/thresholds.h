@@ -26,8 +26,16 @@ struct ThresholdTrack {
 /// By procedure. Answers that are neither yes nor no, and trials of none, are left out.
 std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures);
 
-/// None of less than ten answers, or of one level.
-std::optional<PsychometricFit> fit_threshold(const ThresholdTrack& track);
+/// The fit of a track, or why there is none.
+struct ThresholdFit {
+    std::optional<PsychometricFit> fit;
+    /// What is to be known of it: why there is none, or that its threshold lies outside of the
+    /// levels that were shown, where nobody was asked. Empty: nothing.
+    std::string note;
+    bool outside = false;
+};
+/// None of less than ten answers, of one level, or of levels that the sigmoid cannot take.
+ThresholdFit fit_threshold(const ThresholdTrack& track);
 /// Of its fit, from 500 bootstrap samples.
 PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
                                           uint64_t seed);

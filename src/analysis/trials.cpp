@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/regular_file.h"
+#include "recording/trial_list.h"
 #include "servo/displayed.h"
 
 namespace dihaptic::analysis {
@@ -18,6 +19,33 @@ constexpr const char* kInterrupted = "interrupted";
 constexpr double kMostPhases = 1e6;
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<Table::Column> kSessionColumns = {
+    {"start_time", "of the session [s]"},
+    {"stop_time", "of the session [s]"},
+    {"experiment", "title"},
+    {"ppid", "participant"},
+    {"session_num", "number, from 1; a session that goes on with another has the next"}};
+
+const std::vector<Table::Column> kMeasureColumns = {
+    {"attempt", "at the trial, from 1"},
+    {"outcome", "what ended it; interrupted: nothing did"},
+    {"peak_grip_N", "largest grip force"},
+    {"peak_force_N", "largest force on any finger"},
+    {"reach_time_s", "from its start until the reach was measured"},
+    {"hand_angle_deg", "of the handle then, from the target's direction, about the axis"},
+    {"shown_angle_deg", "the same of where the handle was shown"},
+    {"hand_extent_mm", "of the handle's first stroke, toward the target"},
+    {"shown_extent_mm", "the same of where the handle was shown"},
+    {"wanted_extent_mm", "that would have led to the target"}};
+
+/// What the list's column is.
+std::string listed_as(const std::string& name) {
+    for (const Table::Column& c : recording::kTrialListColumns) {
+        if (c.name == name) return c.description;
+    }
+    return "of trial-list.csv";
+}
 
 /// Index of the list's column, or its width.
 size_t column(const std::vector<std::vector<std::string>>& list, const std::string& name) {
@@ -136,25 +164,11 @@ void TrialFinder::measure_extent(Row& row, const ReachPlan& reach,
 
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
-    table.columns = {{"start_time", "s"},
-                     {"stop_time", "s"},
-                     {"experiment", "title"},
-                     {"ppid", "participant"},
-                     {"session_num", "number, from 1"}};
+    table.columns = kSessionColumns;
     const size_t listed = column(list_, "reach_finger");
-    for (size_t k = 0; k < listed; ++k) table.columns.push_back({list_[0][k], "of trial-list.csv"});
-    table.columns.insert(
-        table.columns.end(),
-        {{"attempt", "at the trial, from 1"},
-         {"outcome", "what ended it; interrupted: nothing did"},
-         {"peak_grip_N", "largest grip force"},
-         {"peak_force_N", "largest force on any finger"},
-         {"reach_time_s", "from its start until the reach was measured"},
-         {"hand_angle_deg", "of the handle then, from the target's direction, about the axis"},
-         {"shown_angle_deg", "the same of where the handle was shown"},
-         {"hand_extent_mm", "of the handle's first stroke, toward the target"},
-         {"shown_extent_mm", "the same of where the handle was shown"},
-         {"wanted_extent_mm", "that would have led to the target"}});
+    for (size_t k = 0; k < listed; ++k)
+        table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
+    table.columns.insert(table.columns.end(), kMeasureColumns.begin(), kMeasureColumns.end());
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row{r.start, r.end, info.title, info.participant.id, 1.0};
         const auto i = static_cast<size_t>(r.trial);
@@ -180,27 +194,41 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
     return table;
 }
 
+std::vector<Table::Column> trial_columns() {
+    std::vector<Table::Column> out = kSessionColumns;
+    for (const auto* more : {&recording::kTrialListColumns, &kMeasureColumns})
+        out.insert(out.end(), more->begin(), more->end());
+    out.insert(out.end(), recording::kMovedByColumns.begin(), recording::kMovedByColumns.end());
+    return out;
+}
+
 Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
     if (!is_there(folder.file(kBefore))) return own;
     const auto before = read_csv(folder.file(kBefore));
     const size_t outcome = column(before, "outcome");
     const size_t number = column(before, "session_num");
-    if (outcome == before[0].size() || number == before[0].size() ||
-        std::max(outcome, number) >= own.columns.size()) {
+    if (outcome == before[0].size() || number == before[0].size()) {
         throw Error({folder.file(kBefore), 1}, "", "has no columns 'outcome' and 'session_num'",
                     "Put the trials.csv of the session that this one goes on with in its place.");
     }
     Table table{own.columns, {}};
+    // an earlier version's table may lack a column, or have it elsewhere
+    std::vector<size_t> places;
+    for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
     double session = 1;
     for (size_t i = 1; i < before.size(); ++i) {
-        if (before[i].size() != own.columns.size()) continue;
+        if (before[i].size() != before[0].size()) continue;
         session = std::max(session, std::strtod(before[i][number].c_str(), nullptr));
         if (before[i][outcome] == kInterrupted) continue;  // done again here
         std::vector<Table::Cell>& row = table.rows.emplace_back();
-        for (const std::string& text : before[i]) row.push_back(cell(text));
+        for (const size_t place : places)
+            row.push_back(cell(place < before[i].size() ? before[i][place] : ""));
     }
+    const auto own_number = [](const Table::Column& c) { return c.name == "session_num"; };
+    const auto own_place = static_cast<size_t>(
+        std::find_if(own.columns.begin(), own.columns.end(), own_number) - own.columns.begin());
     for (std::vector<Table::Cell> row : own.rows) {
-        row[number] = session + 1;
+        row[own_place] = session + 1;
         table.rows.push_back(std::move(row));
     }
     return table;

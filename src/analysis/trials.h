@@ -86,6 +86,9 @@ class TrialFinder {
 /// Puts the finished trials of the sessions that this one goes on with before its own.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 
+/// Columns of trials.csv, with a task or without, and what each is.
+std::vector<Table::Column> trial_columns();
+
 /// Whether the session's trials are a task's.
 bool has_trials(const recording::SessionFolder& folder);
 

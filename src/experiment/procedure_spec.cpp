@@ -2,11 +2,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "model/sigmoid_levels.h"
+
 namespace dihaptic::experiment {
 namespace {
 
 /// A trial's answer is taken up within a tick: 0.3 ms for the largest.
 constexpr size_t kLargestGrid = 200'000;
+
+/// The lowest level that its trials may have.
+double lowest_level(const ProcedureSpec& spec) {
+    if (spec.staircase) return spec.staircase->lowest.value_or(spec.least());
+    if (spec.quest_plus) return std::min(spec.quest_plus->levels.from, spec.quest_plus->levels.to);
+    return spec.least();
+}
+
+/// The experiment runs, and its answers cannot be fitted.
+void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
+    const double lowest = lowest_level(spec);
+    if (model::takes(spec.sigmoid, lowest)) return;
+    diagnostics.warning(
+        spec.place, fmt::format("{}.sigmoid", spec.name),
+        fmt::format("levels may go to {:g}, where a Weibull function has no value: answers there "
+                    "cannot be fitted",
+                    lowest),
+        spec.logarithmic ? "Take sigmoid: weibull_log10, which is the same of logarithms."
+        : spec.staircase ? "Give the staircase a 'lowest' above 0, or take another sigmoid."
+                         : "Let the levels begin above 0, or take another sigmoid.");
+}
 
 }  // namespace
 
@@ -81,6 +106,7 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     if (spec.quest && !spec.logarithmic)
         diagnostics.error(spec.place, "logarithmic", "quest's levels are logarithms",
                           "Add logarithmic: yes.");
+    warn_of_levels(spec, diagnostics);
     try {
         make_procedure(spec);
     } catch (const Error& e) {

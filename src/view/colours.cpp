@@ -4,10 +4,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/palette.h"
+
 namespace dihaptic::view {
 namespace {
 
-constexpr std::array kFingers{"#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00"};
 constexpr std::array kBodies{"#0072b2", "#56b4e9", "#d55e00", "#f0e442"};
 constexpr const char* kFixed = "#c4c1b9";
 
@@ -37,7 +38,7 @@ Vec3 body_colour(const scene::Scene& scene, size_t body) {
 }
 
 Vec3 finger_colour(size_t finger) {
-    return linear_colour(kFingers[finger % kFingers.size()]);
+    return linear_colour(palette::finger(finger));
 }
 
 }  // namespace dihaptic::view

@@ -11,18 +11,13 @@ namespace {
 
 using model::AdaptationTrial;
 using model::SingleRate;
-using model::TwoRate;
 
 using Prediction = std::function<std::vector<double>(std::span<const double>)>;
 
 /// Least squares of a prediction with bounded parameters, from several starts, and its profiles.
 class LeastSquares {
   public:
-    /// `ranges` says between what a parameter lies while one of them, `fixed`, has the value v; a
-    /// fixed one of -1 is none.
-    using Ranges = std::function<std::vector<Variable>(int fixed, double v)>;
-
-    LeastSquares(std::span<const double> measured, Prediction predict, Ranges ranges)
+    LeastSquares(std::span<const double> measured, Prediction predict, std::vector<Variable> ranges)
         : measured_(measured), predict_(std::move(predict)), ranges_(std::move(ranges)) {
         for (const double y : measured) count_ += std::isnan(y) ? 0 : 1;
     }
@@ -35,17 +30,14 @@ class LeastSquares {
         std::sort(starts.begin(), starts.end(),
                   [this](const auto& a, const auto& b) { return cost(a) < cost(b); });
         starts.resize(std::min<size_t>(starts.size(), 3));
-        const auto variables = ranges_(-1, 0);
         const Cost all = [this](std::span<const double> x) { return cost(x); };
         for (const auto& start : starts) {
-            const Minimum found = minimise(all, variables, start);
+            const Minimum found = minimise(all, ranges_, start);
             if (best_.x.empty() || found.value < best_.value) best_ = found;
         }
     }
 
     const std::vector<double>& best() const { return best_.x; }
-    /// Replaces the best parameters by others that predict the same.
-    void rename_best(std::vector<double> x) { best_.x = std::move(x); }
 
     CurveFit curve_fit() const {
         const auto n = static_cast<double>(count_);
@@ -59,7 +51,7 @@ class LeastSquares {
         // data without noise leave nothing to divide by
         const double limit = std::max(best_.value, 1e-20) * std::exp(kChiSquared95 / freedom);
         return profile_interval([&](double v) { return profile(parameter, v); }, best_.x[i],
-                                ranges_(-1, 0)[i], limit);
+                                ranges_[i], limit);
     }
 
   private:
@@ -74,10 +66,8 @@ class LeastSquares {
     /// Least cost with one parameter held.
     double profile(int parameter, double v) const {
         const auto i = static_cast<std::ptrdiff_t>(parameter);
-        auto variables = ranges_(parameter, v);
+        auto variables = ranges_;
         std::vector<double> start = best_.x;
-        for (size_t j = 0; j < start.size(); ++j)
-            start[j] = std::clamp(start[j], variables[j].low, variables[j].high);
         variables.erase(variables.begin() + i);
         start.erase(start.begin() + i);
         std::vector<double> all = best_.x;
@@ -92,7 +82,7 @@ class LeastSquares {
 
     std::span<const double> measured_;
     Prediction predict_;
-    Ranges ranges_;
+    std::vector<Variable> ranges_;
     size_t count_ = 0;
     Minimum best_;
 };
@@ -101,41 +91,6 @@ void check(std::span<const double> measured, std::span<const AdaptationTrial> tr
     if (measured.size() != trials.size())
         throw Error("there are not as many measurements as trials",
                     "give one for each trial, NaN where there is none");
-}
-
-/// Keeps a range from shrinking to a point, which no search can scale.
-Variable range(double low, double high) {
-    return {low, std::max(high, low + 1e-9)};
-}
-
-enum TwoRateParameter { kRetentionFast, kLearningFast, kRetentionSlow, kLearningSlow };
-
-/// The order of fast and slow is kept by cutting: a cost that is flat beyond it troubles a simplex
-/// less than an edge.
-TwoRate two_rate(std::span<const double> x) {
-    return {{x[kRetentionFast], std::max(x[kLearningFast], x[kLearningSlow])},
-            {std::max(x[kRetentionSlow], x[kRetentionFast]), x[kLearningSlow]}};
-}
-
-std::vector<Variable> two_rate_ranges(int fixed, double v) {
-    std::vector<Variable> ranges(4, Variable{0, 1});
-    switch (fixed) {
-        case kRetentionFast:
-            ranges[kRetentionSlow] = range(std::min(v, 1 - 1e-9), 1);
-            break;
-        case kLearningFast:
-            ranges[kLearningSlow] = range(0, v);
-            break;
-        case kRetentionSlow:
-            ranges[kRetentionFast] = range(0, v);
-            break;
-        case kLearningSlow:
-            ranges[kLearningFast] = range(std::min(v, 1 - 1e-9), 1);
-            break;
-        default:
-            break;
-    }
-    return ranges;
 }
 
 }  // namespace
@@ -162,7 +117,7 @@ LearningCurveFit fit_learning_curve(std::span<const double> measured) {
             for (size_t i = 0; i < y.size(); ++i) y[i] = curve(x).at(static_cast<double>(i));
             return y;
         },
-        [&](int, double) { return ranges; });
+        ranges);
     std::vector<std::vector<double>> starts;
     for (const double share : {0.01, 0.03, 0.1, 0.3, 1.0}) {
         const double tau = std::log(std::max(0.2, share * trials));
@@ -186,39 +141,13 @@ SingleRateFit fit_single_rate(std::span<const double> measured,
         [&](std::span<const double> x) {
             return compensation(SingleRate{x[0], x[1]}, trials);
         },
-        [](int, double) {
-            return std::vector<Variable>(2, Variable{0, 1});
-        });
+        std::vector<Variable>(2, Variable{0, 1}));
     std::vector<std::vector<double>> starts;
     for (const double retention : {0.5, 0.9, 0.98, 0.999})
         for (const double learning : {0.02, 0.1, 0.3}) starts.push_back({retention, learning});
     search.run(std::move(starts));
     const auto& x = search.best();
     return {search.curve_fit(), {x[0], x[1]}, search.interval(0), search.interval(1)};
-}
-
-TwoRateFit fit_two_rate(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
-    check(measured, trials);
-    LeastSquares search(
-        measured, [&](std::span<const double> x) { return compensation(two_rate(x), trials); },
-        two_rate_ranges);
-    std::vector<std::vector<double>> starts;
-    for (const double retention_fast : {0.2, 0.5, 0.8})
-        for (const double learning_fast : {0.1, 0.25, 0.5})
-            for (const double retention_slow : {0.95, 0.99, 0.999})
-                for (const double learning_slow : {0.01, 0.03, 0.08})
-                    starts.push_back(
-                        {retention_fast, learning_fast, retention_slow, learning_slow});
-    search.run(std::move(starts));
-    const TwoRate rates = two_rate(search.best());
-    search.rename_best(
-        {rates.fast.retention, rates.fast.learning, rates.slow.retention, rates.slow.learning});
-    return {search.curve_fit(),
-            rates,
-            search.interval(kRetentionFast),
-            search.interval(kLearningFast),
-            search.interval(kRetentionSlow),
-            search.interval(kLearningSlow)};
 }
 
 }  // namespace dihaptic::analysis

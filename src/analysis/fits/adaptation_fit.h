@@ -1,11 +1,10 @@
-// Adaptation models (model/adaptation.h, model/learning_curve.h) fitted to what a person did in
-// each trial, by least squares, with profile intervals: for each parameter, those values at which,
-// with all others fitted anew,
+// Learning curves (model/learning_curve.h) and single-rate adaptation (model/adaptation.h) fitted
+// to what a person did in each trial, by least squares, with profile intervals: for each parameter,
+// those values at which, with all others fitted anew,
 //
 //     (n - p) ln(SSE / SSE_min) <= 3.84
 //
-// n measured trials, p parameters, SSE the sum of squared residuals. The valley of the two-rate
-// model is flat: compare predicted curves, and report intervals with every parameter.
+// n measured trials, p parameters, SSE the sum of squared residuals. Two-rate: two_rate_fit.h.
 #pragma once
 
 #include <span>
@@ -34,11 +33,6 @@ struct SingleRateFit : CurveFit {
     Interval retention, learning;  ///< 95 %
 };
 
-struct TwoRateFit : CurveFit {
-    model::TwoRate rates;
-    Interval retention_fast, learning_fast, retention_slow, learning_slow;  ///< 95 %
-};
-
 /// `measured`: compensation in trials 0, 1, 2, ..., NaN where there is none. The time constant is
 /// sought between 0.1 trials and ten times their number. Throws Error when fewer trials than
 /// parameters + 1 were measured, as the others do.
@@ -48,8 +42,5 @@ LearningCurveFit fit_learning_curve(std::span<const double> measured);
 /// numbers differ.
 SingleRateFit fit_single_rate(std::span<const double> measured,
                               std::span<const model::AdaptationTrial> trials);
-/// Within 0 <= A_fast <= A_slow <= 1 and 0 <= B_slow <= B_fast <= 1.
-TwoRateFit fit_two_rate(std::span<const double> measured,
-                        std::span<const model::AdaptationTrial> trials);
 
 }  // namespace dihaptic::analysis

@@ -1,10 +1,13 @@
 #include "analysis/fits/psychometric_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/diagnostics.h"
 #include "base/random.h"
+#include "model/sigmoid_levels.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -29,26 +32,27 @@ class Search {
         variables_ = {{low_ - span_, low_ + 2 * span_},
                       {std::log(span_ / 1000), std::log(span_ * 10)}};
         if (settings_.max_lapse > 0) variables_.push_back({0, settings_.max_lapse});
+        for (double share = -0.5; share < 1.55; share += 0.1)
+            coarse_places_.push_back(low_ + share * span_);
+        // a step between two levels fits as well wherever it is between them
+        places_ = coarse_places_;
+        std::vector<double> levels;
+        for (const LevelCount& c : counts_) levels.push_back(c.level);
+        std::sort(levels.begin(), levels.end());
+        constexpr size_t kMost = 40;
+        const size_t step = 1 + levels.size() / kMost;
+        for (size_t i = step; i < levels.size(); i += step)
+            places_.push_back((levels[i - 1] + levels[i]) / 2);
     }
 
     std::vector<LevelCount>& counts() { return counts_; }
 
-    /// From the best of a coarse grid.
-    Minimum run(double tolerance = 1e-7) const {
-        Minimum best;
-        bool first = true;
-        for (const double place : {-0.1, 0.1, 0.3, 0.5, 0.7, 0.9, 1.1}) {
-            for (const double spread : {0.02, 0.06, 0.2, 0.6}) {
-                std::vector<double> x = {low_ + place * span_, std::log(spread * span_)};
-                if (variables_.size() > 2) x.push_back(0.4 * settings_.max_lapse);
-                const double value = cost(x);
-                if (first || value < best.value) best = {x, value};
-                first = false;
-            }
-        }
-        return minimise([this](std::span<const double> x) { return cost(x); }, variables_, best.x,
-                        tolerance);
-    }
+    /// The least of the minima that are found from the best point of a grid at each spread: flat
+    /// and steep functions have minima of their own.
+    Minimum run() const { return run(true, kSpreads.size(), 1e-7); }
+    /// Of a resample: from a coarser grid, on the two best of its minima, to far less than what
+    /// resamples differ by.
+    Minimum run_quickly() const { return run(false, 2, kCoarse); }
 
     /// In the unit of the data.
     Psychometric function(std::span<const double> x) const {
@@ -70,6 +74,29 @@ class Search {
     }
 
   private:
+    Minimum run(bool fine, size_t starts, double tolerance) const {
+        std::vector<Minimum> best;
+        for (const double spread : kSpreads) {
+            Minimum& here = best.emplace_back(Minimum{{}, std::numeric_limits<double>::max()});
+            for (const double place : fine ? places_ : coarse_places_) {
+                for (const double lapse : fine ? kLapses : kLapses.first(1)) {
+                    std::vector<double> x = {place, std::log(spread * span_)};
+                    if (variables_.size() > 2) x.push_back(lapse * settings_.max_lapse);
+                    const double value = cost(x);
+                    if (value < here.value) here = {std::move(x), value};
+                    if (variables_.size() == 2) break;
+                }
+            }
+        }
+        const auto less = [](const Minimum& a, const Minimum& b) { return a.value < b.value; };
+        std::stable_sort(best.begin(), best.end(), less);
+        best.resize(std::min(starts, best.size()));
+        const Cost all = [this](std::span<const double> x) { return cost(x); };
+        for (Minimum& m : best) m = minimise(all, variables_, m.x, kCoarse);
+        const Minimum& least = *std::min_element(best.begin(), best.end(), less);
+        return tolerance < kCoarse ? minimise(all, variables_, least.x, tolerance) : least;
+    }
+
     bool linear_weibull() const { return settings_.sigmoid == Sigmoid::weibull; }
 
     Psychometric searched(std::span<const double> x) const {
@@ -94,7 +121,12 @@ class Search {
 
     std::vector<LevelCount> counts_;
     PsychometricFitSettings settings_;
+    static constexpr double kCoarse = 1e-4;
+    static constexpr double kLapseShares[] = {0.4, 0.0, 1.0};
+    static constexpr std::span<const double> kLapses{kLapseShares};
+    static constexpr std::array kSpreads = {0.002, 0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 2.0, 8.0};
     double low_ = 0, span_ = 0;
+    std::vector<double> places_, coarse_places_;  // of thresholds
     std::vector<Variable> variables_;
 };
 
@@ -103,7 +135,7 @@ void check(std::span<const LevelCount> counts, const PsychometricFitSettings& se
         if (!std::isfinite(c.level) || c.yes < 0 || c.trials < 1 || c.yes > c.trials)
             throw Error("the answers at a level cannot be counted",
                         "give finite levels, each with a trial or more");
-        if (settings.sigmoid == Sigmoid::weibull && c.level <= 0)
+        if (!model::takes(settings.sigmoid, c.level))
             throw Error("a Weibull function has no level of 0 or below",
                         "fit another sigmoid, or weibull_log10 to logarithms");
     }
@@ -184,7 +216,7 @@ PsychometricIntervals bootstrap(std::span<const LevelCount> counts, const Psycho
             int& yes = search.counts()[j].yes = 0;
             for (int k = 0; k < counts[j].trials; ++k) yes += random.uniform(0, 1) < p ? 1 : 0;
         }
-        const Minimum best = search.run(1e-4);  // far finer than what resamples differ by
+        const Minimum best = search.run_quickly();
         const Psychometric f = search.function(best.x);
         thresholds.push_back(f.threshold);
         shapes.push_back(f.shape);

@@ -20,6 +20,10 @@ struct Series {
     /// An interval around each y; empty: none.
     std::vector<double> low;
     std::vector<double> high;
+    /// "#rrggbb", of what has a colour of its own (base/palette.h); empty: the page chooses.
+    std::string colour;
+
+    bool empty() const;  ///< has no value
 };
 
 /// A line across the chart, where something changes.

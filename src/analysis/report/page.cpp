@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -50,8 +51,12 @@ std::string to_html(const Table& table) {
 
 }  // namespace
 
-Page::Page(std::string title, std::string origin)
-    : title_(std::move(title)), origin_(std::move(origin)) {}
+bool Series::empty() const {
+    return std::none_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); });
+}
+
+Page::Page(std::string title, std::string who, std::string origin)
+    : title_(std::move(title)), who_(std::move(who)), origin_(std::move(origin)) {}
 
 void Page::heading(const std::string& text) {
     body_ += fmt::format("<h2>{}</h2>\n", escaped_markup(text));
@@ -70,7 +75,12 @@ void Page::folded_table(const std::string& title, const Table& table) {
                          to_html(table));
 }
 
-void Page::chart(const Chart& chart) {
+void Page::chart(Chart chart) {
+    std::erase_if(chart.series, [](const Series& s) { return s.empty(); });
+    if (chart.series.empty()) {
+        text(chart.title + ": nothing was measured.");
+        return;
+    }
     Json json{{"title", chart.title}, {"x_label", chart.x_label}, {"y_label", chart.y_label}};
     json["series"] = Json::array();
     for (const Series& s : chart.series) {
@@ -79,7 +89,8 @@ void Page::chart(const Chart& chart) {
                                   {"x", numbers(s.x)},
                                   {"y", numbers(s.y)},
                                   {"low", numbers(s.low)},
-                                  {"high", numbers(s.high)}});
+                                  {"high", numbers(s.high)},
+                                  {"colour", s.colour}});
     }
     json["marks"] = Json::array();
     for (const Mark& mark : chart.marks)
@@ -98,14 +109,15 @@ std::string Page::html() const {
         charts_ > 0 ? "<p class=\"hint caption\">Drag across a chart to zoom, Shift and drag to "
                       "move, double-click to see all of it again.</p>\n"
                     : "";
+    const std::string who = fmt::format("<p class=\"who\">{}</p>\n", escaped_markup(who_));
     return fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{0}</title>\n"
-        "<style>\n{1}\n{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"origin\">{3}</p>\n"
-        "{4}{5}<p class=\"origin\">{3}</p>\n<script>\n{6}\n</script>\n<script>\n{7}</script>\n"
+        "<style>\n{1}\n{2}</style>\n</head>\n<body>\n<h1>{0}</h1>\n{8}<p class=\"origin\">{3}</p>\n"
+        "{4}{5}{8}<p class=\"origin\">{3}</p>\n<script>\n{6}\n</script>\n<script>\n{7}</script>\n"
         "</body>\n</html>\n",
         escaped_markup(title_), kDygraphStyle, kPageStyle, escaped_markup(origin_), hint, body_,
-        kDygraphScript, kPageScript);
+        kDygraphScript, kPageScript, who);
 }
 
 }  // namespace dihaptic::analysis

@@ -11,8 +11,9 @@ namespace dihaptic::analysis {
 
 class Page {
   public:
-    /// `origin`: a line below the title, and at the page's end: what made it.
-    Page(std::string title, std::string origin);
+    /// `who`: who moved the hands, and `origin`: what made the page; lines below the title, and at
+    /// the page's end.
+    Page(std::string title, std::string who, std::string origin);
 
     void heading(const std::string& text);
     void text(const std::string& text);
@@ -20,12 +21,14 @@ class Page {
     void table(const Table& table, const std::string& caption);
     /// The same, folded away until it is asked for.
     void folded_table(const std::string& title, const Table& table);
-    void chart(const Chart& chart);
+    /// Series without a value are left out; a chart of none is a line that says so.
+    void chart(Chart chart);
 
     std::string html() const;
 
   private:
     std::string title_;
+    std::string who_;
     std::string origin_;
     std::string body_;
     int charts_ = 0;

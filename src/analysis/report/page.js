@@ -1,7 +1,7 @@
 // Draws each chart of the page: <div class="chart" data-chart="..."> holds what chart.h describes.
 "use strict";
 
-// told apart with red-green weakness, and in grey (Okabe and Ito 2008)
+// of what has no colour of its own; told apart with red-green weakness, and in grey (Okabe and Ito 2008)
 const colours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 for (const place of document.querySelectorAll(".chart")) {
@@ -27,7 +27,7 @@ for (const place of document.querySelectorAll(".chart")) {
     const points = s.drawn === "points";
     series[s.name] = {
       stepPlot: s.drawn === "steps",
-      color: colours[k % colours.length],
+      color: s.colour || colours[k % colours.length],
       strokeWidth: points ? 0 : 2,
       drawPoints: points,
       pointSize: 2.5,

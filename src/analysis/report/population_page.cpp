@@ -7,17 +7,35 @@
 #include <set>
 
 #include "analysis/report/statistics.h"
+#include "base/plural.h"
 
 namespace dihaptic::analysis {
 namespace {
 
 using Sessions = std::vector<const SessionData*>;
 
+/// In sentences.
+std::string who_moved(const Sessions& sessions) {
+    std::set<std::string> who;
+    for (const SessionData* session : sessions) who.insert(session->info.moved_by.describe());
+    return fmt::format("{}", fmt::join(who, " "));
+}
+
 /// What all figures of these sessions come from.
 std::string origin_of(const Sessions& sessions, const std::string& folder) {
     std::set<std::string> programs;
     for (const SessionData* session : sessions) programs.insert(session->info.program);
-    return fmt::format("{} sessions in {}, {}", sessions.size(), folder, fmt::join(programs, ", "));
+    return fmt::format("{} {} in {}, {}", who_moved(sessions),
+                       counted(static_cast<int64_t>(sessions.size()), "session"), folder,
+                       fmt::join(programs, ", "));
+}
+
+/// Rows of a table that were added since it had `first` get what moved the hands of their sessions.
+void mark(Table& table, size_t first, const recording::MovedBy& by) {
+    for (size_t i = first; i < table.rows.size(); ++i) {
+        table.rows[i].emplace_back(by.simulated());
+        table.rows[i].emplace_back(by.name());
+    }
 }
 
 /// Compensation of one person under one round, by the trial's place in it.
@@ -35,7 +53,7 @@ void add_people(PopulationPage& out, const std::string& title,
         row = {title, person.session->participant(), person.curve->round};
         row.insert(row.end(), landmarks.begin(), landmarks.end());
         if (!person.fits) {
-            row.resize(out.people.columns.size() - 1, AdaptationCurve::kNone);
+            row.resize(out.people.columns.size() - 2, AdaptationCurve::kNone);
         } else {
             const model::TwoRate& rates = person.fits->two_rate.rates;
             row.insert(row.end(), {rates.fast.retention, rates.fast.learning, rates.slow.retention,
@@ -43,8 +61,16 @@ void add_people(PopulationPage& out, const std::string& title,
                                    person.fits->single_rate.rate.retention,
                                    person.fits->single_rate.rate.learning});
         }
-        row.emplace_back(person.session->folder.path());
+        row.insert(row.end(), {person.curve->note(), person.session->folder.path()});
     }
+}
+
+/// A row without a figure for somebody whose session has none, but a perturbation to be learned.
+void add_unmeasured(PopulationPage& out, const std::string& title, const SessionData& session) {
+    std::vector<Table::Cell>& row = out.people.rows.emplace_back();
+    row = {title, session.participant(), "", ""};
+    row.resize(out.people.columns.size() - 2, AdaptationCurve::kNone);
+    row.insert(row.end(), {"not measured: " + session.not_measured(), session.folder.path()});
 }
 
 /// Mean over people, trial by trial. Catch trials fall on other places for everybody: they are left
@@ -64,7 +90,7 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
         }
         for (const auto& [place, x] : own) by_place[place].push_back(x);
     }
-    Series mean{"mean", Drawn::line, {}, {}, {}, {}};
+    Series mean{"mean", Drawn::line, {}, {}, {}, {}, {}};
     std::vector<Mark> marks;
     std::string block;
     for (const auto& [place, values] : by_place) {
@@ -104,7 +130,9 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
         if (std::find(rounds.begin(), rounds.end(), round) == rounds.end()) rounds.push_back(round);
     }
     for (const std::string& round : rounds) {
-        for (size_t c = 4; c + 1 < out.people.columns.size(); ++c) {
+        for (size_t c = 4; c + 2 < out.people.columns.size(); ++c) {
+            const std::string& name = out.people.columns[c].name;
+            if (name.ends_with("_low") || name.ends_with("_high")) continue;  // of one person's
             std::vector<double> values;
             for (size_t i = first_row; i < out.people.rows.size(); ++i) {
                 if (std::get<std::string>(out.people.rows[i][2]) == round)
@@ -112,12 +140,27 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
             }
             const Sample all = sample(values);
             if (all.count == 0) continue;
-            table.rows.push_back({round, out.people.columns[c].name, static_cast<double>(all.count),
-                                  all.mean, in_words(all.mean_interval), all.sd, all.median,
+            table.rows.push_back({round, name, static_cast<double>(all.count), all.mean,
+                                  in_words(all.mean_interval), all.sd, all.median,
                                   in_words(all.quartiles)});
         }
     }
     out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
+}
+
+/// What these sessions have no figure of, and why.
+void add_not_measured(PopulationPage& out, const std::string& title, const Sessions& sessions) {
+    std::set<std::string> all;
+    for (const SessionData* session : sessions) {
+        if (session->unmeasured.empty()) continue;
+        all.insert(session->not_measured());
+        if (session->curves.empty()) add_unmeasured(out, title, *session);
+    }
+    if (all.empty()) return;
+    out.page.text(fmt::format(
+        "Dihaptic has no measure yet of what is learned of these perturbations: {}. Figures of "
+        "trials under them are empty.",
+        fmt::join(all, "; ")));
 }
 
 void add_adaptation(PopulationPage& out, const std::string& title, const Sessions& sessions,
@@ -146,17 +189,24 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
                     const std::string& origin) {
     std::vector<std::string> procedures;
     std::map<std::string, std::vector<double>> shares;
+    int not_counted = 0;
     for (const SessionData* session : sessions) {
         for (const ThresholdTrack& track : session->tracks) {
-            const auto fitted = fit_threshold(track);
-            if (!fitted) continue;
+            const ThresholdFit threshold = fit_threshold(track);
             if (!shares.contains(track.procedure)) procedures.push_back(track.procedure);
-            const model::Psychometric& f = fitted->function;
-            shares[track.procedure].push_back(track.share(f.threshold));
-            out.thresholds.rows.push_back(
-                {title, session->participant(), track.procedure, track.perturbation,
-                 static_cast<double>(track.answers.size()), track.share(f.threshold), f.shape,
-                 f.lapse, session->folder.path()});
+            std::vector<double>& of_people = shares[track.procedure];
+            std::vector<Table::Cell>& row = out.thresholds.rows.emplace_back();
+            row = {title, session->participant(), track.procedure, track.perturbation,
+                   static_cast<double>(track.answers.size())};
+            if (threshold.fit) {
+                const model::Psychometric& f = threshold.fit->function;
+                row.insert(row.end(), {track.share(f.threshold), f.shape, f.lapse});
+                if (!threshold.outside) of_people.push_back(track.share(f.threshold));
+            } else {
+                row.resize(row.size() + 3, AdaptationCurve::kNone);
+            }
+            row.insert(row.end(), {threshold.note, session->folder.path()});
+            not_counted += !threshold.fit || threshold.outside;
         }
     }
     if (procedures.empty()) return;
@@ -168,7 +218,15 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
         table.rows.push_back({procedure, static_cast<double>(all.count), all.mean,
                               in_words(all.mean_interval), all.sd});
     }
-    out.page.table(table, "Thresholds over people, as shares of the perturbation. " + origin);
+    std::string caption = "Thresholds over people, as shares of the perturbation. ";
+    if (not_counted > 0) {
+        caption += fmt::format(
+            "{} not counted, since there is no fit or the threshold lies outside of the levels "
+            "that "
+            "were shown: population-thresholds.csv says which, and why. ",
+            not_counted == 1 ? "One is" : fmt::format("{} are", not_counted));
+    }
+    out.page.table(table, caption + origin);
 }
 
 void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
@@ -221,18 +279,19 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
 
 PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
                                const std::string& command) {
-    std::vector<std::string> titles;
-    std::map<std::string, Sessions> by_title;
+    // figures of simulated people and of persons, or of two populations, are never of one sample
+    using Group = std::pair<std::string, std::string>;  // the title, and who moved the hands
+    std::set<std::string> titles;
+    std::map<Group, Sessions> groups;
     Sessions all;
     for (const SessionData& session : sessions) {
-        auto& list = by_title[session.info.title];
-        if (list.empty()) titles.push_back(session.info.title);
-        list.push_back(&session);
+        titles.insert(session.info.title);
+        groups[{session.info.title, session.info.moved_by.describe()}].push_back(&session);
         all.push_back(&session);
     }
-    std::sort(titles.begin(), titles.end());
     PopulationPage out{
-        Page(titles.size() == 1 ? titles.front() : fmt::format("{} experiments", titles.size()),
+        Page(titles.size() == 1 ? *titles.begin() : fmt::format("{} experiments", titles.size()),
+             who_moved(all),
              fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
                          recording::program_version(), command))};
     out.people.columns = {{"experiment", "title"}, {"ppid", "participant"}, {"round", ""}};
@@ -245,6 +304,7 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
                                                          {"two_rate_sd", "of the residuals"},
                                                          {"A", "single-rate model, fitted"},
                                                          {"B", ""},
+                                                         {"note", "what is not measured"},
                                                          {"session", "folder"}});
     out.adaptation.columns = {{"experiment", ""}, {"round", ""}, {"unit", "of the means"},
                               {"trial", ""},      {"block", ""}, {"people", ""},
@@ -253,21 +313,35 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
     out.thresholds.columns = {
         {"experiment", ""},   {"ppid", "participant"}, {"procedure", ""},
         {"perturbation", ""}, {"trials", "answers"},   {"threshold_share", "of the perturbation"},
-        {"shape", ""},        {"lapse", ""},           {"session", "folder"}};
+        {"shape", ""},        {"lapse", ""},           {"note", "why there is no fit, or more"},
+        {"session", "folder"}};
     out.lifts.columns = {{"experiment", ""},   {"trials", ""},   {"figure", ""},
                          {"people", ""},       {"mean", ""},     {"sd", ""},
                          {"mean_low", "95 %"}, {"mean_high", ""}};
-    for (const std::string& title : titles) {
-        const Sessions& list = by_title[title];
+    const std::vector<Table*> tables{&out.people, &out.adaptation, &out.thresholds, &out.lifts};
+    for (const auto& [group, list] : groups) {
+        const auto& [title, who] = group;
         const std::string origin = origin_of(list, folder);
+        std::vector<size_t> first;
+        for (const Table* table : tables) first.push_back(table->rows.size());
         out.page.heading(title);
         std::set<std::string> people;
         for (const SessionData* session : list) people.insert(session->participant());
-        out.page.text(fmt::format("{} sessions of {} people: {}.", list.size(), people.size(),
+        const std::string of =
+            people.size() == 1 ? "one participant" : fmt::format("{} participants", people.size());
+        out.page.text(fmt::format("{} {} of {}: {}.", who,
+                                  counted(static_cast<int64_t>(list.size()), "session"), of,
                                   fmt::join(people, ", ")));
+        add_not_measured(out, title, list);
         add_adaptation(out, title, list, origin);
         add_thresholds(out, title, list, origin);
         add_lifts(out, title, list, origin);
+        for (size_t i = 0; i < tables.size(); ++i)
+            mark(*tables[i], first[i], list.front()->info.moved_by);
+    }
+    for (Table* table : tables) {
+        table->columns.insert(table->columns.end(), recording::kMovedByColumns.begin(),
+                              recording::kMovedByColumns.end());
     }
     return out;
 }

@@ -14,6 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whoever moved the hand stands in each row of a session's tables.
+Table of(const SessionData& session, Table table) {
+    return recording::marked(std::move(table), session.info.moved_by);
+}
+
 /// Tables without rows are not written.
 void write(ReportResult& result, const Table& table, const std::string& file) {
     if (table.rows.empty()) return;
@@ -27,10 +32,11 @@ ReportResult report_session(const std::string& path, const std::string& command,
     const SessionPage made = session_page(session, command, progress);
     ReportResult result;
     result.sessions = 1;
-    write(result, made.adaptation, session.folder.file("adaptation.csv"));
-    write(result, made.fits, session.folder.file("fits.csv"));
-    write(result, made.generalisation, session.folder.file("generalisation.csv"));
-    write(result, made.thresholds, session.folder.file("thresholds.csv"));
+    write(result, of(session, made.adaptation), session.folder.file("adaptation.csv"));
+    write(result, of(session, made.fits), session.folder.file("fits.csv"));
+    write(result, of(session, made.blocks), session.folder.file("adaptation-blocks.csv"));
+    write(result, of(session, made.generalisation), session.folder.file("generalisation.csv"));
+    write(result, of(session, made.thresholds), session.folder.file("thresholds.csv"));
     result.log = made.log;
     result.page = session.folder.file("report.html");
     write_file(made.page.html(), result.page);

@@ -19,15 +19,31 @@ SessionData SessionData::read(const std::string& path) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
                     "If it was killed, run: dihaptic recover " + folder.path());
     }
-    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {}, {}};
+    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {},
+                     {},     {}};
+    for (const auto& [name, what] : unmeasured_perturbations(folder.file("task.yaml"))) {
+        for (size_t i = 0; i < data.trials.rows(); ++i) {
+            if (data.trials.text(i, "perturbation") != name) continue;
+            data.unmeasured[name] = what;
+            break;
+        }
+    }
     if (is_there(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
-    data.curves = adaptation_curves(data.trials);
-    if (!data.curves.empty() && is_there(folder.file("trial-list.csv")))
+    data.curves = adaptation_curves(data.trials, data.unmeasured);
+    // what a channel or a field does to the hand is not what was learned
+    if (!data.curves.empty() && data.unmeasured.empty() && is_there(folder.file("trial-list.csv")))
         data.generalisation =
             find_generalisation(data.trials, CsvFile(folder.file("trial-list.csv")));
     if (is_there(folder.file("procedures.csv")))
         data.tracks = threshold_tracks(data.trials, CsvFile(folder.file("procedures.csv")));
     return data;
+}
+
+std::string SessionData::not_measured() const {
+    std::string out;
+    for (const auto& [name, what] : unmeasured)
+        out += (out.empty() ? "" : "; ") + name + " is " + what;
+    return out;
 }
 
 std::vector<std::string> find_sessions(const std::string& folder) {

@@ -21,7 +21,11 @@ struct SessionData {
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
+    Unmeasured unmeasured;  ///< perturbations that trials were under
 
+    /// "sideways is a mass that differs by direction", ...: what no figure of this session tells
+    /// the learning of. Empty: all is measured.
+    std::string not_measured() const;
     /// Throws Error when it is no session, or has not ended.
     static SessionData read(const std::string& path);
 

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <tuple>
 
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
+#include "base/palette.h"
 #include "base/regular_file.h"
 #include "recording/raw_log.h"
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double kLongest = 60;       // of a session that is drawn as a whole [s]
 constexpr size_t kMostPoints = 1500;  // of a curve over time
+constexpr const char* kPeak = "#000000";
 
 /// What the session was, for its head.
 Table facts(const SessionData& session) {
@@ -31,6 +34,7 @@ Table facts(const SessionData& session) {
     if (!person.sex.empty()) who += ", " + person.sex;
     if (!person.handedness.empty()) who += ", " + person.handedness + "-handed";
     row("participant", who);
+    row("hand", info.moved_by.describe());
     row("started", info.started);
     row("state", std::string(enum_name(info.state)));
     row("experiment", info.experiment);
@@ -74,6 +78,44 @@ Table outcomes(const SessionData& session) {
     return table;
 }
 
+/// What papers name of each curve, with its interval; and the models' parameters.
+void add_windows(Page& page, const SessionData& session,
+                 const std::vector<std::optional<AdaptationFits>>& all_fits) {
+    Table table;
+    table.columns = {
+        {"round", ""}, {"figure", ""}, {"mean", ""}, {"95 %", "over these trials"}, {"of", ""}};
+    Table rates{{{"round", ""}, {"parameter", ""}, {"fitted", ""}, {"95 %", "profile"}}, {}};
+    const std::vector<Table::Column> columns = landmark_columns();
+    for (size_t c = 0; c < session.curves.size(); ++c) {
+        const AdaptationCurve& curve = session.curves[c];
+        const std::vector<Table::Cell> cells = curve.landmark_cells();
+        // a column of each mean, and two of its interval, after the unit and the perturbation
+        for (size_t i = 2; i + 2 < cells.size(); i += 3) {
+            const auto at = [&](size_t k) { return std::get<double>(cells[k]); };
+            if (std::isnan(at(i))) continue;
+            table.rows.push_back({curve.round, columns[i].name, at(i),
+                                  in_words({at(i + 1), at(i + 2)}), columns[i].description});
+        }
+        const auto& fits = all_fits[c];
+        if (!fits) continue;
+        const TwoRateFit& two = fits->two_rate;
+        const SingleRateFit& one = fits->single_rate;
+        const std::vector<std::tuple<const char*, double, Interval>> parameters = {
+            {"two-rate: fast retention", two.rates.fast.retention, two.retention_fast},
+            {"two-rate: fast learning", two.rates.fast.learning, two.learning_fast},
+            {"two-rate: slow retention", two.rates.slow.retention, two.retention_slow},
+            {"two-rate: slow learning", two.rates.slow.learning, two.learning_slow},
+            {"single-rate: retention", one.rate.retention, one.retention},
+            {"single-rate: learning", one.rate.learning, one.learning}};
+        for (const auto& [name, value, interval] : parameters)
+            rates.rows.push_back({curve.round, std::string(name), value, in_words(interval)});
+    }
+    if (!table.rows.empty())
+        page.table(table, "Compensation in windows of one block each. " + origin_of(session));
+    if (!rates.rows.empty())
+        page.table(rates, "Models fitted to the curves. " + origin_of(session));
+}
+
 void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
@@ -105,12 +147,14 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
                                                      {"two_rate_sd", "of the residuals"},
                                                      {"A", "single rate"},
                                                      {"B", ""},
-                                                     {"single_rate_sd", "of the residuals"}});
+                                                     {"single_rate_sd", "of the residuals"},
+                                                     {"note", "what is not measured"}});
+    std::vector<std::optional<AdaptationFits>> all_fits;
     for (const AdaptationCurve& curve : session.curves) {
-        const auto fits = fit_adaptation(curve);
-        Series measured{"compensation", Drawn::points, {}, {}, {}, {}};
-        Series perturbation{"perturbation", Drawn::steps, {}, {}, {}, {}};
-        Series two_rate{"two-rate fit", Drawn::line, {}, {}, {}, {}};
+        const auto& fits = all_fits.emplace_back(fit_adaptation(curve));
+        Series measured{"compensation", Drawn::points, {}, {}, {}, {}, {}};
+        Series perturbation{"perturbation", Drawn::steps, {}, {}, {}, {}, {}};
+        Series two_rate{"two-rate fit", Drawn::line, {}, {}, {}, {}, {}};
         std::vector<Mark> marks;
         for (size_t i = 0; i < curve.trials.size(); ++i) {
             const AdaptationCurve::Trial& trial = curve.trials[i];
@@ -147,7 +191,8 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         row = {curve.round};
         row.insert(row.end(), landmarks.begin(), landmarks.end());
         if (!fits) {
-            row.resize(out.fits.columns.size(), AdaptationCurve::kNone);
+            row.resize(out.fits.columns.size() - 1, AdaptationCurve::kNone);
+            row.emplace_back(curve.note());
             continue;
         }
         const TwoRateFit& two = fits->two_rate;
@@ -156,14 +201,11 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
                     in_words(two.learning_fast), two.rates.slow.retention,
                     in_words(two.retention_slow), two.rates.slow.learning,
                     in_words(two.learning_slow), two.residual_sd, fits->single_rate.rate.retention,
-                    fits->single_rate.rate.learning, fits->single_rate.residual_sd});
+                    fits->single_rate.rate.learning, fits->single_rate.residual_sd, curve.note()});
     }
-    out.page.table(transposed(out.fits),
-                   "Means of compensation: over the baseline, the first and the last eight "
-                   "perturbed trials, catch trials, the first and the last eight of the clamp, and "
-                   "the washout's first; savings and rebound toward what was learned first; and "
-                   "the models' parameters. " +
-                       origin_of(session));
+    add_windows(out.page, session, all_fits);
+    out.blocks = block_table(session.curves);
+    out.page.folded_table("Compensation by block", out.blocks);
 }
 
 void add_generalisation(SessionPage& out, const SessionData& session) {
@@ -206,7 +248,7 @@ Chart psychometric_chart(const ThresholdTrack& track, const std::optional<Psycho
                                       : "share of " + track.perturbation;
     chart.y_label = "share of yes";
     chart.caption = origin;
-    Series answers{"answers", Drawn::points, {}, {}, {}, {}};
+    Series answers{"answers", Drawn::points, {}, {}, {}, {}, {}};
     const auto counts = count(track.answers);
     for (const LevelCount& c : counts) {
         answers.x.push_back(c.level);
@@ -215,7 +257,7 @@ Chart psychometric_chart(const ThresholdTrack& track, const std::optional<Psycho
     chart.series.push_back(answers);
     if (!fitted || counts.empty()) return chart;
     constexpr int kSteps = 100;
-    Series curve{"fit", Drawn::line, {}, {}, {}, {}};
+    Series curve{"fit", Drawn::line, {}, {}, {}, {}, {}};
     for (int i = 0; i <= kSteps; ++i) {
         const double x =
             counts.front().level + (counts.back().level - counts.front().level) * i / kSteps;
@@ -243,11 +285,13 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
                               {"shape", "of the sigmoid"},
                               {"shape_95", ""},
                               {"lapse", ""},
-                              {"deviance_share", "below 0.05: the function does not fit"}};
+                              {"deviance_share", "below 0.05: the function does not fit"},
+                              {"note", "why there is no fit, or what is to be known of it"}};
     for (const ThresholdTrack& track : session.tracks) {
-        const auto fitted = fit_threshold(track);
-        Series yes{"yes", Drawn::points, {}, {}, {}, {}};
-        Series no{"no", Drawn::points, {}, {}, {}, {}};
+        const ThresholdFit threshold = fit_threshold(track);
+        const auto& fitted = threshold.fit;
+        Series yes{"yes", Drawn::points, {}, {}, {}, {}, {}};
+        Series no{"no", Drawn::points, {}, {}, {}, {}, {}};
         for (size_t i = 0; i < track.answers.size(); ++i) {
             Series& series = track.answers[i].yes ? yes : no;
             series.x.push_back(static_cast<double>(i + 1));
@@ -260,7 +304,8 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
         row = {track.procedure, track.kind, track.perturbation,
                static_cast<double>(track.answers.size())};
         if (!fitted) {
-            row.resize(out.thresholds.columns.size(), AdaptationCurve::kNone);
+            row.resize(out.thresholds.columns.size() - 1, AdaptationCurve::kNone);
+            row.emplace_back(threshold.note);
             continue;
         }
         const model::Psychometric& f = fitted->function;
@@ -268,7 +313,7 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
             threshold_intervals(track, *fitted, std::stoull(session.info.seed));
         row.insert(row.end(),
                    {f.threshold, in_words(intervals.threshold), track.share(f.threshold), f.shape,
-                    in_words(intervals.shape), f.lapse, intervals.deviance_share});
+                    in_words(intervals.shape), f.lapse, intervals.deviance_share, threshold.note});
     }
     out.page.table(transposed(out.thresholds), origin_of(session));
 }
@@ -322,8 +367,8 @@ void add_lifts(SessionPage& out, const SessionData& session) {
                    "lifts.csv has each of them, and says what is missing of it. " +
                        origin_of(session));
     if (lifts.rows() < 3) return;
-    const auto curve = [&](const char* name, const char* column) {
-        Series series{name, Drawn::points, {}, {}, {}, {}};
+    const auto curve = [&](const char* name, const char* column, const char* colour = "") {
+        Series series{name, Drawn::points, {}, {}, {}, {}, colour};
         for (size_t i = 0; i < lifts.rows(); ++i) {
             series.x.push_back(static_cast<double>(i + 1));
             series.y.push_back(lifts.number(i, column));
@@ -341,10 +386,12 @@ void add_lifts(SessionPage& out, const SessionData& session) {
         out.page.chart({title, "lift", unit, origin_of(session), std::move(series), marks});
     };
     chart("Forces in the hold, and the peak of grip", "N",
-          {curve("static grip", "static_grip_N"), curve("static load", "static_load_N"),
-           curve("peak grip", "peak_grip_N")});
+          {curve("static grip", "static_grip_N", palette::kGrip),
+           curve("static load", "static_load_N", palette::kLoad),
+           curve("peak grip", "peak_grip_N", kPeak)});
     chart("Largest rates before lift-off", "N/s",
-          {curve("grip", "peak_grip_rate_N_s"), curve("load", "peak_load_rate_N_s")});
+          {curve("grip", "peak_grip_rate_N_s", palette::kGrip),
+           curve("load", "peak_load_rate_N_s", palette::kLoad)});
     chart("Durations", "s", {curve("preload", "preload_s"), curve("loading", "loading_s")});
     if (const auto effect = previous_weight(lifts)) {
         out.page.text(fmt::format(
@@ -360,7 +407,7 @@ void add_lifts(SessionPage& out, const SessionData& session) {
 void thin(Series& series) {
     if (series.x.size() <= kMostPoints) return;
     const size_t stretch = (2 * series.x.size() + kMostPoints - 1) / kMostPoints;
-    Series out{series.name, series.drawn, {}, {}, {}, {}};
+    Series out{series.name, series.drawn, {}, {}, {}, {}, series.colour};
     for (size_t first = 0; first < series.x.size(); first += stretch) {
         const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(first);
         const auto end = series.y.begin() +
@@ -394,12 +441,12 @@ void add_course(SessionPage& out, const SessionData& session, recording::RawLogR
     const auto& bodies = log.head().bodies;
     const auto found = std::find(bodies.begin(), bodies.end(), session.info.object);
     const auto object = static_cast<size_t>(found - bodies.begin());
-    Series grip{"grip force", Drawn::line, {}, {}, {}, {}};
-    Series load{"load force", Drawn::line, {}, {}, {}, {}};
-    Series height{"height", Drawn::line, {}, {}, {}, {}};
+    Series grip{"grip force", Drawn::line, {}, {}, {}, {}, palette::kGrip};
+    Series load{"load force", Drawn::line, {}, {}, {}, {}, palette::kLoad};
+    Series height{"height", Drawn::line, {}, {}, {}, {}, {}};
     std::vector<Series> sent;
     for (const std::string& finger : log.head().fingers)
-        sent.push_back({finger, Drawn::line, {}, {}, {}, {}});
+        sent.push_back({finger, Drawn::line, {}, {}, {}, {}, palette::finger(sent.size())});
     std::vector<Mark> marks;
     int phase = -1;
     while (const servo::Frame* frame = log.next()) {
@@ -453,19 +500,28 @@ void add_log(SessionPage& out, const SessionData& session,
 }  // namespace
 
 std::string origin_of(const SessionData& session) {
-    return fmt::format("{}, {}, seed {}, {}", session.folder.path(), session.info.program,
-                       session.info.seed, session.info.started);
+    return fmt::format("{} {}, {}, seed {}, {}", session.info.moved_by.describe(),
+                       session.folder.path(), session.info.program, session.info.seed,
+                       session.info.started);
 }
 
 SessionPage session_page(const SessionData& session, const std::string& command,
                          const std::function<void(double)>& progress) {
-    SessionPage out{
-        Page(session.info.title, fmt::format("{}. Made by {} with: {}", origin_of(session),
-                                             recording::program_version(), command))};
+    SessionPage out{Page(session.info.title, session.info.moved_by.describe(),
+                         fmt::format("{}. Made by {} with: {}", origin_of(session),
+                                     recording::program_version(), command))};
     out.page.table(facts(session), "");
     out.page.heading("Trials");
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
+    if (!session.unmeasured.empty()) {
+        out.page.heading("Not measured");
+        out.page.text(
+            "Dihaptic has no measure yet of what is learned of these perturbations: " +
+            session.not_measured() +
+            ". Figures of trials under them are empty. What the hand did is in trials.csv, and all "
+            "of it in session.nwb.");
+    }
     if (!session.curves.empty()) add_adaptation(out, session);
     if (!session.generalisation.empty()) add_generalisation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);

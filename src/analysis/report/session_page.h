@@ -10,13 +10,14 @@
 
 namespace dihaptic::analysis {
 
-/// What goes below every chart: session, program, seed.
+/// What goes below every chart: who moved the hand, session, program, seed.
 std::string origin_of(const SessionData& session);
 
 struct SessionPage {
     Page page;
     Table adaptation{};              ///< a row a reach; empty without
     Table fits{};                    ///< a row a round
+    Table blocks{};                  ///< a row a block of reaches
     Table thresholds{};              ///< a row a procedure
     Table generalisation{};          ///< a row a direction
     std::vector<std::string> log{};  ///< what is wrong with raw.log, in sentences

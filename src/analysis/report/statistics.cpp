@@ -50,7 +50,18 @@ Sample sample(std::span<const double> values) {
     return out;
 }
 
+double welch_half_width(const Sample& a, const Sample& b) {
+    const double of_a = a.sd * a.sd / a.count;
+    const double of_b = b.sd * b.sd / b.count;
+    if (of_a + of_b <= 0) return 0;
+    const double freedom =
+        (of_a + of_b) * (of_a + of_b) / (of_a * of_a / (a.count - 1) + of_b * of_b / (b.count - 1));
+    const boost::math::students_t student(freedom);
+    return boost::math::quantile(student, 0.975) * std::sqrt(of_a + of_b);
+}
+
 std::string in_words(const Interval& interval) {
+    if (std::isnan(interval.low) || std::isnan(interval.high)) return "-";
     return fmt::format("{:.3g} to {:.3g}", interval.low, interval.high);
 }
 

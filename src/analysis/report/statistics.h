@@ -19,7 +19,10 @@ struct Sample {
 
 Sample sample(std::span<const double> values);
 
-/// "0.12 to 0.34"
+/// Half of the 95 % interval of the difference of two means, whose spreads may differ (Welch 1947).
+double welch_half_width(const Sample& a, const Sample& b);
+
+/// "0.12 to 0.34"; "-" where there is none
 std::string in_words(const Interval& interval);
 
 }  // namespace dihaptic::analysis

@@ -43,13 +43,22 @@ recording::SessionFolder session(const std::string& parent, const std::string& s
     recording::SessionInfo info;
     static_cast<recording::Setup&>(info) = head;
     info.participant = {"S 07", "25", "F", "right"};
+    info.moved_by.mover = recording::Mover::devices;
     info.program = "dihaptic";
     info.started = "2026-11-20T10:15:00+01:00";
     info.state =
         state == "running" ? recording::SessionState::running : recording::SessionState::complete;
     folder.write_info(info);
     std::ofstream(folder.file("events.csv"))
-        << "time_s,trial,event,detail\n0.001,1,touch,\"index\tblock\"\n";
+        << "time_s,trial,event,detail\n0,1,trial,attempt 1\n0.001,1,touch,\"index\tblock\"\n"
+           "0.002,0,phase,\n";
+    std::ofstream(folder.file("trials.csv"))
+        << "start_time,stop_time,session_num,trial_num,block,condition,attempt,outcome,"
+           "hand_angle_deg\n0,0.5,1,1,old,none,1,reached,3\n"
+           "0,0.001,2,1,turned,\"far, left\",1,reached,12.5\n";
+    std::ofstream(folder.file("trials-before.csv"))
+        << "start_time,stop_time,session_num,trial_num,block,condition,attempt,outcome,"
+           "hand_angle_deg\n0,0.5,1,1,old,none,1,reached,3\n";
     return folder;
 }
 
@@ -78,13 +87,27 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(static_cast<long>(channels.size()) - 1, columns(rows[0]));
     const auto json = nlohmann::json::parse(testing::read_file(stem + "motion.json"));
     EXPECT_EQ(json["SamplingFrequency"], 1000);
-    EXPECT_EQ(json["TaskName"], "visuomotorrotation");
+    EXPECT_EQ(json["TaskName"], "visuomotor-rotation");
     EXPECT_EQ(json["MISCChannelCount"], 6);
     EXPECT_EQ(json["MotionChannelCount"], columns(rows[0]));
     const auto events =
         lines(testing::read_file(motion + "/sub-S07_task-visuomotorrotation_run-01_events.tsv"));
-    EXPECT_EQ(events[1], "0.001\tn/a\ttouch\t1\tindex block");
-    EXPECT_EQ(lines(testing::read_file(set + "/participants.tsv"))[1], "sub-S07\t25\tF\tright");
+    // trials of this session alone, with what was asked for and measured; moments with the former
+    ASSERT_EQ(events.size(), 4u);
+    EXPECT_EQ(events[0],
+              "onset\tduration\ttrial_type\tvalue\ttrial_num\tattempt\tblock\tcondition\toutcome"
+              "\thand_angle_deg\tsimulated\tmoved_by");
+    EXPECT_EQ(events[1],
+              "0\t0.001\ttrial\treached\t1\t1\tturned\tfar, left\treached\t12.5\tno\tdevices");
+    EXPECT_EQ(events[2],
+              "0.001\tn/a\ttouch\tindex block\t1\t1\tturned\tfar, left\tn/a\tn/a\tno\tdevices");
+    EXPECT_EQ(events[3], "0.002\tn/a\tphase\tn/a\t0\tn/a\tn/a\tn/a\tn/a\tn/a\tno\tdevices");
+    EXPECT_EQ(lines(testing::read_file(set + "/participants.tsv"))[1],
+              "sub-S07\t25\tF\tright\tS 07\tno\tdevices");
+    const auto set_json =
+        nlohmann::json::parse(testing::read_file(set + "/dataset_description.json"));
+    EXPECT_EQ(set_json["Simulated"], false);
+    EXPECT_EQ(testing::read_file(set + "/README").find("SIMULATION"), std::string::npos);
     EXPECT_TRUE(fs::exists(set + "/dataset_description.json"));
 }
 
@@ -92,12 +115,43 @@ TEST(Bids, ASecondSessionIsAnotherRunAndReplacesNothing) {
     testing::TemporaryFolder folder;
     const std::string set = folder.file("study");
     export_bids(session(folder.file("a"), "complete"), set, {});
-    const std::string motion = export_bids(session(folder.file("b"), "complete"), set, {}).folder;
+    const std::string motion = export_bids(session(folder.file("a"), "complete"), set, {}).folder;
     for (const char* run : {"01", "02"})
         EXPECT_TRUE(fs::exists(motion + "/sub-S07_task-visuomotorrotation_tracksys-index_run-" +
                                run + "_motion.tsv"));
     EXPECT_EQ(lines(testing::read_file(set + "/participants.tsv")).size(), 2u);
     EXPECT_EQ(lines(testing::read_file(set + "/sub-S07/sub-S07_scans.tsv")).size(), 3u);
+}
+
+TEST(Bids, ASimulationIsNotAddedToPersons) {
+    testing::TemporaryFolder folder;
+    const std::string set = folder.file("study");
+    export_bids(session(folder.file("a"), "complete"), set, {});
+    for (const auto mover : {recording::Mover::simulated_person, recording::Mover::script}) {
+        const auto other = session(folder.file("b"), "complete");
+        recording::SessionInfo info = other.read_info();
+        info.moved_by.mover = mover;
+        other.write_info(info);
+        EXPECT_THROW(export_bids(other, set, {}), Error);
+    }
+}
+
+TEST(Bids, AnotherWithTheSameLabelIsNotAdded) {
+    testing::TemporaryFolder folder;
+    const std::string set = folder.file("study");
+    export_bids(session(folder.file("a"), "complete"), set, {});
+    const auto other = session(folder.file("b"), "complete");
+    recording::SessionInfo info = other.read_info();
+    info.participant.id = "S07";
+    other.write_info(info);
+    try {
+        export_bids(other, set, {});
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("is participant S 07 there, and S07 here"),
+                  std::string::npos)
+            << e.what();
+    }
 }
 
 TEST(Bids, ASessionThatRunsIsNotExported) {

@@ -1,4 +1,4 @@
-#include "analysis/fits/adaptation_fit.h"
+#include "analysis/fits/two_rate_fit.h"
 
 #include <gtest/gtest.h>
 

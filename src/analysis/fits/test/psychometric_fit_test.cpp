@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/diagnostics.h"
@@ -102,6 +103,58 @@ TEST(PsychometricFit, RecoversWhatWasPutIn) {
         EXPECT_NEAR(threshold, f.threshold, 0.05 * f.sd()) << s;
         EXPECT_NEAR(shape / f.shape, 1, 0.05) << s;
         EXPECT_NEAR(lapse, f.lapse, 0.01) << s;
+    }
+}
+
+/// A short staircase, whose answers leave likelihoods with many hills.
+std::vector<LevelCount> short_staircase(double guess, Random& random) {
+    const Psychometric truth{Sigmoid::normal, random.uniform(0.2, 0.6), random.uniform(0.05, 0.3),
+                             guess, 0.02};
+    std::vector<Answer> answers;
+    double level = 0.8;
+    int right = 0;
+    for (int i = 0; i < 30; ++i) {
+        const bool yes = random.uniform(0, 1) < truth.probability(level);
+        answers.push_back({level, yes});
+        right = yes ? right + 1 : 0;
+        if (!yes) level = std::min(1.0, level + (i < 8 ? 0.2 : 0.1));
+        if (right == 2) {
+            level = std::max(0.0, level - (i < 8 ? 0.11 : 0.055));
+            right = 0;
+        }
+    }
+    return count(answers);
+}
+
+/// The least negative log likelihood on a dense grid of functions.
+double least_on_grid(const std::vector<LevelCount>& counts, double guess) {
+    double least = INFINITY;
+    const double low = counts.front().level;
+    const double span = counts.back().level - low;
+    for (int t = -20; t <= 60; ++t) {
+        for (int s = 0; s <= 40; ++s) {
+            for (const double lapse : {0.0, 0.01, 0.02, 0.03, 0.05}) {
+                const Psychometric f{Sigmoid::normal, low + span * t / 40.0,
+                                     span * 2e-3 * std::pow(1.22, s), guess, lapse};
+                double sum = 0;
+                for (const LevelCount& c : counts) {
+                    const double p = std::clamp(f.probability(c.level), 1e-12, 1 - 1e-12);
+                    sum -= c.yes * std::log(p) + (c.trials - c.yes) * std::log1p(-p);
+                }
+                least = std::min(least, sum);
+            }
+        }
+    }
+    return least;
+}
+
+TEST(PsychometricFit, IsTheLikeliestOfAll) {
+    Random random(7, "staircases");
+    for (int i = 0; i < 60; ++i) {
+        const double guess = i % 2 == 0 ? 0.5 : 0.02;
+        const auto counts = short_staircase(guess, random);
+        const auto fit = fit_psychometric(counts, {.guess = guess});
+        EXPECT_LE(fit.negative_log_likelihood, least_on_grid(counts, guess) + 1e-6) << i;
     }
 }
 

@@ -12,6 +12,7 @@
 #include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
 #include "analysis/report/statistics.h"
+#include "base/palette.h"
 #include "base/random.h"
 #include "testing/files.h"
 
@@ -92,7 +93,9 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_NEAR(at.baseline, bias, 1e-5);
     EXPECT_LT(at.late, at.early);
     EXPECT_NEAR(at.catch_trials, curve.trials[46].compensation, 1e-12);
-    EXPECT_NEAR(at.washout_first, curve.trials[96].compensation, 1e-12);
+    double washout = 0;  // its first eight, as that of every window
+    for (size_t i = 96; i < 104; ++i) washout += curve.trials[i].compensation / 8;
+    EXPECT_NEAR(at.washout_first, washout, 1e-12);
     const auto fits = fit_adaptation(curve);
     ASSERT_TRUE(fits);
     EXPECT_LT(fits->two_rate.residual_sd, 0.05);
@@ -234,9 +237,12 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     ASSERT_EQ(tracks.size(), 2u);
     EXPECT_GT(tracks[0].answers.size(), 300u);
     EXPECT_EQ(tracks[1].answers.size(), 0u);
-    EXPECT_FALSE(fit_threshold(tracks[1]));
-    const auto fitted = fit_threshold(tracks[0]);
+    EXPECT_FALSE(fit_threshold(tracks[1]).fit);
+    EXPECT_EQ(fit_threshold(tracks[1]).note, "not possible: 0 answers, and a fit takes 10");
+    const ThresholdFit found = fit_threshold(tracks[0]);
+    const auto& fitted = found.fit;
     ASSERT_TRUE(fitted);
+    EXPECT_EQ(found.note, "");
     const auto intervals = threshold_intervals(tracks[0], *fitted, 1);
     EXPECT_NEAR(fitted->function.threshold, -0.5, 0.05);
     EXPECT_LT(intervals.threshold.low, -0.5);
@@ -245,10 +251,10 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
 }
 
 TEST(Page, ShowsAnyTextAsItIs) {
-    Page page("a < b & \"c\"", "by </script>");
+    Page page("a < b & \"c\"", "", "by </script>");
     Chart chart;
     chart.title = "</script>\"'\xff";
-    chart.series = {{"x", Drawn::points, {1, 2}, {3, std::nan("")}, {}, {}}};
+    chart.series = {{"x", Drawn::points, {1, 2}, {3, std::nan("")}, {}, {}, {}}};
     page.chart(chart);
     const std::string html = page.html();
     EXPECT_NE(html.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
@@ -258,6 +264,122 @@ TEST(Page, ShowsAnyTextAsItIs) {
     for (const char* outside :
          {"<script src", "<link", "<img", "@import", "url(http", "sourceMappingURL"})
         EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+}
+
+TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
+    ThresholdTrack track;
+    track.model.sigmoid = model::Sigmoid::weibull;
+    for (int i = 0; i < 20; ++i) track.answers.push_back({i % 5 * 0.1, i % 2 == 0});
+    const ThresholdFit none = fit_threshold(track);  // a level of 0
+    EXPECT_FALSE(none.fit);
+    EXPECT_NE(none.note.find("Weibull"), std::string::npos) << none.note;
+    // hardly ever yes: where half would be lies beyond what was shown
+    track.model.sigmoid = model::Sigmoid::normal;
+    track.model.guess = 0;
+    track.answers.clear();
+    for (int i = 0; i < 40; ++i) track.answers.push_back({i % 4 * 0.1, i % 4 == 3 && i % 8 == 3});
+    for (int i = 0; i < 40; ++i) track.answers.push_back({i % 3 * 0.1, false});
+    for (int i = 0; i < 10; ++i) track.answers.push_back({0.3, i == 0});
+    const ThresholdFit far = fit_threshold(track);
+    ASSERT_TRUE(far.fit);
+    EXPECT_GT(far.fit->function.threshold, 0.3);
+    EXPECT_TRUE(far.outside);
+    EXPECT_NE(far.note.find("outside of the levels shown, 0 to 0.3"), std::string::npos)
+        << far.note;
+}
+
+TEST(Page, HasNoChartOfNothing) {
+    Page page("title", "who", "origin");
+    Chart chart;
+    chart.title = "Grip";
+    chart.series = {{"none", Drawn::line, {1, 2}, {std::nan(""), std::nan("")}, {}, {}, {}}};
+    page.chart(chart);
+    EXPECT_EQ(page.html().find("data-chart=\"{"), std::string::npos);
+    EXPECT_NE(page.html().find("Grip: nothing was measured."), std::string::npos);
+    chart.series.push_back({"grip force", Drawn::line, {1}, {2}, {}, {}, palette::kGrip});
+    page.chart(chart);
+    const std::string html = page.html();
+    EXPECT_NE(html.find("grip force"), std::string::npos);
+    EXPECT_NE(html.find(palette::kGrip), std::string::npos);
+    EXPECT_EQ(html.find("&quot;none&quot;"), std::string::npos);
+    EXPECT_EQ(in_words({std::nan(""), std::nan("")}), "-");
+}
+
+TEST(Adaptation, WindowsAreOfOneBlockEach) {
+    testing::TemporaryFolder folder;
+    Learner learner;
+    learner.add(10, "before", "baseline", 0);
+    learner.add(2, "before", "error_clamp", 0);  // put in
+    learner.add(60, "first", "perturbed", 30);
+    learner.add(3, "first", "error_clamp", 0);
+    learner.add(20, "reversal", "perturbed", -30);
+    learner.add(20, "clamp", "error_clamp", 0);
+    learner.add(12, "after", "washout", 0);
+    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
+    const auto curve = adaptation_curves(trials).at(0);
+    const auto mean = [&](size_t first, size_t count) {
+        double sum = 0;
+        for (size_t i = first; i < first + count; ++i) sum += curve.trials[i].compensation;
+        return sum / static_cast<double>(count);
+    };
+    const auto at = curve.windows();
+    EXPECT_NEAR(at.early.mean, mean(12, 8), 1e-9);
+    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // not of the reversal
+    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // not those that were put in
+    EXPECT_NEAR(at.clamp_last.mean, mean(107, 8), 1e-9);
+    EXPECT_NEAR(at.washout_first.mean, mean(115, 8), 1e-9);
+    EXPECT_EQ(at.early.trials, 8);
+    EXPECT_LT(at.early.low, at.early.mean);
+    EXPECT_GT(at.early.high, at.early.mean);
+    const auto blocks = curve.blocks();
+    ASSERT_EQ(blocks.size(), 5u);
+    EXPECT_EQ(blocks[1].name, "first");
+    EXPECT_NEAR(blocks[1].inserted_clamps.mean, mean(72, 3), 1e-9);
+    EXPECT_NEAR(blocks[1].last.mean, mean(64, 8), 1e-9);
+    EXPECT_EQ(blocks[3].inserted_clamps.trials, 0);
+    EXPECT_EQ(block_table({curve}).rows.size(), 5u);
+}
+
+TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
+    testing::TemporaryFolder folder;
+    const std::string task = folder.write(
+        "task.yaml",
+        "perturbations:\n"
+        "  - { name: turn, visual: { moves: [proxies], about: a, angle_deg: 30 } }\n"
+        "  - { name: curl, field: { kind: curl, on: finger, damping: 15 } }\n"
+        "  - { name: rail, field: { kind: channel, on: finger } }\n"
+        "  - { name: heavy, body: { body: block, mass_scale: [2, 2, 2] } }\n"
+        "rounds:\n"
+        "  - perturbations: [{ name: side, body: { body: block, mass_scale: [3, 3, 1] } }]\n");
+    const Unmeasured unmeasured = unmeasured_perturbations(task);
+    EXPECT_EQ(unmeasured, (Unmeasured{{"curl", "a force field (curl)"},
+                                      {"rail", "a force channel"},
+                                      {"side", "a mass that differs by direction"}}));
+    std::string text =
+        "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg\n";
+    for (int i = 1; i <= 30; ++i) {
+        const bool field = i > 10 && i <= 20;
+        const bool rail = field && i % 5 == 0;
+        text += std::to_string(i) + (field ? ",field," : ",flat,") +
+                (rail     ? "error_clamp,,rail,1,0,0\n"
+                 : field  ? "perturbed,,curl,1,12,12\n"
+                 : i > 20 ? "washout,,,0,-5,-5\n"
+                          : "baseline,,,0,1,1\n");
+    }
+    const CsvFile trials(folder.write("trials.csv", text));
+    const auto curve = adaptation_curves(trials, unmeasured).at(0);
+    EXPECT_EQ(curve.note(), "not measured under a force field (curl), a force channel");
+    const auto at = curve.windows();
+    EXPECT_TRUE(std::isnan(at.early.mean));
+    EXPECT_TRUE(std::isnan(at.late.mean));
+    EXPECT_TRUE(std::isnan(at.clamp_first.mean));
+    EXPECT_NEAR(at.washout_first.mean, 5, 1e-9);  // an angle, whatever was learned
+    EXPECT_NEAR(at.baseline.mean, -1, 1e-9);
+    EXPECT_TRUE(std::isnan(curve.trials[12].perturbation));
+    EXPECT_FALSE(fit_adaptation(curve));
+    const double perturbation = std::get<double>(curve.landmark_cells()[1]);
+    EXPECT_TRUE(std::isnan(perturbation));
+    EXPECT_TRUE(unmeasured_perturbations(folder.file("none.yaml")).empty());
 }
 
 TEST(Report, OfNothingSaysSo) {

@@ -1,0 +1,66 @@
+// Synthetic people with two-rate parameters from all over their range, and how their fits compare
+// with the truth and with what random starts lead to.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include "analysis/fits/two_rate_fit.h"
+#include "base/random.h"
+
+namespace dihaptic::analysis {
+
+struct WideResult {
+    int above_truth = 0;      ///< people whose fit is worse than the parameters that made them
+    double worst_start = 0;   ///< by how much a start led lower than the fit, relative to it
+    double milliseconds = 0;  ///< of the processor for a fit, with its intervals
+};
+
+/// Half of the people as they were published, and wider; half from anywhere. Residuals with a
+/// standard deviation of 0.5 to 12 degrees. `starts`: of the search from random places.
+inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
+    using model::TwoRate;
+    Random random(seed, "wide people");
+    const auto anywhere = [&] {
+        const double a = random.uniform(0, 1), b = random.uniform(0, 1);
+        const double learning = std::pow(10, random.uniform(-3, 0));
+        return TwoRate{{std::min(a, b), learning},
+                       {std::max(a, b), learning * random.uniform(0, 1)}};
+    };
+    const auto as_people = [&] {
+        return TwoRate{{random.uniform(0.2, 0.9), random.uniform(0.08, 0.6)},
+                       {random.uniform(0.95, 1), random.uniform(0.005, 0.08)}};
+    };
+    std::vector<model::AdaptationTrial> trials(64);
+    trials.insert(trials.end(), 160, {30});
+    trials.insert(trials.end(), 16, {-30});
+    trials.insert(trials.end(), 48, {0, true});
+    WideResult out;
+    for (int person = 0; person < people; ++person) {
+        const TwoRate truth = person % 2 == 0 ? as_people() : anywhere();
+        const std::vector<double> exact = compensation(truth, trials);
+        const double sd = random.uniform(0.5, 12);
+        std::vector<double> measured = exact;
+        double of_truth = 0;
+        for (double& y : measured) {
+            const double noise = sd * random.normal();
+            y += noise;
+            of_truth += noise * noise;
+        }
+        const std::clock_t began = std::clock();
+        const TwoRateFit fit = fit_two_rate(measured, trials);
+        out.milliseconds +=
+            1e3 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / people;
+        const double squares = fit.mean_square * static_cast<double>(measured.size());
+        if (squares > of_truth) ++out.above_truth;
+        double least = descend_two_rate(measured, trials, truth).squares;
+        for (int i = 0; i < starts; ++i)
+            least = std::min(least, descend_two_rate(measured, trials, anywhere()).squares);
+        out.worst_start = std::max(out.worst_start, (squares - least) / least);
+    }
+    return out;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,21 @@
+// Colours that mean the same wherever they are seen: in the window, in pictures and in reports.
+// Persons with any kind of colour vision tell them apart (Okabe and Ito, "Color Universal Design",
+// 2008).
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace dihaptic::palette {
+
+inline constexpr const char* kGrip = "#d55e00";
+inline constexpr const char* kLoad = "#0072b2";
+
+/// By their order in the scene; from thumb to little finger where it has all.
+inline constexpr std::array kFingers{"#e69f00", "#009e73", "#cc79a7", "#f0e442", "#d55e00"};
+
+constexpr const char* finger(size_t index) {
+    return kFingers[index % kFingers.size()];
+}
+
+}  // namespace dihaptic::palette
