@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "command.h"
 #include "experiment/plan.h"
 #include "measure/contact.h"
@@ -259,28 +261,45 @@ void add_jitter(CLI::App& bench) {
         ->add_option("--extra", options->setup.extra_blocks, "more blocks on the table, kept awake")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
+    auto runs = std::make_shared<int>(1);
+    command->add_option("--runs", *runs, "so often, one after another, and how the figures spread")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
     auto view = std::make_shared<bool>(false);
     command->add_flag("--view", *view, "draw the scene beside, as fast as the machine goes");
     add_common(*command, *options);
     command->footer(
         "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic bench jitter\n"
         "  dihaptic bench jitter --rate 4000 --time 10\n"
+        "  dihaptic bench jitter --runs 5\n"
         "  dihaptic bench jitter --view");
-    command->callback([options, time, view] {
+    command->callback([options, time, runs, view] {
         resolve(*options);
-        measure::JitterFigures figures;
+        measure::JitterRuns all;
         {
             ProgressLine line("bench jitter");
-            figures = measure::bench_jitter(
-                options->setup, *time, *view, stop_requested,
-                [&](const std::string& what, double share) { line.show(share, what); });
+            for (int run = 0; run < *runs && !stop_requested; ++run) {
+                all.runs.push_back(
+                    measure::bench_jitter(options->setup, *time, *view, stop_requested,
+                                          [&](const std::string& what, double share) {
+                                              line.show((run + share) / *runs, what);
+                                          }));
+                if (all.runs.back().ticks == 0) all.runs.pop_back();
+            }
         }
-        if (figures.ticks == 0) {
+        if (all.runs.empty()) {
             exit_code = kFailed;
             return;
         }
-        fmt::print("{}", options->json ? to_json(figures) : to_table(figures));
-        if (stop_requested || !figures.held) exit_code = kFailed;
+        const measure::JitterFigures& first = all.runs.front();
+        if (*runs == 1) {
+            fmt::print("{}", options->json ? to_json(first) : to_table(first));
+        } else {
+            fmt::print("{}", options->json ? to_json(all) : to_table(all));
+        }
+        const bool held = std::all_of(all.runs.begin(), all.runs.end(),
+                                      [](const measure::JitterFigures& f) { return f.held; });
+        if (stop_requested || !held) exit_code = kFailed;
     });
 }
 

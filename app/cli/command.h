@@ -32,6 +32,7 @@ void add_tune(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_video(CLI::App& app);
 void add_report(CLI::App& app);
+void add_fit(CLI::App& app);
 void add_export(CLI::App& app);
 void add_gui(CLI::App& app);
 void add_workspace(CLI::App& app);

@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     cli::add_picture(app);
     cli::add_video(app);
     cli::add_report(app);
+    cli::add_fit(app);
     cli::add_export(app);
     cli::add_gui(app);
     cli::add_workspace(app);

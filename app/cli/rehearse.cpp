@@ -12,7 +12,9 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "command.h"
+#include "experiment/simulated_limits.h"
 #include "person/person.h"
+#include "rehearsal.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -24,6 +26,8 @@ struct Options {
     experiment::Request request;
     std::string out;
     std::string shard = "1/1";
+    std::string population_file;
+    std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
     bool real_objects = false;
@@ -47,7 +51,7 @@ Shard parse_shard(const std::string& text) {
 }
 
 std::string id_of(int person) {
-    return fmt::format("P{:03d}", person);
+    return fmt::format("sim-{:03d}", person);
 }
 /// Where a person's session is made, and where it is once it is complete.
 std::string unfinished(const Options& options, const std::string& id) {
@@ -70,23 +74,32 @@ int run_person(const Options& options, const std::string& id) {
         experiment::Request request = options.request;
         request.participant = id;
         experiment::Plan plan = experiment::make_plan(request);
-        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
-        person::sit_down(plan, person::draw_person(objects, plan.seed, id));
+        person::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
         experiment::RunOptions run;
         run.out = folder;
         run.command = command_line();
         run.participant.id = id;
+        std::optional<analysis::SessionReader> reader;
+        if (!options.keep_recordings) {
+            run.in_place_of_log = [&](const recording::SessionFolder& session,
+                                      const recording::SessionInfo& info,
+                                      const recording::LogHead& head) -> servo::FrameSink {
+                reader.emplace(session, info, head);
+                return [&reader](const servo::Frame& frame) { reader->add(frame); };
+            };
+        }
         const experiment::RunResult result = experiment::run_session(plan, run, stop_requested, {});
-        if (result.interrupted) return kFailed;
-        const auto session = recording::SessionFolder::open(result.folder);
-        const analysis::SessionFigures figures = analysis::finish_session(session, result.info, {});
+        if (result.interrupted) {
+            fmt::print("{}\n", result.fault);
+            return kFailed;
+        }
+        const auto session = recording::SessionFolder::open_tables(result.folder);
+        const analysis::SessionFigures figures =
+            reader ? analysis::finish_tables(session, result.info, std::move(*reader))
+                   : analysis::finish_session(session, result.info, {});
         if (figures.failed()) {
             fmt::print("{}\n", result.fault.empty() ? "the simulation diverged" : result.fault);
             return kFailed;
-        }
-        if (!options.keep_recordings) {
-            fs::remove(session.raw_log());
-            fs::remove(session.nwb());
         }
         fs::rename(result.folder, finished(options, id));  // all of it, or nothing
         fs::remove_all(folder);
@@ -124,7 +137,7 @@ std::string what_became(int status) {
 /// What a person's process had to say. A disk that is full takes no messages either.
 std::string messages_of(const Options& options, const std::string& id) {
     const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
-    if (!messages.empty() || stop_requested) return messages;
+    if (messages.find_first_not_of(" \n") != std::string::npos || stop_requested) return messages;
     return fmt::format("It left no message: look whether the disk is full (df -h {}).",
                        options.out);
 }
@@ -139,12 +152,18 @@ void rehearse(Options& options) {
                     "Rehearse an experiment with 'task:', or see dihaptic run.");
     }
     print(plan.warnings);
+    print(experiment::simulated_limits(*plan.task));
+    options.population =
+        options.population_file.empty()
+            ? person::shipped_population(options.real_objects ? person::Objects::real
+                                                              : person::Objects::device)
+            : person::read_population(options.population_file);
     if (options.out.empty()) {
         options.out =
             fmt::format("rehearsals/{}_{}", fs::path(options.request.file).stem().string(),
                         options.request.seed);
     }
-    fs::create_directories(options.out);
+    claim(options.out, rehearsal_of(plan, *options.population, options.out));
 
     std::vector<std::string> waiting;
     int there = 0;
@@ -197,74 +216,6 @@ void rehearse(Options& options) {
     }
 }
 
-struct CollectOptions {
-    std::vector<std::string> folders;
-    std::string out;
-};
-
-/// The rows of a session's table under `rows`, whose header is the first session's.
-void append(std::vector<std::vector<std::string>>& rows, const std::string& file) {
-    const auto table = read_csv(file);
-    if (rows.empty()) rows.push_back(table.at(0));
-    if (table.at(0) != rows[0]) {
-        throw Error({file, 1}, "", "has other columns than the sessions before",
-                    "Collect sessions of one experiment and one version only.");
-    }
-    rows.insert(rows.end(), table.begin() + 1, table.end());
-}
-
-void write_rows(const std::vector<std::vector<std::string>>& rows, const std::string& file) {
-    std::string text;
-    for (const auto& row : rows) {
-        for (size_t i = 0; i < row.size(); ++i)
-            text += (i == 0 ? "" : ",") + to_csv(Table::Cell(row[i]));
-        text += "\n";
-    }
-    write_file(text, file);
-}
-
-void collect(const CollectOptions& options) {
-    std::map<std::string, std::string> sessions;  // by person
-    for (const std::string& folder : options.folders) {
-        std::error_code unreadable;
-        if (!fs::is_directory(folder, unreadable)) {
-            throw Error({folder, 0}, "", "is no folder",
-                        "Name the folders that dihaptic rehearse made.");
-        }
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const std::string id = entry.path().filename().string();
-            if (!is_there((entry.path() / "person.yaml").string())) continue;
-            if (!sessions.emplace(id, entry.path().string()).second) {
-                throw Error({entry.path().string(), 0}, "", "is there twice: " + sessions[id],
-                            "Name folders of different shards.");
-            }
-        }
-    }
-    if (sessions.empty()) {
-        throw Error({options.folders.front(), 0}, "", "has no complete session",
-                    "Rehearse first: dihaptic rehearse --help.");
-    }
-    std::vector<std::vector<std::string>> trials;
-    std::vector<std::vector<std::string>> people;
-    for (const auto& [id, session] : sessions) {
-        append(trials, session + "/trials.csv");
-        const Node person = read_yaml(session + "/person.yaml");
-        if (people.empty()) {
-            people.emplace_back();
-            for (const auto& entry : person.entries) people[0].push_back(entry.key);
-        }
-        people.emplace_back();
-        for (const auto& entry : person.entries) people.back().push_back(entry.value.scalar);
-    }
-    const std::string out = options.out.empty() ? options.folders.front() : options.out;
-    fs::create_directories(out);
-    write_rows(trials, out + "/trials.csv");
-    write_rows(people, out + "/people.csv");
-    fmt::print("{}, {}: {}/trials.csv, people.csv\n",
-               counted(static_cast<int64_t>(sessions.size()), "session"),
-               counted(static_cast<int64_t>(trials.size()) - 1, "attempt"), out);
-}
-
 }  // namespace
 
 void add_rehearse(CLI::App& app) {
@@ -272,7 +223,10 @@ void add_rehearse(CLI::App& app) {
         app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
     auto options = std::make_shared<Options>();
     command->add_option("FILE", options->request.file, "experiment with trials")->required();
-    command->add_option("--people", options->people, "how many, P001 and so on")
+    command->add_option("--population", options->population_file,
+                        "population file that people are drawn from; default: the program's own, "
+                        "as in populations/adults.yaml");
+    command->add_option("--people", options->people, "how many, sim-001 and so on")
         ->check(CLI::Range(1, 9999))
         ->capture_default_str();
     command->add_option("--jobs", options->jobs, "sessions at a time")
@@ -284,31 +238,26 @@ void add_rehearse(CLI::App& app) {
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())
         ->capture_default_str();
-    command->add_flag("--real-objects", options->real_objects,
-                      "people grip as one does without a device between");
+    command
+        ->add_flag("--real-objects", options->real_objects,
+                   "people grip as one does without a device between: as in "
+                   "populations/adults-real-objects.yaml")
+        ->excludes("--population");
     command->add_flag("--keep-recordings", options->keep_recordings,
                       "keep raw.log and session.nwb of each: hundreds of MB");
     command->footer(
-        "\nWho is there already is not done again: after a break the same command goes on.\n"
+        "\nA folder holds one experiment, seed and population: into another one it refuses to go.\n"
+        "Who is there already is not done again: after a break the same command goes on.\n"
         "Results are the same to the byte whatever --jobs and --shard.\n"
         "\nExamples:\n"
         "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
+        "  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
+        "--people "
+        "40 --out patients\n"
         "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
         "{}/4 ::: 1 2 3 4\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_1");
     command->callback([options] { rehearse(*options); });
-}
-
-void add_collect(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "collect", "Join the tables of rehearsed people: trials, and who they were");
-    auto options = std::make_shared<CollectOptions>();
-    command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
-    command->add_option("--out", options->out, "folder for the tables; default: the first one");
-    command->footer(
-        "\nExample:\n"
-        "  dihaptic collect rehearsals/visuomotor-rotation_1");
-    command->callback([options] { collect(*options); });
 }
 
 }  // namespace dihaptic::cli

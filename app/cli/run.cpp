@@ -14,6 +14,7 @@
 #include "common/stop_signals.h"
 #include "escape_key.h"
 #include "person/person.h"
+#include "person/population.h"
 #include "rig/calibration_guide.h"
 #include "summary.h"
 
@@ -312,9 +313,11 @@ void run(Options& options) {
     options.run.clock = real || options.clock == "real" ? experiment::Clock::real
                                                         : experiment::Clock::virtual_clock;
     options.run.command = command_line();
-    if (!options.simulate && options.run.clock == experiment::Clock::real &&
-        has_task(options.request.file))
-        ask(options.run.participant);
+    const bool task = has_task(options.request.file);
+    // of nobody but a person
+    if (real && task) ask(options.run.participant);
+    if (options.simulate && task)
+        options.run.participant.id = recording::simulated_id(options.run.participant.id);
     options.request.participant = options.run.participant.id;
     if (fs::is_directory(options.request.movement)) {
         run_batch(options);
@@ -340,7 +343,8 @@ void add_run(CLI::App& app) {
         ->add_flag("--real-objects", options->real_objects,
                    "the person grips as one does without a device between")
         ->needs(simulate);
-    command->add_option("--participant", options->run.participant.id, "participant's identifier");
+    command->add_option("--participant", options->run.participant.id,
+                        "participant's identifier; of a simulated one it begins with sim-");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
     command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")
         ->check(CLI::IsMember({"F", "M", "O", "U"}));
@@ -373,8 +377,8 @@ void add_run(CLI::App& app) {
     command->footer(
         "\nExamples:\n"
         "  dihaptic run experiments/lift-block.yaml\n"
-        "  dihaptic run experiments/visuomotor-rotation.yaml --simulate --participant S07 --seed "
-        "7\n"
+        "  dihaptic run experiments/visuomotor-rotation.yaml --simulate --participant sim-007 "
+        "--seed 7\n"
         "  dihaptic run scenes/frictionless-plane.yaml --clock real\n"
         "  dihaptic run scenes/block-on-table.yaml --rig rigs/omega-pair.yaml\n"
         "  dihaptic run experiments/reach-to-grasp.yaml --movement trial01.csv --participant S07\n"

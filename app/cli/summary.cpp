@@ -195,6 +195,7 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
     if (figures.log.left_out > 0)
         fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
     if (result.interrupted) fmt::print("interrupted: what was done until then is complete\n");
+    fmt::print("{}\n", result.info.moved_by.describe());
     fmt::print("session: {}\n", result.folder);
 }
 

@@ -6,6 +6,7 @@
 
 #include "experiment/plan.h"
 #include "experiment/safety_limits.h"
+#include "experiment/simulated_limits.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -42,6 +43,26 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     }
 }
 
+/// States that nothing ends when what they wait for does not come.
+std::vector<Problem> endless_states(const TaskPlan& task) {
+    std::vector<Problem> out;
+    for (size_t i = 0; i < task.stages.size(); ++i) {
+        const auto& ways = task.stages[i].ways;
+        const bool ends = std::any_of(ways.begin(), ways.end(), [](const TaskPlan::Way& way) {
+            return way.exit.when == When::time || way.exit.when == When::key ||
+                   way.exit.when == When::trigger || way.exit.when == When::button;
+        });
+        if (ends) continue;
+        const State& state = task.task.states[i];
+        out.push_back({Severity::warning, state.place, state.name,
+                       "waits for ever when what it waits for does not come; a simulated session "
+                       "is ended after a minute of it",
+                       "Add an exit by time, e.g. - { when: time, hold_s: 10, outcome: too late, "
+                       "redo: yes }."});
+    }
+    return out;
+}
+
 }  // namespace
 
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
@@ -58,6 +79,10 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
                 request.participant = "1";
                 const Plan plan = make_plan(request);
                 diagnostics.add(plan.warnings);
+                if (plan.task) {
+                    diagnostics.add(endless_states(*plan.task));
+                    diagnostics.add(simulated_limits(*plan.task));
+                }
                 return {kind_of(file) == FileKind::scene ? "scene" : "experiment",
                         describe_safety(plan)};
             }

@@ -7,6 +7,7 @@
 #include "experiment/task.h"
 #include "hand/movement.h"
 #include "hand/spec.h"
+#include "recording/study.h"
 #include "servo/settings.h"
 
 namespace dihaptic::experiment {
@@ -43,6 +44,7 @@ struct Experiment {
     std::optional<hand::HandSpec> hand;  ///< in place of the scene's
     std::optional<MovementSpec> movement;
     std::optional<Task> task;  ///< trials, in place of the hand's script
+    recording::Study study;
     Node settings;
     Place place;
 
@@ -54,6 +56,7 @@ struct Experiment {
         v("hand", hand);
         v("movement", movement);
         v("task", task);
+        v("study", study);
         v("settings", settings);
         if constexpr (requires { v.place(); }) place = v.place();
     }

@@ -75,6 +75,7 @@ void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnosti
 void make_task_hand(Plan& plan) {
     plan.seeing = std::make_shared<TaskHand>(plan.task, plan.hand, scene::finger_names(plan.scene));
     plan.driver = plan.seeing;
+    plan.moved_by.mover = recording::Mover::script;
 }
 
 /// The rig file; "": ideal simulated devices.
@@ -129,6 +130,7 @@ Plan make_plan(const Request& request) {
     plan.scene = scene::read_scene(scene_file, diagnostics);
     diagnostics.throw_if_errors();
     plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
+    plan.study = experiment.study;
 
     if (const std::string file = rig_file(request, experiment); !file.empty()) {
         plan.rig = rig::read_rig(file, diagnostics);
@@ -183,19 +185,23 @@ Plan make_plan(const Request& request) {
     diagnostics.throw_if_errors();
     if (real) {
         plan.driver = person_at_devices(plan);
+        plan.moved_by.mover = recording::Mover::devices;
     } else if (request.mouse) {
         plan.mouse =
             std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
         plan.driver = plan.mouse;
+        plan.moved_by.mover = recording::Mover::mouse;
     } else if (plan.task) {
         make_task_hand(plan);
     } else if (!movement.empty()) {
+        plan.moved_by.mover = recording::Mover::recorded_movement;
         plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
                                      plan.scene, plan.movement, diagnostics);
         diagnostics.throw_if_errors();
     } else {
         plan.driver =
             std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.moved_by.mover = recording::Mover::script;
     }
 
     check_with_devices(plan, diagnostics);
@@ -235,9 +241,54 @@ std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
     return out;
 }
 
+/// What moved the hand of a session, if it can do so again. Earlier programs did not write it down,
+/// but nothing except a person holds real devices, and only a simulated person has its own file.
+recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
+                          const recording::SessionFolder& folder, Seat seat) {
+    using recording::Mover;
+    Mover mover = info.moved_by.mover;
+    if (mover == Mover::not_recorded && rig::is_real(plan.rig)) mover = Mover::devices;
+    if (mover == Mover::not_recorded && is_there(folder.file("person.yaml")))
+        mover = Mover::simulated_person;
+    const std::string file = folder.file("session.yaml");
+    if (mover == Mover::not_recorded) {
+        throw Error({file, 0}, "moved_by",
+                    "does not say whether a mouse or the file's script moved the hand, and the "
+                    "trials of the two must not be mixed",
+                    "If you know it, add it to that file: 'moved_by: { mover: mouse }', or script. "
+                    "Else run the experiment again.");
+    }
+    if (mover == Mover::mouse && seat == Seat::terminal) {
+        throw Error({file, 0}, "moved_by",
+                    "says that a person moved the hand by mouse, and here is none: a script's "
+                    "trials would stand under this participant's name",
+                    "Go on in the window: dihaptic gui.");
+    }
+    if ((mover == Mover::devices) != rig::is_real(plan.rig)) {
+        throw Error({file, 0}, "moved_by",
+                    fmt::format("says {}, and the rig's devices are {}", enum_name(mover),
+                                rig::is_real(plan.rig) ? "real" : "simulated"),
+                    "Put back the session.yaml, or the rig.yaml, of this session.");
+    }
+    return mover;
+}
+
+void put_mover_back(Plan& plan, recording::Mover mover) {
+    if (mover == recording::Mover::devices) {
+        plan.driver = person_at_devices(plan);
+    } else if (mover == recording::Mover::mouse) {
+        plan.mouse =
+            std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.driver = plan.mouse;
+    } else {
+        make_task_hand(plan);
+    }
+    plan.moved_by.mover = mover;
+}
+
 }  // namespace
 
-Plan make_rest(const std::string& session, recording::SessionInfo& info) {
+Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info) {
     const auto folder = recording::SessionFolder::open(session);
     info = folder.read_info();
     if (!is_there(folder.file("task.yaml"))) {
@@ -250,6 +301,7 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
     Plan plan;
     plan.file = info.experiment;
     plan.title = info.title;
+    plan.study = info.study;
     plan.seed = seed_of(info, folder);
     plan.resumes = folder.path();
     plan.scene_folder = folder.path();
@@ -270,11 +322,7 @@ Plan make_rest(const std::string& session, recording::SessionInfo& info) {
         throw Error({session, 0}, "", "is complete: every trial is done",
                     "Run the experiment again for another session.");
     }
-    if (rig::is_real(plan.rig)) {
-        plan.driver = person_at_devices(plan);
-    } else {
-        make_task_hand(plan);
-    }
+    put_mover_back(plan, mover_of(info, plan, folder, seat));
     check_with_devices(plan, diagnostics);
     return plan;
 }

@@ -42,6 +42,8 @@ struct Plan {
     /// is.
     std::shared_ptr<const hand::Driver> driver;
     std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if it is one
+    recording::MovedBy moved_by;               ///< what the driver stands for
+    recording::Study study;
     std::optional<MovementReport> movement;
     std::shared_ptr<const TaskPlan> task;  ///< trials, if the experiment has some
     std::shared_ptr<SeeingDriver> seeing;  ///< the driver, if it sees
@@ -67,9 +69,14 @@ bool on_real_devices(const Request& request);
 /// problem found.
 Plan make_plan(const Request& request);
 
-/// What is left of a session with trials, from its frozen inputs and its tables. Throws Error when
-/// there is nothing left, or it has no trials.
-Plan make_rest(const std::string& session, recording::SessionInfo& info);
+/// Where somebody wants to go on with a session: only a window has a mouse.
+enum class Seat { terminal, window };
+
+/// What is left of a session with trials, from its frozen inputs and its tables, moved by what
+/// moved it before. Of a simulated person the driver is for the caller to put there
+/// (session/resume.h). Throws Error when there is nothing left, when it has no trials, or when what
+/// moved its hand is not known or cannot do so here.
+Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info);
 
 /// Servo on the plan's rig. `keeper`: the program that owns its devices if they are real; "": this
 /// one does.

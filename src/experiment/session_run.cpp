@@ -68,31 +68,54 @@ bool simulated_trigger(const servo::Frame& last, Time period) noexcept {
 /// A simulated hand that never does what a trial waits for would fill the disk.
 struct Wait {
     static constexpr double kLongestBetween = 60;  // trials [s]
-    static constexpr double kLongest = 3700;       // beyond the longest time that a state may have
+    static constexpr double kLongest = 60;         // in a state, beyond its exit by time [s]
+    static constexpr double kRounds = 10;          // through all states, in one attempt
+
+    /// `stages`: of the task.
+    explicit Wait(const std::vector<TaskPlan::Stage>& stages) : bounds{kLongestBetween} {
+        for (const TaskPlan::Stage& stage : stages) {
+            double longest = 0;
+            for (const TaskPlan::Way& way : stage.ways) {
+                if (way.exit.when == When::time) longest = std::max(longest, way.exit.hold);
+            }
+            bounds.push_back(longest + kLongest);
+            attempt_bound += kRounds * bounds.back();
+        }
+    }
 
     void look(const servo::Frame& last, const servo::Commands& commands) noexcept {
         const double now = seconds(last.time);
-        if (last.trial != trial || last.task.attempt != attempt || last.phase != phase) since = now;
+        if (last.trial != trial || last.task.attempt != attempt) begun = since = now;
+        if (last.phase != phase) since = now;
         trial = last.trial;
         attempt = last.task.attempt;
         phase = last.phase;
+        ended = now;
         const bool same = commands.trial == trial && commands.phase == phase;
-        over = same && now - since > (phase == kBetween ? kLongestBetween : kLongest);
+        over = (same && now - since > bounds[static_cast<size_t>(phase)]) ||
+               now - begun > attempt_bound;
     }
     std::string describe(const std::vector<recording::PhaseInfo>& phases) const {
         const auto i = static_cast<size_t>(phase);
         return fmt::format(
-            "The simulated hand never ended '{}' of trial {}. {}",
-            i < phases.size() ? phases[i].name : "a state", trial,
+            "The simulated hand never ended '{}' of trial {}: the session ends after {:.0f} s of "
+            "it. "
+            "{}",
+            i < phases.size() ? phases[i].name : "a state", trial, ended - since,
             phase == kBetween ? "Its fingers stay where an object is put back: let the last state "
                                 "lead them away."
-                              : "Give the state an exit by time, or the hand steps that meet one.");
+                              : "Give the state an exit by time, or the hand steps that meet one; "
+                                "states that lead back to each other need a way out.");
     }
 
     int trial = 0;
     int attempt = 0;
     int phase = 0;
-    double since = 0;  // [s]
+    double since = 0;            // of the state [s]
+    double begun = 0;            // of the attempt [s]
+    double ended = 0;            // what was seen last [s]
+    std::vector<double> bounds;  // by phase [s]
+    double attempt_bound = kLongestBetween;
     bool over = false;
 };
 
@@ -165,6 +188,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     info.clock = real ? "real" : "virtual";
     info.seed = std::to_string(plan.seed);
     info.participant = options.participant;
+    info.moved_by = plan.moved_by;
+    info.study = plan.study;
     if (const int object = plan.scene.object_index(); object >= 0) {
         info.object = plan.scene.bodies[static_cast<size_t>(object)].name;
     }
@@ -205,9 +230,16 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     info.identity = identity_of(info, plan, real);
     folder.write_info(info);
 
-    recording::Recorder recorder(
-        folder.raw_log(), log_head(plan.scene, plan.settings, info),
-        real ? recording::Writing::in_thread : recording::Writing::in_place, options.sync);
+    const recording::LogHead head = log_head(plan.scene, plan.settings, info);
+    servo::FrameSink read;
+    std::optional<recording::Recorder> recorder;
+    if (options.in_place_of_log) {
+        read = options.in_place_of_log(folder, info, head);
+    } else {
+        recorder.emplace(folder.raw_log(), head,
+                         real ? recording::Writing::in_thread : recording::Writing::in_place,
+                         options.sync);
+    }
     result.lock.emplace(folder);
     if (real || options.sync > 0) folder.sync();  // what it is about, before it begins
     std::optional<Outward> outward;               // others must not take a rehearsal for a session
@@ -234,7 +266,12 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     Live* const live = options.live;
     if (live != nullptr) live->prepare(*servo, plan.scene);
     const servo::FrameSink sink = [&](const servo::Frame& frame) {
-        recorder.record(frame);
+        if (recorder) {
+            recorder->record(frame);
+        } else {
+            read(frame);
+            ++result.ticks;
+        }
         if (outward) outward->send(frame);
         if (plan.seeing) plan.seeing->see(frame);
         if (live != nullptr) live->show(frame);
@@ -243,7 +280,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     PhaseDirector phases(info.phases, plan.settings.tick());
     std::optional<TaskDirector> task;
     if (plan.task) task.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
-    Wait wait;
+    std::optional<Wait> wait;
+    if (plan.task && plan.seeing && !real) wait.emplace(plan.task->stages);
     const servo::Director director = [&](const servo::Frame& last,
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {
@@ -265,8 +303,8 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         } else {
             phases(last, handles, commands);
         }
-        if (plan.seeing && !real) wait.look(last, commands);
-        commands.stop = commands.stop || recorder.failed() || wait.over;
+        if (wait) wait->look(last, commands);
+        commands.stop = commands.stop || (recorder && recorder->failed()) || (wait && wait->over);
         commands.force_off = real && stop.load(std::memory_order_relaxed);
         if (live == nullptr) return;
         commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
@@ -349,13 +387,15 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     }
     result.elapsed = since(begin);
     servo->deactivate();
-    recorder.finish();
+    if (recorder) recorder->finish();
     if (outward) {
         for (const std::string& failure : outward->finish()) info.notes.push_back(failure);
     }
     result.simulated = seconds(Time(reached.load()));
-    result.ticks = recorder.frames();
-    result.dropped = recorder.dropped();
+    if (recorder) {
+        result.ticks = recorder->frames();
+        result.dropped = recorder->dropped();
+    }
     // with a mouse, or a person, there is no more to do than somebody wants to
     const bool unfinished = task ? task->share() < 1 : !plan.open_ended();
     result.interrupted = stop.load() || (ended() && unfinished);
@@ -366,9 +406,9 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         if (info.notes.empty() || info.notes.back() != result.fault)
             info.notes.push_back(result.fault);
     }
-    if (wait.over) {
+    if (wait && wait->over) {
         result.interrupted = true;
-        result.fault = wait.describe(info.phases);
+        result.fault = wait->describe(info.phases);
         info.notes.push_back(result.fault);
     }
     if (result.timing.stall) {

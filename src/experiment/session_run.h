@@ -30,6 +30,11 @@ struct RunOptions {
     /// The program that owns real devices (keeper::program()): force goes when this one dies. "":
     /// this process owns them.
     std::string keeper;
+    /// Virtual clock only: makes what takes the frames in place of raw.log, of which there is none
+    /// then. The folder has its frozen inputs.
+    std::function<servo::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
+                                   const recording::LogHead&)>
+        in_place_of_log;
     Live* live = nullptr;  ///< real clock only: who watches and steers; outlives the run
 };
 

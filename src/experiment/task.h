@@ -33,7 +33,8 @@ struct Exit {
     std::string region;    ///< inside, outside
     bool shown = false;    ///< inside, outside: judged where the finger is shown
     std::string body;      ///< touched, released, gripped, lifted
-    std::string finger;    ///< empty: the first; with touched, released, still: any, all, all
+    std::string finger;    ///< empty: the first; with touched, released: any; with still: all; with
+                           ///< inside, outside: the middle of all
     double height = 0.02;  ///< lifted [m]
     double speed = 0.02;   ///< still [m/s]
     double hold = 0;       ///< so long without a break; with time: after so long [s]

@@ -17,6 +17,13 @@ bool same_pose(const Pose& a, const Pose& b) noexcept {
     return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
 }
 
+/// Where the hand is: as the simulated hand's steps and a person's eyes have it.
+Vec3 middle(std::span<const haptics::Handle> handles) noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (const haptics::Handle& handle : handles) sum += handle.p_WH;
+    return sum / static_cast<double>(handles.size());
+}
+
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
@@ -137,10 +144,10 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
         case When::outside: {
             const TaskPlan::Cell& cell = plan_.cell(trial());
             const auto region = static_cast<size_t>(way.region);
-            Vec3 p_W = handles[finger].p_WH;
+            const Vec3 hand_W = way.finger < 0 ? middle(handles) : handles[finger].p_WH;
             const servo::VisualMap* map =
                 way.exit.shown ? servo::map_of(last, servo::kMovesProxies) : nullptr;
-            if (map != nullptr) p_W = map->displayed(p_W);
+            const Vec3 p_W = map != nullptr ? map->displayed(hand_W) : hand_W;
             const bool inside = (p_W - cell.p_W[region]).norm() <= cell.radius[region];
             return inside == (way.exit.when == When::inside);
         }

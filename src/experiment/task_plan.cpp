@@ -136,8 +136,9 @@ class Planner {
     TaskPlan::Way way(const Exit& exit) {
         TaskPlan::Way out;
         out.exit = exit;
-        const bool any_finger =
-            exit.when == When::touched || exit.when == When::released || exit.when == When::still;
+        const bool any_finger = exit.when == When::touched || exit.when == When::released ||
+                                exit.when == When::still || exit.when == When::inside ||
+                                exit.when == When::outside;
         if (!exit.finger.empty()) {
             out.finger = look_up(fingers_, exit.finger, exit.place, "finger",
                                  "none of the scene's fingers", diagnostics_);

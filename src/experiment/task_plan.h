@@ -24,7 +24,7 @@ struct TaskPlan {
         Exit exit;
         int region = -1;
         int body = -1;
-        int finger = -1;
+        int finger = -1;   ///< that is judged; -1: any, all, or the middle of all (Exit)
         int state = -1;    ///< that it leads to
         int outcome = -1;  ///< that it ends the trial with
         int feedback = -1;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "experiment/lookup.h"
+#include "recording/trial_list.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -196,16 +197,7 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
 
 Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     Table table;
-    table.columns = {{"trial_num", "number in the session, from 1"},
-                     {"block_num", "number, from 1"},
-                     {"block", "name"},
-                     {"trial_num_in_block", "number, from 1"},
-                     {"kind", "practice, baseline, perturbed, catch, error_clamp or washout"},
-                     {"round", "name"},
-                     {"condition", "name"},
-                     {"perturbation", "name; empty: none"},
-                     {"share", "of the perturbation that acts; empty: the procedure's to say"},
-                     {"procedure", "name; empty: none"}};
+    table.columns = recording::kTrialListColumns;
     for (size_t i = 0; i < trials.size(); ++i) {
         const Trial& t = trials[i];
         table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/field_writer.h"
+#include "experiment/simulated_limits.h"
 #include "hand/places.h"
 
 namespace dihaptic::person {
@@ -115,7 +116,7 @@ void Person::restart() {
     seen_ = 0;
     doing_ = Doing::nothing;
     aim_.rest(start_);
-    trial_ = attempt_ = phase_ = 0;
+    trial_ = attempt_ = phase_ = acting_ = 0;
     between_ = true;
     since_ = wait_until_ = delay_ = 0;
     step_ = 0;
@@ -126,7 +127,7 @@ void Person::restart() {
 }
 
 const std::vector<TaskPlan::Step>& Person::steps() const noexcept {
-    return plan_->stages[static_cast<size_t>(phase_ - 1)].hand;
+    return plan_->stages[static_cast<size_t>(acting_ - 1)].hand;
 }
 
 double Person::noisy(double value, double share) noexcept {
@@ -199,7 +200,8 @@ void Person::begin_attempt() noexcept {
     if (random_.uniform(0, 1) < traits_.give_up_rate) delay_ = kGivingUp;
 }
 
-/// A new state shows by its targets and its message.
+/// A new state shows by its targets and its message. One that asks for no movement leaves the one
+/// that is made going.
 void Person::follow_cues(const Sight& sight) noexcept {
     const bool between = sight.trial < 1 || sight.phase == experiment::kBetween;
     if (between) {
@@ -213,22 +215,27 @@ void Person::follow_cues(const Sight& sight) noexcept {
         if ((sight.shown >> i & 1u) != 0) known_[i] = sight.target[i];
     }
     seen_ |= sight.shown;
-    if (sight.trial == trial_ && sight.attempt == attempt_ && sight.phase == phase_) return;
-    end_reach();
-    if (sight.trial != trial_ || sight.attempt != attempt_) begin_attempt();
+    const bool new_attempt = sight.trial != trial_ || sight.attempt != attempt_;
+    if (!new_attempt && sight.phase == phase_) return;
+    if (new_attempt) begin_attempt();
     trial_ = sight.trial;
     attempt_ = sight.attempt;
     phase_ = sight.phase;
+    const double reaction = noisy(traits_.reaction_time, traits_.reaction_noise);
+    const double begins = now_ + std::max(0.0, reaction - traits_.visual_delay) + delay_;
+    delay_ = 0;
+    answer_at_ = -1;
+    const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
+    for (const TaskPlan::Way& way : stage.ways) {
+        if (way.exit.when == When::key && answer_at_ < 0) answer_at_ = begins + kDecision;
+    }
+    if (!new_attempt && stage.hand.empty()) return;
+    end_reach();
+    acting_ = phase_;
     step_ = 0;
     doing_ = Doing::waiting;
     since_ = now_;
-    const double reaction = noisy(traits_.reaction_time, traits_.reaction_noise);
-    wait_until_ = now_ + std::max(0.0, reaction - traits_.visual_delay) + delay_;
-    delay_ = 0;
-    answer_at_ = -1;
-    for (const TaskPlan::Way& way : plan_->stages[static_cast<size_t>(phase_ - 1)].ways) {
-        if (way.exit.when == When::key && answer_at_ < 0) answer_at_ = wait_until_ + kDecision;
-    }
+    wait_until_ = begins;
 }
 
 /// Something is to be put back, and the hand is in its way.
@@ -249,8 +256,8 @@ void Person::go_on(const Sight& sight) noexcept {
     switch (doing_) {
         case Doing::nothing:
             // it did not do, so that the trial goes on: try again
-            if (!between_ && trial_ > 0 && now_ - since_ > kRetry && !steps().empty() &&
-                steps().front().reach >= 0) {
+            if (!between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
+                !steps().empty() && steps().front().reach >= 0) {
                 step_ = 0;
                 begin_step(sight);
             }
@@ -378,7 +385,7 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
 /// What the hand has to do for it to be seen to go so.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
-    const auto state = static_cast<size_t>(phase_ - 1);
+    const auto state = static_cast<size_t>(acting_ - 1);
     const Vec3 d = displacement.normalized();
     return std::exp(-gains_[state].expected(d)) *
            rotated(-rotations_[state].expected(d), displacement);
@@ -388,11 +395,13 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
     reach_ = {.going = true,
-              .state = static_cast<size_t>(phase_ - 1),
+              .state = static_cast<size_t>(acting_ - 1),
               .from = sight.hand,
               .way = displacement};
     const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
-    const double sd = traits_.direction_noise * (from_above(displacement) ? kGuided : 1);
+    const double learned = rotations_[reach_.state].learned(displacement.normalized());
+    const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
+                      (from_above(displacement) ? kGuided : 1);
     return noisy(1, traits_.extent_noise) * rotated(sd * noise, made_for(displacement));
 }
 
@@ -468,9 +477,15 @@ void Person::answer(const Sight& sight) noexcept {
 }
 
 void sit_down(experiment::Plan& plan, const Traits& traits) {
+    for (const Problem& limit : experiment::simulated_limits(*plan.task))
+        plan.warnings.push_back(limit);
     plan.person = to_yaml(write_fields(traits));
     plan.seeing = std::make_shared<Person>(traits, plan);
     plan.driver = plan.seeing;
+    plan.moved_by = {
+        recording::Mover::simulated_person, recording::program_version(),
+        traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,
+        std::to_string(plan.seed)};
 }
 
 }  // namespace dihaptic::person

@@ -24,6 +24,10 @@ class RotationMemory {
     /// Rotation vector that a person expects what is seen to be turned by, for a target in
     /// direction d; unit [rad].
     Vec3 expected(const Vec3& d) const noexcept;
+    /// How much both processes have learned there, each by its size: |fast| + |slow(d)| [rad].
+    double learned(const Vec3& d) const noexcept {
+        return fast_.norm() + (expected(d) - fast_).norm();
+    }
     /// The reach is over. `error`: rotation vector from where the target was to where the hand was
     /// seen to go [rad].
     void learn(const Vec3& d, const Vec3& error) noexcept;

@@ -1,4 +1,4 @@
-// What one simulated person is like, and the populations that people are drawn from.
+// What one simulated person is like; population.h says how people are spread.
 #pragma once
 
 #include <array>
@@ -18,9 +18,11 @@ constexpr auto enum_names(Objects) {
     return std::array{"real", "device"};
 }
 
-/// README.md says what each does; traits.cpp has the medians, the spreads and their sources.
+/// README.md says what each does; populations/ has the medians, the spreads and their sources.
 struct Traits {
     std::string id;
+    std::string population;  ///< that it was drawn from
+    std::string group;       ///< of it; empty without groups
     Objects objects = Objects::device;
 
     double visual_delay = 0;       ///< from the screen to the movement that follows [s]
@@ -30,6 +32,7 @@ struct Traits {
     double tempo = 0;              ///< movement times over those that the file asks for
     double tempo_noise = 0;        ///< SD over movements, share of it
     double direction_noise = 0;    ///< SD of a reach's direction, per axis across it [rad]
+    double adapted_noise = 0;      ///< SD of a direction, share of all that was learned about it
     double extent_noise = 0;       ///< SD of a movement's length, share of it
     double online_correction = 0;  ///< share of a seen error that is mended within the reach
 
@@ -80,6 +83,8 @@ struct Traits {
         const Field share = Field::number().within(0, 1);
         const Field angle = Field::of(Quantity::angle).within(0, 7);
         v("id", id);
+        v("population", population);
+        v("group", group);
         v("objects", objects);
         v("visual_delay", visual_delay, Field::of(Quantity::time).within(0, 1));
         v("visual_noise", visual_noise, Field::length().within(0, 1));
@@ -88,6 +93,7 @@ struct Traits {
         v("tempo", tempo, Field::number().within(0.1, 10));
         v("tempo_noise", tempo_noise, share);
         v("direction_noise", direction_noise, angle);
+        v("adapted_noise", adapted_noise, share);
         v("extent_noise", extent_noise, share);
         v("online_correction", online_correction, share);
         v("fast_retention", fast_retention, share);
@@ -119,11 +125,5 @@ struct Traits {
         v("give_up_rate", give_up_rate, share);
     }
 };
-
-/// The median person, who makes neither noise nor mistakes.
-Traits median_person(Objects objects);
-
-/// Person `id` of the population with this seed: the same whenever, and whoever else is drawn.
-Traits draw_person(Objects objects, uint64_t seed, const std::string& id);
 
 }  // namespace dihaptic::person

@@ -88,6 +88,7 @@ inline void expect_all_tell(int cases) {
                 EXPECT_FALSE(replay_session(session.path(), kGoOn, {}).good());
             }
             if (seed % 5 == 0) {
+                fs::remove_all(sessions.file("study"));  // a data set has a session once
                 EXPECT_FALSE(analysis::write_report(session.path(), "", {}).log.empty());
                 EXPECT_FALSE(
                     analysis::export_bids(session, sessions.file("study"), {}).log.empty());
@@ -114,7 +115,7 @@ inline void read_all_ways(const std::string& path, const std::string& study) {
             [&] { analysis::export_bids(recording::SessionFolder::open(path), study, {}); });
     attempt("resume", [&] {
         recording::SessionInfo info;
-        make_rest(path, info);
+        make_rest(path, Seat::terminal, info);
     });
     attempt("recover",
             [&] { analysis::recover_session(recording::SessionFolder::open(path), {}); });
@@ -136,6 +137,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         SCOPED_TRACE(name + " " + std::to_string(i));
         std::mt19937_64 random(first_seed + static_cast<uint64_t>(i));
         fs::remove_all(copy);
+        fs::remove_all(files.folder.file("study"));
         fs::copy(result.folder, copy);
         std::string text =
             fs::exists(copy + "/" + name) ? testing::read_file(copy + "/" + name) : "a,b\n1,2\n";

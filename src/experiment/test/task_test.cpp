@@ -277,7 +277,7 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
         const auto folder = recording::SessionFolder::open(cut.folder);
         analysis::recover_session(folder, {});
         recording::SessionInfo info;
-        const Plan rest = make_rest(cut.folder, info);
+        const Plan rest = make_rest(cut.folder, Seat::terminal, info);
         const RunResult second = files.run(rest);
         finish(second);
         EXPECT_EQ(column(second.folder, "trial_num"), column(whole.folder, "trial_num")) << ticks;
@@ -285,7 +285,7 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
         EXPECT_EQ(column(second.folder, "condition"), column(whole.folder, "condition")) << ticks;
         EXPECT_EQ(column(second.folder, "session_num").back(), "2");
         EXPECT_TRUE(replay_session(second.folder, kGoOn, {}).good());
-        EXPECT_THROW(make_rest(second.folder, info), Error);  // complete
+        EXPECT_THROW(make_rest(second.folder, Seat::terminal, info), Error);  // complete
     }
 }
 

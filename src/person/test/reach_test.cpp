@@ -42,11 +42,61 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
     EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
 }
 
+TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
+    const auto curve = [](const std::string& reach) {
+        Sitting sitting("rotation-reversal");
+        sitting.end_with("    - name: reach\n", reach + R"(
+    - name: arrived
+      show: [target]
+      exits: [{ when: time, hold_s: 0.1, outcome: reached }]
+  reach: { from: start, to: target, during: reach, distance_mm: 65, axis: [0, 0, 1] }
+  blocks:
+    - { name: baseline, kind: baseline, repeats: 2 }
+    - { name: rotation, kind: perturbed, perturb: rotation, repeats: 20 }
+    - { name: washout, kind: washout, repeats: 4 }
+)");
+        experiment::Plan plan = sitting.plan();
+        sit_down(plan, median_person(Objects::device));
+        return reaches(plan).hand;
+    };
+    const auto one = curve(R"(
+    - name: reach
+      show: [target]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 2, outcome: too slow }]
+      hand: [{ duration_s: 0.7, reach: target }]
+)");
+    // timed: nothing but the message changes on the way
+    const auto three = curve(R"(
+    - name: reach
+      show: [target]
+      exits: [{ when: outside, region: shell, outcome: too fast }, { when: time, hold_s: 0.45, to: in time }]
+      hand: [{ duration_s: 0.7, reach: target }]
+    - name: in time
+      show: [target]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 0.1, to: late }]
+    - name: late
+      show: [target]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 2, outcome: too slow }]
+)");
+    ASSERT_EQ(one.size(), three.size());
+    for (size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(three[i], one[i], 0.5) << i;
+    EXPECT_GT(one[21], 15);
+    EXPECT_GT(one[22], 8);
+}
+
 TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     experiment::Plan plan = Sitting("rotation-reversal").plan();
-    Traits traits = draw_person(Objects::device, 1, "P01");
+    // rates that a fit tells apart, and noise: of those who are drawn, some learn at one rate only
+    Traits traits = median_person(Objects::device);
+    traits.id = "P01";
+    traits.fast_retention = 0.62;
+    traits.fast_learning = 0.26;
+    traits.slow_retention = 0.999;
+    traits.slow_learning = 0.031;
+    traits.direction_noise = 4 * kDegree;
+    traits.visual_noise = 1e-3;
+    traits.extent_noise = 0.04;
     traits.online_correction = 0;
-    traits.give_up_rate = traits.hesitation_rate = 0;
     sit_down(plan, traits);
     const Curve curve = reaches(plan);
     const auto trials = schedule(plan);

@@ -20,7 +20,7 @@ inline double angle_about_z(const Vec3& from, const Vec3& to) {
     return std::atan2(from.cross(to).z(), from.head<2>().dot(to.head<2>()));
 }
 
-/// Angles of the first finger about z in the phase "reach" of each trial's last attempt.
+/// Angles of the first finger about z after "go to the start", in each trial's last attempt.
 inline Curve reaches(const experiment::Plan& plan) {
     const experiment::ReachMeasure& measure = *plan.task->task.reach;
     const size_t trials = plan.task->trials.size();
@@ -32,7 +32,7 @@ inline Curve reaches(const experiment::Plan& plan) {
         const auto i = static_cast<size_t>(frame.trial - 1);
         if (frame.task.outcome >= 0)
             curve.outcome[i] = plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name;
-        if (frame.phase != 2 || measured[i] == frame.task.attempt) return;
+        if (frame.phase < 2 || measured[i] == frame.task.attempt) return;
         const auto& cell = plan.task->cell(plan.task->trials[i]);
         const Vec3 arm = frame.fingers[0].p_WH - cell.p_W[0];
         if (arm.norm() < measure.distance) return;

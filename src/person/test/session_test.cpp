@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
 
+#include "analysis/session_report.h"
 #include "base/field_reader.h"
 #include "experiment/replay.h"
 #include "person/test/sitting.h"
@@ -40,6 +45,69 @@ TEST(Session, OfAPersonIsRecordedWithWhoItWasAndReplaysToTheBit) {
     };
     EXPECT_EQ(frames(first).size(), frames(run("S01")).size());
     EXPECT_NE(frames(first).size(), frames(run("S02")).size());
+}
+
+TEST(Session, ThatIsReadWhileItRunsHasTheTablesOfItsLog) {
+    for (const char* name : {"rotation-reversal", "grip-by-sight"}) {
+        Sitting sitting(name);
+        sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 2 }]\n");
+        experiment::Plan plan = sitting.plan();
+        sit_down(plan, draw_person(Objects::device, plan.seed, "sim-001"));
+        experiment::RunOptions options;
+        options.out = sitting.folder.file("logged");
+        const experiment::RunResult logged = experiment::run_session(plan, options, kGoOn, {});
+        analysis::finish_session(recording::SessionFolder::open(logged.folder), logged.info, {});
+
+        options.out = sitting.folder.file("read");
+        std::optional<analysis::SessionReader> reader;
+        options.in_place_of_log = [&](const recording::SessionFolder& folder,
+                                      const recording::SessionInfo& info,
+                                      const recording::LogHead& head) -> servo::FrameSink {
+            reader.emplace(folder, info, head);
+            return [&reader](const servo::Frame& frame) { reader->add(frame); };
+        };
+        const experiment::RunResult read = experiment::run_session(plan, options, kGoOn, {});
+        analysis::finish_tables(recording::SessionFolder::open_tables(read.folder), read.info,
+                                std::move(*reader));
+        EXPECT_EQ(read.ticks, logged.ticks);
+        EXPECT_FALSE(std::filesystem::exists(read.folder + "/raw.log"));
+        int tables = 0;
+        for (const char* table :
+             {"trials.csv", "phases.csv", "events.csv", "episodes.csv", "lifts.csv"}) {
+            if (!std::filesystem::exists(logged.folder + "/" + table)) continue;
+            ++tables;
+            EXPECT_EQ(testing::read_file(read.folder + "/" + table),
+                      testing::read_file(logged.folder + "/" + table))
+                << table;
+        }
+        EXPECT_GE(tables, 4);
+    }
+}
+
+TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
+    const std::array<std::pair<const char*, const char*>, 3> shipped{
+        {{"grip-by-sight", "away"}, {"grip-and-lift", "away"}, {"visual-scaling", "more"}}};
+    for (const auto& [name, state] : shipped) {
+        Sitting sitting(name);
+        if (std::string(name) == "visual-scaling") {
+            sitting.end_with("  procedures:",
+                             "  blocks: [{ name: some, kind: perturbed, perturb: more along x, "
+                             "repeats: 2 }]\n");
+        } else {
+            sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 1 }]\n");
+        }
+        experiment::Plan plan = sitting.plan();
+        sit_down(plan, median_person(Objects::device));
+        const auto phases = plan.task->phases();
+        std::map<int, double> spent;  // by trial: in the last state [s]
+        run_trials(plan, [&](const servo::Frame& frame) {
+            const std::string& phase = phases[static_cast<size_t>(frame.phase)];
+            if (phase == state || (phase == "less" && std::string(state) == "more"))
+                spent[frame.trial] += plan.settings.tick();
+        });
+        ASSERT_FALSE(spent.empty()) << name;
+        for (const auto& [trial, time] : spent) EXPECT_LT(time, 3.5) << name << " " << trial;
+    }
 }
 
 TEST(Session, OfAPersonAllocatesNothingInTheTick) {

@@ -8,6 +8,7 @@
 #include "experiment/session_run.h"
 #include "experiment/task_director.h"
 #include "person/person.h"
+#include "person/population.h"
 #include "servo/run.h"
 #include "testing/files.h"
 

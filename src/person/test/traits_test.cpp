@@ -1,4 +1,4 @@
-#include "person/traits.h"
+#include "person/population.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,6 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
             read_fields(read, write_fields(traits), diagnostics);
             diagnostics.throw_if_errors();
             EXPECT_EQ(read.slow_retention, traits.slow_retention);
-            EXPECT_LT(traits.fast_retention, traits.slow_retention);
-            EXPECT_GT(traits.fast_learning, traits.slow_learning);
             EXPECT_GT(traits.reflex_latency, 0.06);  // Cole and Abbs 1988
             EXPECT_LT(traits.reflex_latency, 0.092);
             learning.push_back(traits.slow_learning);
@@ -44,7 +42,10 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
             std::nth_element(v.begin(), v.begin() + 200, v.end());
             return v[200];
         };
-        EXPECT_NEAR(middle(learning), median.slow_learning, 0.03 * median.slow_learning);
+        // the median of 400 with a spread of 0.52 has a standard error of 3 %
+        EXPECT_NEAR(middle(learning), median.slow_learning, 0.08 * median.slow_learning);
+        EXPECT_LT(median.fast_retention, median.slow_retention);
+        EXPECT_GT(median.fast_learning, median.slow_learning);
         EXPECT_NEAR(middle(margin), median.safety_margin, 0.01);
     }
 }
@@ -54,34 +55,6 @@ TEST(Traits, GripHarderAndLearnWeightsMoreSlowlyThroughADevice) {
     const Traits device = median_person(Objects::device);
     EXPECT_GT(device.safety_margin, real.safety_margin);
     EXPECT_LT(device.weight_learning, real.weight_learning);
-}
-
-TEST(Traits, AveragedOverAPopulationAdaptAsPeopleDid) {
-    // human means of TwoRateProprioception; what is mended within a reach is 0.1 of the error there
-    std::vector<model::AdaptationTrial> trials(64);
-    trials.insert(trials.end(), 160, {30, false});
-    trials.insert(trials.end(), 16, {-30, false});
-    trials.insert(trials.end(), 48, {0, true});
-    std::vector<double> mean(trials.size(), 0);
-    constexpr int kPeople = 300;
-    for (int i = 0; i < kPeople; ++i) {
-        const Traits traits = draw_person(Objects::device, 1, std::to_string(i));
-        const auto x = model::compensation(traits.rotation(), trials);
-        for (size_t n = 0; n < x.size(); ++n)
-            mean[n] += (x[n] + 0.1 * model::adaptation_error(trials[n], x[n])) / kPeople;
-    }
-    const auto over = [&](size_t from, size_t to) {
-        double sum = 0;
-        for (size_t n = from; n < to; ++n) sum += mean[n];
-        return sum / static_cast<double>(to - from);
-    };
-    EXPECT_NEAR(mean[64], 3.5, 3);
-    EXPECT_NEAR(mean[64 + 6], 17.6, 3);
-    EXPECT_NEAR(mean[64 + 36], 24.2, 3);
-    EXPECT_NEAR(over(192, 224), 26.8, 3);
-    EXPECT_NEAR(mean[239], -5.7, 3);
-    EXPECT_NEAR(mean[240 + 5], 11.5, 3);
-    EXPECT_NEAR(over(256, 288), 11.1, 3);
 }
 
 }  // namespace

@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <compare>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "analysis/report/session_page.h"
+#include "base/plural.h"
+#include "base/regular_file.h"
+#include "base/text_file.h"
+#include "command.h"
+#include "rehearsal.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Rows = std::vector<std::vector<std::string>>;
+
+struct Options {
+    std::vector<std::string> folders;
+    std::string out;
+    bool join_seeds = false;
+};
+
+struct Key {
+    std::string seed;
+    std::string id;
+    auto operator<=>(const Key&) const = default;
+};
+
+/// Every folder must be of one rehearsal, or of one that only its seed tells apart.
+void check_same(const Options& options, const Rehearsal& first, const Rehearsal& other,
+                const std::string& folder) {
+    Rehearsal same_seed = other;
+    if (options.join_seeds) same_seed.seed = first.seed;
+    const std::string what = difference(first, same_seed);
+    if (what.empty()) return;
+    const bool seeds = first.seed != other.seed && !options.join_seeds;
+    throw Error({folder, 0}, "",
+                fmt::format("is another rehearsal than {}: {}", options.folders.front(), what),
+                seeds ? "Join several seeds on purpose with --join-seeds."
+                      : "Collect sessions of one experiment and one version only.");
+}
+
+std::map<Key, std::string> find_people(const Options& options) {
+    std::map<Key, std::string> out;
+    std::optional<Rehearsal> first;
+    for (const std::string& folder : options.folders) {
+        std::error_code unreadable;
+        if (!fs::is_directory(folder, unreadable)) {
+            throw Error({folder, 0}, "", "is no folder",
+                        "Name the folders that dihaptic rehearse made.");
+        }
+        std::vector<std::string> ids;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string id = entry.path().filename().string();
+            if (is_there((entry.path() / "person.yaml").string())) ids.push_back(id);
+        }
+        if (ids.empty()) continue;
+        const Rehearsal rehearsal = read_rehearsal(folder);
+        if (!first) first = rehearsal;
+        check_same(options, *first, rehearsal, folder);
+        for (const std::string& id : ids) {
+            const std::string session = folder + "/" + id;
+            const auto [there, is_new] = out.emplace(Key{rehearsal.seed, id}, session);
+            if (!is_new) {
+                throw Error({session, 0}, "", "is there twice: " + there->second,
+                            "Name folders of different shards, or of different seeds.");
+            }
+        }
+    }
+    if (out.empty()) {
+        throw Error({options.folders.front(), 0}, "", "has no complete session",
+                    "Rehearse first: dihaptic rehearse --help.");
+    }
+    return out;
+}
+
+/// The tables that are collected, each with a seed, a group and an id in front.
+class Collection {
+  public:
+    void add(const Key& key, const std::string& session) {
+        const Node person = read_yaml(session + "/person.yaml");
+        const Node* group = person.find("group");
+        front_ = {key.seed, group == nullptr ? "" : group->scalar, key.id};
+        add_person(person);
+        append("trials.csv", read_csv(session + "/trials.csv"));
+        if (is_there(session + "/lifts.csv")) append("lifts.csv", read_csv(session + "/lifts.csv"));
+        const auto page =
+            analysis::session_page(analysis::SessionData::read(session), "", [](double) {});
+        append("adaptation.csv", text_of(page.adaptation));
+        append("fits.csv", text_of(page.fits));
+        append("thresholds.csv", text_of(page.thresholds));
+    }
+
+    /// Returns the names of what it wrote.
+    std::vector<std::string> write(const std::string& folder) const {
+        std::vector<std::string> out;
+        for (const auto& [name, rows] : tables_) {
+            std::string text;
+            for (const auto& row : rows) {
+                for (size_t i = 0; i < row.size(); ++i)
+                    text += (i == 0 ? "" : ",") + to_csv(Table::Cell(row[i]));
+                text += "\n";
+            }
+            write_file(text, folder + "/" + name);
+            out.push_back(name);
+        }
+        return out;
+    }
+    size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
+
+  private:
+    void add_person(const Node& person) {
+        Rows rows(2);
+        for (const auto& entry : person.entries) {
+            if (entry.key == "id" || entry.key == "group") continue;
+            rows[0].push_back(entry.key);
+            rows[1].push_back(entry.value.scalar);
+        }
+        append("people.csv", rows);
+    }
+
+    static Rows text_of(const Table& table) {
+        if (table.rows.empty()) return {};
+        Rows out(1);
+        for (const Table::Column& column : table.columns) out[0].push_back(column.name);
+        for (const auto& row : table.rows) {
+            out.emplace_back();
+            for (const Table::Cell& cell : row) {
+                const auto* text = std::get_if<std::string>(&cell);
+                out.back().push_back(text != nullptr ? *text : to_csv(cell));
+            }
+        }
+        return out;
+    }
+
+    /// A session's table under those before it, whose header is the same.
+    void append(const std::string& name, const Rows& table) {
+        if (table.empty()) return;
+        Rows& all = tables_[name];
+        std::vector<std::string> header{"seed", "group", "id"};
+        header.insert(header.end(), table[0].begin(), table[0].end());
+        if (all.empty()) all.push_back(header);
+        if (all[0] != header) {
+            throw Error({name, 1}, "",
+                        fmt::format("of {} has other columns than before", front_[2]),
+                        "Collect sessions of one experiment and one version only.");
+        }
+        for (size_t i = 1; i < table.size(); ++i) {
+            std::vector<std::string> row = front_;
+            row.insert(row.end(), table[i].begin(), table[i].end());
+            all.push_back(std::move(row));
+        }
+    }
+
+    std::vector<std::string> front_;
+    std::map<std::string, Rows> tables_;
+};
+
+void collect(const Options& options) {
+    const auto people = find_people(options);
+    Collection collection;
+    {
+        ProgressLine line("collecting");
+        double done = 0;
+        for (const auto& [key, session] : people) {
+            collection.add(key, session);
+            line.show(++done / static_cast<double>(people.size()));
+        }
+    }
+    const std::string out = options.out.empty() ? options.folders.front() : options.out;
+    fs::create_directories(out);
+    std::string names;
+    for (const std::string& name : collection.write(out))
+        names += (names.empty() ? "" : ", ") + name;
+    fmt::print("{}, {}: in {}: {}\n", counted(static_cast<int64_t>(people.size()), "session"),
+               counted(static_cast<int64_t>(collection.rows("trials.csv")), "attempt"), out, names);
+}
+
+}  // namespace
+
+void add_collect(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "collect", "Join the tables of rehearsed people: trials, lifts, fits, who they were");
+    auto options = std::make_shared<Options>();
+    command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
+    command->add_option("--out", options->out, "folder for the tables; default: the first one");
+    command->add_flag("--join-seeds", options->join_seeds,
+                      "folders may be of several seeds: the column seed tells their people apart");
+    command->footer(
+        "\nExamples:\n"
+        "  dihaptic collect rehearsals/visuomotor-rotation_1\n"
+        "  dihaptic collect rehearsals/visuomotor-rotation_* --join-seeds --out both");
+    command->callback([options] { collect(*options); });
+}
+
+}  // namespace dihaptic::cli

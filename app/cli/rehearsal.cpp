@@ -1,0 +1,118 @@
+#include "rehearsal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/field_writer.h"
+#include "base/regular_file.h"
+#include "base/text_file.h"
+#include "experiment/frozen_inputs.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string file_of(const std::string& folder) {
+    return folder + "/rehearsal.yaml";
+}
+
+/// The first value in which two documents differ: "task.yaml, states, 2, name: a there, b here".
+std::string difference(const Node& there, const Node& here, const std::string& path) {
+    const auto inner = [&](const std::string& key) {
+        return path.empty() ? key : path + ", " + key;
+    };
+    if (there.kind != here.kind || there.scalar != here.scalar) {
+        const auto text = [](const Node& node) {
+            if (node.kind == Node::Kind::null) return std::string("nothing");
+            return node.kind == Node::Kind::scalar ? shortened(node.scalar) : "a list";
+        };
+        return fmt::format("{}: {} there, {} now", path, text(there), text(here));
+    }
+    for (size_t i = 0; i < std::max(there.items.size(), here.items.size()); ++i) {
+        const Node none;
+        const Node& a = i < there.items.size() ? there.items[i] : none;
+        const Node& b = i < here.items.size() ? here.items[i] : none;
+        const std::string found = difference(a, b, inner(std::to_string(i + 1)));
+        if (!found.empty()) return found;
+    }
+    for (const Node::Entry& entry : there.entries) {
+        const Node* other = here.find(entry.key);
+        const std::string found =
+            difference(entry.value, other == nullptr ? Node{} : *other, inner(entry.key));
+        if (!found.empty()) return found;
+    }
+    for (const Node::Entry& entry : here.entries) {
+        if (there.find(entry.key) == nullptr)
+            return difference(Node{}, entry.value, inner(entry.key));
+    }
+    return "";
+}
+
+/// Whether a folder has people in it.
+bool has_people(const std::string& folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (is_there((entry.path() / "person.yaml").string())) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population,
+                       const std::string& scratch) {
+    Rehearsal out;
+    out.program = recording::program_version();
+    out.experiment = plan.title;
+    out.seed = std::to_string(plan.seed);
+    person::Population copy = population;
+    out.population = write_fields(copy);
+    out.inputs = Node::mapping();
+    const auto folder = recording::SessionFolder::create(scratch, "inputs");
+    for (const recording::InputFile& input : experiment::freeze_inputs(plan, folder)) {
+        if (input.file == "trial-list.csv") continue;  // each person's own
+        const bool text = fs::path(input.file).extension() == ".yaml";
+        out.inputs.set(input.file,
+                       text ? read_yaml(folder.file(input.file)) : Node::of(input.checksum));
+    }
+    fs::remove_all(folder.path());
+    return out;
+}
+
+Rehearsal read_rehearsal(const std::string& folder) {
+    if (!is_there(file_of(folder))) {
+        throw Error({folder, 0}, "", "does not say what it is a rehearsal of: no rehearsal.yaml",
+                    "Rehearse anew, into another folder: --out FOLDER.");
+    }
+    Rehearsal out;
+    Diagnostics diagnostics;
+    read_fields(out, read_yaml(file_of(folder)), diagnostics);
+    diagnostics.throw_if_errors();
+    return out;
+}
+
+std::string difference(const Rehearsal& there, const Rehearsal& here) {
+    Rehearsal a = there;
+    Rehearsal b = here;
+    // as files have them, so that numbers are the same text
+    const Node left = parse_yaml(to_yaml(write_fields(a)), "there");
+    const Node right = parse_yaml(to_yaml(write_fields(b)), "here");
+    return difference(left, right, "");
+}
+
+void claim(const std::string& folder, const Rehearsal& rehearsal) {
+    fs::create_directories(folder);
+    if (!is_there(file_of(folder)) && !has_people(folder)) {
+        Rehearsal copy = rehearsal;
+        write_file(to_yaml(write_fields(copy)), file_of(folder));
+        return;
+    }
+    const std::string other = difference(read_rehearsal(folder), rehearsal);
+    if (other.empty()) return;
+    throw Error({folder, 0}, "", "is another rehearsal: " + other,
+                "Choose another folder (--out FOLDER), or remove this one.");
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,330 @@
+#include "person/population.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "base/field_writer.h"
+#include "base/random.h"
+#include "person/shipped_populations.h"
+
+namespace dihaptic::person {
+namespace {
+
+constexpr double kFarthest = 2.5;  // SDs from the median: nobody is further off
+
+/// Of people who make neither noise nor mistakes.
+constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
+                            "adapted_noise",   "extent_noise",   "reflex_noise", "friction_error",
+                            "hesitation_rate", "slip_rate",      "give_up_rate"};
+
+double drawn(const TraitSpread& row, double z) {
+    const double median = *row.median;
+    const double spread = *row.spread;
+    switch (*row.law) {
+        case Law::normal:
+            return median + spread * z;
+        case Law::log_normal:
+            return median * std::exp(spread * z);
+        case Law::logit:
+            return 1 / (1 + (1 / median - 1) * std::exp(-spread * z));
+        case Law::forgetting:
+            return 1 - (1 - median) * std::exp(-spread * z);
+    }
+    return median;
+}
+
+TraitSpread* find(std::vector<TraitSpread>& traits, const std::string& name) {
+    const auto found = std::find_if(traits.begin(), traits.end(),
+                                    [&](const TraitSpread& t) { return t.trait == name; });
+    return found == traits.end() ? nullptr : &*found;
+}
+
+/// What `change` gives replaces what `trait` has.
+void overlay(TraitSpread& trait, const TraitSpread& change) {
+    if (change.law) trait.law = change.law;
+    if (change.median) trait.median = change.median;
+    if (change.spread) trait.spread = change.spread;
+    if (!change.source.empty()) trait.source = change.source;
+    trait.place = change.place;
+}
+
+/// The traits of one group.
+std::vector<TraitSpread> traits_of(const Population& population, const std::string& group) {
+    std::vector<TraitSpread> out = population.traits;
+    for (const Group& one : population.groups) {
+        if (one.name != group) continue;
+        for (const TraitSpread& change : one.traits) {
+            if (TraitSpread* trait = find(out, change.trait)) overlay(*trait, change);
+        }
+    }
+    return out;
+}
+
+/// Traits with these values, by the rows' names and units; what is out of bounds goes to
+/// `diagnostics`.
+Traits traits_with(const std::vector<TraitSpread>& rows, const std::vector<double>& values,
+                   Diagnostics& diagnostics) {
+    Node node = Node::mapping();
+    for (size_t i = 0; i < rows.size(); ++i) {
+        Node value = Node::of(fmt::format("{}", values[i]));
+        value.place = rows[i].place;
+        node.set(rows[i].trait, std::move(value));
+    }
+    Traits out;
+    read_fields(out, node, diagnostics);
+    return out;
+}
+
+/// Lists the names of traits, without their units.
+struct TraitNames {
+    std::vector<std::string> names;
+
+    void operator()(std::string_view name, double&, Field) { names.emplace_back(name); }
+    void operator()(std::string_view, std::string&) {}
+    void operator()(std::string_view, Objects&) {}
+};
+
+const std::vector<std::string>& all_traits() {
+    static const std::vector<std::string> names = [] {
+        TraitNames list;
+        Traits traits;
+        traits.visit(list);
+        return list.names;
+    }();
+    return names;
+}
+
+/// "direction_noise_deg" and "direction_noise_rad" are one trait: direction_noise.
+std::string without_unit(const std::string& trait) {
+    std::string out = trait;
+    for (const std::string& name : all_traits()) {
+        if (trait == name) return name;
+        if (trait.rfind(name + "_", 0) == 0) out = name;
+    }
+    return out;
+}
+
+class Checker {
+  public:
+    Checker(const Population& population, Diagnostics& diagnostics)
+        : population_(population), diagnostics_(diagnostics) {}
+
+    void check(const std::string& file) {
+        for (const TraitSpread& trait : population_.traits) {
+            if (!trait.law || !trait.median || !trait.spread)
+                error(trait.place, trait.trait, "has no law, median or spread",
+                      "Write e.g. law: log_normal, median: 0.1, spread: 0.2.");
+        }
+        for (const std::string& name : all_traits()) {
+            const auto& traits = population_.traits;
+            if (std::none_of(traits.begin(), traits.end(),
+                             [&](const TraitSpread& t) { return without_unit(t.trait) == name; }))
+                error({file, 0}, name, "is missing",
+                      "Give every trait, or base the file on another: based_on: adults.yaml.");
+        }
+        if (diagnostics_.has_errors()) return;
+        check_bounds("");
+        for (const Group& group : population_.groups) check_group(group);
+        check_correlations(file);
+    }
+
+  private:
+    void error(const Place& place, const std::string& key, const std::string& what,
+               const std::string& remedy) {
+        diagnostics_.error(place, key, what, remedy);
+    }
+
+    void check_group(const Group& group) {
+        for (const TraitSpread& change : group.traits) {
+            auto traits = population_.traits;
+            if (find(traits, change.trait) == nullptr)
+                error(change.place, change.trait, "is no trait of this population",
+                      "Write its name and unit as under the population's traits.");
+        }
+        check_bounds(group.name);
+    }
+
+    /// The median, and those that are furthest from it.
+    void check_bounds(const std::string& group) {
+        const auto rows = traits_of(population_, group);
+        for (const double z : {0.0, -kFarthest, kFarthest}) {
+            std::vector<double> values;
+            for (const TraitSpread& row : rows) values.push_back(drawn(row, z));
+            Diagnostics found;
+            traits_with(rows, values, found);
+            diagnostics_.add(found.problems());
+            if (found.has_errors()) return;
+        }
+    }
+
+    void check_correlations(const std::string& file) {
+        auto traits = population_.traits;
+        for (const Correlation& c : population_.correlations) {
+            if (c.traits.size() != 2)
+                error(c.place, "traits", "are not two", "Write e.g. traits: [a, b].");
+            for (const std::string& name : c.traits) {
+                if (find(traits, name) == nullptr)
+                    error(c.place, name, "is no trait of this population",
+                          "Write its name and unit as under the population's traits.");
+            }
+        }
+        if (diagnostics_.has_errors() || population_.correlations.empty()) return;
+        if (Eigen::LLT<Eigen::MatrixXd>(matrix(population_)).info() != Eigen::Success)
+            error({file, 0}, "correlations", "contradict each other",
+                  "Three traits cannot all be correlated at will: make them smaller.");
+    }
+
+  public:
+    /// Of all traits, in their order.
+    static Eigen::MatrixXd matrix(const Population& population) {
+        const auto n = static_cast<Eigen::Index>(population.traits.size());
+        Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
+        const auto index = [&](const std::string& name) {
+            Eigen::Index i = 0;
+            while (population.traits[static_cast<size_t>(i)].trait != name) ++i;
+            return i;
+        };
+        for (const Correlation& c : population.correlations) {
+            const auto a = index(c.traits[0]);
+            const auto b = index(c.traits[1]);
+            out(a, b) = out(b, a) = c.r;
+        }
+        return out;
+    }
+
+  private:
+    const Population& population_;
+    Diagnostics& diagnostics_;
+};
+
+/// Over the file that it is based on.
+Population resolved(Population change, Population base) {
+    for (const TraitSpread& trait : change.traits) {
+        if (TraitSpread* there = find(base.traits, trait.trait)) {
+            overlay(*there, trait);
+        } else {
+            base.traits.push_back(trait);  // the checker says what is wrong with it
+        }
+    }
+    change.traits = std::move(base.traits);
+    if (change.correlations.empty()) change.correlations = std::move(base.correlations);
+    if (change.groups.empty()) change.groups = std::move(base.groups);
+    change.based_on.clear();
+    return change;
+}
+
+Population parse(const Node& node, Diagnostics& diagnostics) {
+    Population out;
+    read_fields(out, node, diagnostics);
+    diagnostics.throw_if_errors();
+    return out;
+}
+
+Population checked(Population population, const std::string& file, Diagnostics& diagnostics) {
+    Checker(population, diagnostics).check(file);
+    diagnostics.throw_if_errors();
+    return population;
+}
+
+Population read_shipped(Objects objects) {
+    Diagnostics diagnostics;
+    const auto text = [&](std::string_view yaml, const char* name) {
+        return parse(parse_yaml(std::string(yaml), name), diagnostics);
+    };
+    Population out = text(kAdults, "populations/adults.yaml");
+    if (objects == Objects::real) {
+        out = resolved(text(kAdultsRealObjects, "populations/adults-real-objects.yaml"),
+                       std::move(out));
+    }
+    return checked(std::move(out), "populations", diagnostics);
+}
+
+/// The number that ends an identifier; 1 if none does.
+size_t number_of(const std::string& id) {
+    const size_t last = id.find_last_not_of("0123456789");
+    const std::string digits = id.substr(last == std::string::npos ? 0 : last + 1);
+    return digits.empty() || digits.size() > 9 ? 1 : std::stoul(digits);
+}
+
+Traits with_names(Traits traits, const Population& population, const std::string& group,
+                  const std::string& id) {
+    traits.id = id;
+    traits.population = population.title;
+    traits.group = group;
+    traits.objects = population.objects;
+    return traits;
+}
+
+}  // namespace
+
+std::string Population::group_of(const std::string& id) const {
+    if (groups.empty()) return "";
+    return groups[(number_of(id) + groups.size() - 1) % groups.size()].name;
+}
+
+Population read_population(const std::string& file) {
+    Diagnostics diagnostics;
+    Population out = parse(read_yaml(file), diagnostics);
+    if (!out.based_on.empty()) {
+        const auto base = std::filesystem::path(file).parent_path() / out.based_on;
+        if (std::filesystem::weakly_canonical(base) == std::filesystem::weakly_canonical(file))
+            throw Error({file, 0}, "based_on", "is the file itself", "Name another file.");
+        out = resolved(std::move(out), read_population(base.string()));
+    }
+    return checked(std::move(out), file, diagnostics);
+}
+
+const Population& shipped_population(Objects objects) {
+    static const Population device = read_shipped(Objects::device);
+    static const Population real = read_shipped(Objects::real);
+    return objects == Objects::real ? real : device;
+}
+
+Traits median_person(const Population& population, const std::string& group) {
+    const auto rows = traits_of(population, group);
+    std::vector<double> values;
+    for (const TraitSpread& row : rows) {
+        const bool noise =
+            std::find(kNoise.begin(), kNoise.end(), without_unit(row.trait)) != kNoise.end();
+        values.push_back(noise ? 0 : *row.median);
+    }
+    Diagnostics diagnostics;
+    const Traits out = traits_with(rows, values, diagnostics);
+    diagnostics.throw_if_errors();
+    return with_names(out, population, group, "");
+}
+
+Traits draw_person(const Population& population, uint64_t seed, const std::string& id) {
+    const std::string group = population.group_of(id);
+    const auto rows = traits_of(population, group);
+    Eigen::VectorXd u(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index i = 0; i < u.size(); ++i) {
+        const std::string trait = without_unit(rows[static_cast<size_t>(i)].trait);
+        u[i] = Random(seed, fmt::format("person {}, {}", id, trait)).normal();
+    }
+    const Eigen::VectorXd z =
+        Eigen::LLT<Eigen::MatrixXd>(Checker::matrix(population)).matrixL() * u;
+    std::vector<double> values;
+    for (size_t i = 0; i < rows.size(); ++i) {
+        const double cut = std::clamp(z[static_cast<Eigen::Index>(i)], -kFarthest, kFarthest);
+        values.push_back(drawn(rows[i], cut));
+    }
+    Diagnostics diagnostics;
+    const Traits out = traits_with(rows, values, diagnostics);
+    diagnostics.throw_if_errors();
+    return with_names(out, population, group, id);
+}
+
+Traits median_person(Objects objects) {
+    return median_person(shipped_population(objects));
+}
+
+Traits draw_person(Objects objects, uint64_t seed, const std::string& id) {
+    return draw_person(shipped_population(objects), seed, id);
+}
+
+}  // namespace dihaptic::person

@@ -1,0 +1,11 @@
+// The files of populations/, which the build puts into the program.
+#pragma once
+
+#include <string_view>
+
+namespace dihaptic::person {
+
+extern const std::string_view kAdults;
+extern const std::string_view kAdultsRealObjects;
+
+}  // namespace dihaptic::person

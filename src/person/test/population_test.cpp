@@ -1,0 +1,118 @@
+#include "person/population.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "testing/files.h"
+
+namespace dihaptic::person {
+namespace {
+
+/// A file over the shipped one.
+struct File {
+    testing::TemporaryFolder folder;
+    Population read(const std::string& rest) {
+        const std::string base =
+            std::filesystem::current_path().string() + "/populations/adults.yaml";
+        return read_population(
+            folder.write("p.yaml", "title: Mine\nbased_on: " + base + "\n" + rest));
+    }
+    std::string refused(const std::string& rest) {
+        try {
+            read(rest);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    }
+};
+
+TEST(Population, ThatIsShippedIsInItsFile) {
+    const Population file = read_population("populations/adults.yaml");
+    EXPECT_EQ(file.traits.size(), shipped_population(Objects::device).traits.size());
+    const Traits one = draw_person(file, 1, "sim-001");
+    EXPECT_EQ(one.slow_learning, draw_person(Objects::device, 1, "sim-001").slow_learning);
+    const Population real = read_population("populations/adults-real-objects.yaml");
+    EXPECT_EQ(draw_person(real, 1, "sim-001").safety_margin,
+              draw_person(Objects::real, 1, "sim-001").safety_margin);
+    // as far as they do not differ, the same people
+    EXPECT_EQ(draw_person(real, 1, "sim-001").slow_learning, one.slow_learning);
+    for (const TraitSpread& trait : file.traits) EXPECT_NE(trait.source, "") << trait.trait;
+}
+
+TEST(Population, HasGroupsInTurnThatDifferInWhatTheyName) {
+    const Population population = File().read(R"(groups:
+  - { name: control }
+  - name: patients
+    traits:
+      - { trait: slow_retention, median: 0.95, spread: 0 }
+)");
+    const Traits control = draw_person(population, 1, "sim-001");
+    const Traits patient = draw_person(population, 1, "sim-002");
+    EXPECT_EQ(control.group, "control");
+    EXPECT_EQ(patient.group, "patients");
+    EXPECT_EQ(patient.population, "Mine");
+    EXPECT_EQ(patient.slow_retention, 0.95);
+    EXPECT_EQ(median_person(population, "patients").slow_retention, 0.95);
+    // who is drawn is the same with groups and without
+    EXPECT_EQ(patient.tempo, draw_person(Objects::device, 1, "sim-002").tempo);
+    EXPECT_EQ(control.slow_retention, draw_person(Objects::device, 1, "sim-001").slow_retention);
+}
+
+TEST(Population, DrawsWithItsSpreadsAndCorrelations) {
+    const Population population = File().read(R"(traits:
+  - { trait: direction_noise_deg, law: log_normal, median: 5, spread: 0.3 }
+  - { trait: tempo, spread: 0.2 }
+correlations:
+  - { traits: [direction_noise_deg, tempo], r: 0.6 }
+)");
+    double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+    constexpr int kPeople = 2000;
+    for (int i = 0; i < kPeople; ++i) {
+        const Traits traits = draw_person(population, 1, "sim-" + std::to_string(i));
+        const double x = std::log(traits.direction_noise * 180 / M_PI / 5);
+        const double y = std::log(traits.tempo);
+        a += x / kPeople;
+        b += y / kPeople;
+        aa += x * x / kPeople;
+        bb += y * y / kPeople;
+        ab += x * y / kPeople;
+    }
+    EXPECT_NEAR(a, 0, 0.02);
+    EXPECT_NEAR(b, 0, 0.015);
+    EXPECT_NEAR(std::sqrt(aa), 0.3, 0.02);
+    EXPECT_NEAR(std::sqrt(bb), 0.2, 0.015);
+    EXPECT_NEAR(ab / std::sqrt(aa * bb), 0.6, 0.05);
+}
+
+TEST(Population, ThatCannotBeIsRefusedWithFileLineAndRemedy) {
+    File file;
+    EXPECT_NE(
+        file.refused("traits:\n  - { trait: slow_learnin, law: normal, median: 1, spread: 0 }\n")
+            .find("p.yaml:4: error: slow_learnin"),
+        std::string::npos);
+    const std::string bounds = file.refused(
+        "traits:\n  - { trait: answer_lapse, law: normal, median: 0.2, spread: 0.2 }\n");
+    EXPECT_NE(bounds.find("p.yaml:4: error: answer_lapse"), std::string::npos) << bounds;
+    EXPECT_NE(file.refused("groups:\n  - { name: a, traits: [{ trait: tempoo, median: 1 }] }\n")
+                  .find("is no trait of this population"),
+              std::string::npos);
+    EXPECT_NE(file.refused(R"(correlations:
+  - { traits: [tempo, slow_learning], r: 0.9 }
+  - { traits: [tempo, fast_learning], r: 0.9 }
+  - { traits: [slow_learning, fast_learning], r: -0.9 }
+)")
+                  .find("contradict each other"),
+              std::string::npos);
+    try {
+        read_population(file.folder.write("alone.yaml", "title: Alone\n"));
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("slow_learning: is missing"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::person
