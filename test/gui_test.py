@@ -341,6 +341,11 @@ class Trials(Window):
         self.answered("Return")
         self.wait("the start", lambda: glob.glob(self.out + "/*/raw.log"))
 
+    def focus(self, window):
+        """Of a window that comes up: there is no window manager that would give it."""
+        self.xdotool("windowfocus", self.wait("the window", window).split()[-1])
+        time.sleep(0.5)
+
     def outcomes(self):
         with open(self.recording() + "trials.csv") as file:
             return [row["outcome"] for row in csv.DictReader(file)]
@@ -409,10 +414,66 @@ class Trials(Window):
         self.screenshot("key")
         self.key("h", "g")
         time.sleep(0.5)
+        self.key("g")  # while the feedback is shown: no answer
+        time.sleep(1.5)
         self.key("g")
         with self.ended("complete"):
             pass
         self.assertEqual(self.outcomes(), ["ready", "ready"])
+
+
+    def test_that_were_not_finished_are_offered_before_new_ones(self):
+        """Three reaches by mouse, of which one is skipped; the rest is done in a second session."""
+        def short(text):
+            return text[:text.index("  redo: end_of_block")] + """  redo: never
+  blocks: [{ name: baseline, conditions: [right far up, left far up, right near up], order: sequential }]
+"""
+        question = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Go on")
+        self.open(self.experiment("visuomotor-rotation", short))
+        self.start()
+        time.sleep(1)
+        self.key("F8")
+        time.sleep(1)
+        self.key("F7")
+        with self.ended("interrupted"):
+            pass
+        first = self.recording()
+        time.sleep(1)
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+        self.answered("Return")
+        self.focus(question)
+        self.screenshot("go-on")
+        self.key("Escape")
+        time.sleep(1)
+        self.assertEqual(self.recording(), first)  # nothing began
+        self.xdotool("windowfocus", self.name)
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+        self.answered("Return")
+        self.focus(question)
+        self.key("Return")
+        self.wait("the session", lambda: self.recording() != first)
+        self.xdotool("windowfocus", self.name)
+        time.sleep(1)
+        self.screenshot("goes-on")
+        for _ in range(12):  # three in each round
+            self.key("F8")
+            time.sleep(0.3)
+        with self.ended("complete"):
+            pass
+        info = pathlib.Path(self.recording() + "session.yaml").read_text()
+        self.assertIn("resumes: ", info)
+        self.assertIn(os.path.basename(first.rstrip("/")), info)
+        self.assertRegex(info, "mover: mouse")
+        with open(self.recording() + "trials.csv") as file:
+            rows = list(csv.DictReader(file))
+        finished = [row["session_num"] for row in rows if row["outcome"] != "interrupted"]
+        self.assertEqual(finished[0], "1")
+        self.assertEqual(finished[-1], "2")
+        self.replay()
 
 
 class Rigs(Window):
@@ -776,6 +837,7 @@ class Files(Window):
         self.key("F7")
         with self.ended("complete"):
             pass
+        time.sleep(1)  # the window hears of it after the files are whole
         self.key("ctrl+o")
         self.wait("the dialog", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Open a scene"))
 

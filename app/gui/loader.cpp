@@ -22,12 +22,24 @@ void ask_devices(Opened& out, const std::vector<Pose>& X_WD) {
         out.workspaces.push_back({{Quat::Identity(), wall->centre}, wall->size});
 }
 
-Opened open(const experiment::Request& request, bool to_run) {
+void make_plan(Opened& out, const Wanted& wanted) {
+    if (wanted.resumes.empty()) {
+        out.plan = experiment::make_plan(wanted.request);
+        return;
+    }
+    session::Rest rest = session::rest_of(wanted.resumes, experiment::Seat::window, {});
+    out.told = QString::fromStdString(rest.describe()).split('\n', Qt::SkipEmptyParts);
+    for (const Problem& warning : rest.warnings) out.told += QString::fromStdString(warning.text());
+    out.participant = rest.before.participant;
+    out.plan = std::move(rest.plan);
+}
+
+Opened open(const Wanted& wanted) {
     Opened out;
-    out.plan = experiment::make_plan(request);
+    make_plan(out, wanted);
     const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
     const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
-    if (!to_run || !rig::is_real(out.plan.rig)) ask_devices(out, X_WD);
+    if (!wanted.to_run || !rig::is_real(out.plan.rig)) ask_devices(out, X_WD);
     out.turn = servo::WorkspaceTurn(X_WD);
     // on simulated devices: real ones are left alone
     experiment::Plan still = out.plan;
@@ -51,20 +63,19 @@ void Loader::cancel() {
     scene::cancel_cut();
 }
 
-void Loader::load(const experiment::Request& request, bool to_run) {
-    const Job job{request, to_run};
+void Loader::load(const Wanted& wanted) {
     if (loading()) {
-        next_ = job;
+        next_ = wanted;
         return;
     }
-    thread_ = std::thread([this, job] { run(job); });
+    thread_ = std::thread([this, wanted] { run(wanted); });
 }
 
-void Loader::run(const Job& job) {
+void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
     try {
-        result = open(job.request, job.to_run);
+        result = open(wanted);
     } catch (const Error& e) {
         for (const Problem& problem : e.problems())
             problems += QString::fromStdString(problem.text());
@@ -78,9 +89,7 @@ void Loader::run(const Job& job) {
 void Loader::done(const std::optional<Opened>& result, const QStringList& problems) {
     thread_.join();
     if (next_) {
-        const Job job = *next_;
-        next_.reset();
-        load(job.request, job.to_run);
+        load(*std::exchange(next_, std::nullopt));
     } else if (result) {
         Q_EMIT opened(*result);
     } else {

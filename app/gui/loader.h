@@ -7,6 +7,7 @@
 
 #include "device_panel.h"
 #include "experiment/plan.h"
+#include "session/resume.h"
 #include "view/scene_view.h"
 
 namespace dihaptic::gui {
@@ -19,6 +20,18 @@ struct Opened {
     std::optional<std::vector<DevicePanel::Device>> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
+    /// Of a session that goes on with another: whose it is, and what to tell.
+    std::optional<recording::Participant> participant;
+    QStringList told;
+};
+
+/// What is to be opened.
+struct Wanted {
+    experiment::Request request;
+    /// By a session, which opens real devices itself, so that they are not opened here.
+    bool to_run = false;
+    /// Folder of the session whose rest it is, in place of the request; "": none.
+    std::string resumes;
 };
 
 class Loader : public QObject {
@@ -28,9 +41,8 @@ class Loader : public QObject {
     using QObject::QObject;
     ~Loader() override;
 
-    /// What was asked for before and is not done yet is dropped. `to_run`: by a session, which
-    /// opens real devices itself, so that they are not opened here.
-    void load(const experiment::Request& request, bool to_run = false);
+    /// What was asked for before and is not done yet is dropped.
+    void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
     /// Ends what takes long; refused() says so.
     void cancel();
@@ -40,15 +52,11 @@ class Loader : public QObject {
     void refused(const QStringList& problems);
 
   private:
-    struct Job {
-        experiment::Request request;
-        bool to_run = false;
-    };
-    void run(const Job& job);
+    void run(const Wanted& wanted);
     void done(const std::optional<Opened>& result, const QStringList& problems);
 
     std::thread thread_;
-    std::optional<Job> next_;
+    std::optional<Wanted> next_;
 };
 
 }  // namespace dihaptic::gui

@@ -3,13 +3,17 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDateTime>
 #include <QDesktopServices>
 #include <QDir>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLocale>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
@@ -37,6 +41,20 @@ const QString kFingerHelp =
     "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
     "Right drag: look around.   Ctrl + wheel: zoom.\n"
     "H: the finger stays, or moves on.   Escape: force off.";
+
+QString question_of(const session::Unfinished& session, const std::string& participant) {
+    const QDateTime started =
+        QDateTime::fromString(QString::fromStdString(session.started), Qt::ISODate).toLocalTime();
+    const QString done =
+        session.done == 0
+            ? QString("not finished")
+            : QString("stopped after %1 of %2 trials").arg(session.done).arg(session.trials);
+    return QString(
+               "%1 began this experiment on %2, and the session was %3. %4\n\nGo on with it in the "
+               "same way, or start anew?")
+        .arg(QString::fromStdString(participant), QLocale().toString(started, "d MMMM, HH:mm"),
+             done, QString::fromStdString(session.moved_by.describe()));
+}
 
 }  // namespace
 
@@ -266,7 +284,7 @@ void OperatorWindow::reload() {
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
     changed_ = runner_.running() || starts_;
     if (changed_) return;
-    loader_.load(request());
+    loader_.load({request(), false, ""});
     update_state();
 }
 
@@ -293,7 +311,11 @@ void OperatorWindow::opened(const Opened& opened) {
     const QString title = QString::fromStdString(plan_->title);
     session_->set_file(file_);
     setWindowTitle(title + " - Dihaptic");
-    if (starts_) return run(*plan_, *std::exchange(starts_, std::nullopt));
+    for (const QString& line : opened.told) log(line);
+    if (starts_) {
+        const recording::Participant asked = *std::exchange(starts_, std::nullopt);
+        return run(*plan_, opened.participant.value_or(asked));
+    }
     log(QString("opened %1: %2").arg(file_, title));
     update_state();
     if (start_when_opened_) start();
@@ -327,17 +349,38 @@ void OperatorWindow::start_trials() {
     connect(dialog, &QDialog::accepted, this, [this, dialog] {
         participant_ = dialog->participant();
         session_->set_participant(QString::fromStdString(participant_.id));
-        begin(participant_);
+        begin_or_go_on(participant_);
     });
     dialog->open();
 }
 
-void OperatorWindow::begin(const recording::Participant& participant) {
+void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
+    if (!plan_ || runner_.running()) return;
+    const auto sessions =
+        session::find_unfinished(out_.toStdString(), plan_->title, participant.id);
+    if (participant.id.empty() || sessions.empty()) return begin(participant);
+    auto* box = new QMessageBox(this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setWindowTitle("Go on?");
+    box->setText(question_of(sessions.front(), participant.id));
+    QPushButton* go_on = box->addButton("&Go on", QMessageBox::AcceptRole);
+    QPushButton* anew = box->addButton("Start &anew", QMessageBox::DestructiveRole);
+    box->addButton(QMessageBox::Cancel);
+    box->setDefaultButton(go_on);
+    connect(box, &QMessageBox::buttonClicked, this,
+            [=, this, folder = sessions.front().folder](QAbstractButton* pressed) {
+                if (pressed == go_on) begin(participant, folder);
+                if (pressed == anew) begin(participant);
+            });
+    box->open();
+}
+
+void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
     if (!plan_ || runner_.running() || loader_.loading()) return;
     experiment::Request asked = request();
     asked.participant = participant.id;
     starts_ = participant;
-    loader_.load(asked, true);
+    loader_.load({asked, true, resumes});
     update_state();
 }
 
@@ -352,6 +395,7 @@ void OperatorWindow::run(const experiment::Plan& made, const recording::Particip
         options.check =
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
+    changed_ = !made.resumes.empty();  // what is shown is the session's, not the file's
     runner_.start(made, options);
     const experiment::Plan& plan = runner_.plan();
     if (plan.mouse) {

@@ -56,8 +56,11 @@ class OperatorWindow : public QMainWindow {
     void start();
     /// Asks for the person first.
     void start_trials();
-    /// Reads the file again: the session is of what is shown, and no other.
-    void begin(const recording::Participant& participant);
+    /// Offers to go on with a session of that person's that was not finished, if there is one.
+    void begin_or_go_on(const recording::Participant& participant);
+    /// Reads the file again: the session is of what is shown, and no other. `resumes`: folder of
+    /// the session that it goes on with, whose frozen files are read instead; "": none.
+    void begin(const recording::Participant& participant, const std::string& resumes = "");
     void run(const experiment::Plan& plan, const recording::Participant& participant);
     /// The rig that is chosen, or the file's.
     void calibrate();

@@ -3,6 +3,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
+#include "base/palette.h"
 #include "view/colours.h"
 
 namespace dihaptic::gui {
@@ -38,8 +39,8 @@ void PlotsPanel::set_scene(const scene::Scene& scene) {
         heights.push_back({QString::fromStdString(scene.bodies[static_cast<size_t>(object)].name),
                            screen_colour(view::body_colour(scene, static_cast<size_t>(object)))});
     }
-    grasp_ =
-        new StripChart("Grasp", "N", {{"grip force", "#d55e00"}, {"load force", "#0072b2"}}, 1);
+    grasp_ = new StripChart("Grasp", "N",
+                            {{"grip force", palette::kGrip}, {"load force", palette::kLoad}}, 1);
     fingers_ = new StripChart("Force on the finger", "N", fingers, 1);
     heights_ = new StripChart("Height", "mm", heights, 50);
     for (StripChart* chart : {grasp_, fingers_, heights_}) layout_->addWidget(chart, 1);
