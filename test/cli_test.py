@@ -53,12 +53,43 @@ class Commands(unittest.TestCase):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"], ["bench", "friction"],
                     ["bench", "scale"], ["bench", "contact"], ["bench", "solvers"],
                     ["bench", "jitter"], ["bench", "view"], ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"], ["devices"]]
+                    ["report"], ["fit", "two_rate"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"], ["devices"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
             self.assertIn("Example", result.stdout, command)
             self.assertIn("dihaptic", result.stdout, command)
+
+    def test_fit_two_rate_gives_back_the_rates_that_made_a_table(self):
+        truth = {"retention_fast": 0.59, "learning_fast": 0.21, "retention_slow": 0.992, "learning_slow": 0.02}
+        trials = [(0, 0)] * 32 + [(30, 0)] * 80 + [(-30, 0)] * 10 + [("", 1)] * 30
+        fast = slow = 0
+        lines = ["perturbation,clamp,compensation"]
+        for i, (perturbation, clamp) in enumerate(trials):
+            lines.append(f"{perturbation},{clamp},{'' if i % 7 == 3 else repr(fast + slow)}")
+            error = 0 if clamp else perturbation - fast - slow
+            fast = truth["retention_fast"] * fast + truth["learning_fast"] * error
+            slow = truth["retention_slow"] * slow + truth["learning_slow"] * error
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/person.csv"
+            pathlib.Path(file).write_text("\n".join(lines) + "\n")
+            result = dihaptic("fit", "two_rate", file, "--json")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            fit = json.loads(result.stdout)
+            self.assertEqual(sorted(fit), sorted([*truth, "sse", "n"]))
+            for name, value in truth.items():
+                self.assertAlmostEqual(fit[name], value, places=4)
+            self.assertLess(fit["sse"], 1e-8)
+            self.assertEqual(fit["n"], len(trials) - len([i for i in range(len(trials)) if i % 7 == 3]))
+            self.assertIn("95 %", dihaptic("fit", "two_rate", file).stdout)
+            for line, bad, key in [(3, "0,2,1", "clamp"), (3, "much,0,1", "perturbation"), (3, "0,0,x", "compensation"),
+                                   (1, "perturbation,compensation", "clamp")]:
+                wrong = lines.copy()
+                wrong[line - 1] = bad
+                pathlib.Path(file).write_text("\n".join(wrong) + "\n")
+                result = dihaptic("fit", "two_rate", file, "--json")
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(f"{file}:{line}: error: {key}: ", result.stderr)
 
     def test_tune_refuses_a_rig_that_is_not_simulated_and_a_map_that_cannot_be(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -170,7 +201,7 @@ class Commands(unittest.TestCase):
             self.assertIn("--help", result.stderr, arguments)
 
     def test_an_unknown_command_is_named(self):
-        self.assertIn("error: 'foo' is no command. There are run, replay", dihaptic("foo").stderr)
+        self.assertIn("error: 'launch' is no command. There are run, replay", dihaptic("launch").stderr)
         self.assertIn("Did you mean check? See dihaptic --help.", dihaptic("chekc", "x").stderr)
 
     def test_numbers_of_options_have_ranges(self):
@@ -407,7 +438,7 @@ class Commands(unittest.TestCase):
     def test_bench_json_is_one_object_and_nothing_else(self):
         result = dihaptic("bench", "scale", "--extra", "0", "--json")
         figures = json.loads(result.stdout)
-        self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us"})
+        self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us", "most_us", "within_bar"})
         self.assertEqual(set(figures["tick"][0]["awake"]), {"median_us", "p99_us", "max_us"})
 
     def test_bench_jitter_measures_the_servo_beside_cyclictest(self):
@@ -464,7 +495,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("bad.hdf5: error: is not an HDF5 file", result.stderr)
         (row,) = json.loads(result.stdout)["problems"]
-        self.assertEqual(set(row), {"file", "contacts", "solver", "residual", "us", "iterations", "fallback", "lcp_residual"})
+        self.assertEqual(set(row), {"file", "contacts", "solver", "residual", "us", "iterations", "fallback", "lcp_residual", "route"})
         self.assertEqual((row["contacts"], row["solver"], row["fallback"]), (4, "stewart_trinkle", False))
         self.assertLess(row["lcp_residual"], 1e-8)
         for wrong in [["--solver", "sequential_impulse"], ["--solver", "magic"], ["--directions", "3"],
@@ -939,7 +970,7 @@ class Interruptions(unittest.TestCase):
 class Rehearsals(unittest.TestCase):
     """Populations of simulated people, in parts and in parallel."""
 
-    PEOPLE = ["P001", "P002", "P003", "P004"]
+    PEOPLE = ["sim-001", "sim-002", "sim-003", "sim-004"]
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -952,7 +983,8 @@ class Rehearsals(unittest.TestCase):
         pathlib.Path(self.experiment).write_text(text)
 
     def rehearse(self, out, *arguments):
-        return dihaptic("rehearse", self.experiment, "--people", "4", "--out", out, *arguments)
+        people = [] if "--people" in arguments else ["--people", "4"]
+        return dihaptic("rehearse", self.experiment, *people, "--out", out, *arguments)
 
     def tables(self, *folders):
         out = tempfile.mkdtemp(dir=self.folder)
@@ -960,19 +992,23 @@ class Rehearsals(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return [pathlib.Path(out + "/" + name).read_bytes() for name in ["trials.csv", "people.csv"]]
 
+    def rows(self, folder, name):
+        with open(folder + "/" + name) as file:
+            return list(csv.DictReader(file))
+
     def test_jobs_and_shards_give_the_same_tables_to_the_byte(self):
         whole = self.folder + "/whole"
         result = self.rehearse(whole)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("dihaptic collect " + whole, result.stdout)
-        self.assertEqual(sorted(os.listdir(whole)), self.PEOPLE)
-        self.assertFalse(os.path.exists(whole + "/P001/raw.log"))
+        self.assertEqual(sorted(os.listdir(whole)), ["rehearsal.yaml", *self.PEOPLE])
+        self.assertFalse(os.path.exists(whole + "/sim-001/raw.log"))
         parts = []
         for shard in ["1/3", "2/3", "3/3"]:
             parts.append(self.folder + "/part-" + shard[0])
             result = self.rehearse(parts[-1], "--shard", shard, "--jobs", "2")
             self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(sorted(os.listdir(parts[0])), ["P001", "P004"])
+        self.assertEqual(sorted(os.listdir(parts[0])), ["rehearsal.yaml", "sim-001", "sim-004"])
         tables = self.tables(whole)
         self.assertEqual(tables, self.tables(*reversed(parts)))
         rows = list(csv.DictReader(tables[0].decode().splitlines()))
@@ -985,26 +1021,120 @@ class Rehearsals(unittest.TestCase):
         out = self.folder + "/out"
         self.assertEqual(self.rehearse(out).returncode, 0)
         before = self.tables(out)
-        shutil.rmtree(out + "/P002")
-        os.makedirs(out + "/unfinished-P003")  # as a kill leaves it
-        shutil.rmtree(out + "/P003")
-        kept = os.path.getmtime(out + "/P001/trials.csv")
+        shutil.rmtree(out + "/sim-002")
+        os.makedirs(out + "/unfinished-sim-003")  # as a kill leaves it
+        shutil.rmtree(out + "/sim-003")
+        kept = os.path.getmtime(out + "/sim-001/trials.csv")
         result = self.rehearse(out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("2 to do, 2 done before", result.stdout)
-        self.assertEqual(sorted(os.listdir(out)), self.PEOPLE)
-        self.assertEqual(os.path.getmtime(out + "/P001/trials.csv"), kept)
+        self.assertEqual(sorted(os.listdir(out)), ["rehearsal.yaml", *self.PEOPLE])
+        self.assertEqual(os.path.getmtime(out + "/sim-001/trials.csv"), kept)
         self.assertEqual(self.tables(out), before)
 
     def test_tells_of_sessions_that_failed(self):
         out = self.folder + "/out"
-        result = dihaptic("rehearse", self.experiment, "--people", "2", "--out", out,
+        result = dihaptic("rehearse", self.experiment, "--people", "2", "--out", out, "--keep-recordings",
                           preexec_fn=with_largest_file(500_000))
         self.assertEqual(result.returncode, 1)
-        self.assertIn("P001: failed.", result.stderr)
+        self.assertIn("sim-001: failed.", result.stderr)
         self.assertIn("cannot be written", result.stderr)
         self.assertIn("the same command goes on with those", result.stdout)
         self.assertEqual(self.rehearse(out).returncode, 0)
+
+    def test_refuses_a_folder_of_another_experiment_seed_or_population(self):
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out, "--people", "1").returncode, 0)
+        text = pathlib.Path(self.experiment).read_text()
+        edited = self.folder + "/edited.yaml"
+        pathlib.Path(edited).write_text(text.replace("angle_deg: 30", "angle_deg: 60"))
+        changed = self.folder + "/population.yaml"
+        pathlib.Path(changed).write_text(f"title: Others\nbased_on: {os.getcwd()}/populations/adults.yaml\n")
+        for arguments, message in [
+                ([edited], "another rehearsal: inputs, task.yaml, perturbations, 1, visual, angle_rad: 0.523"),
+                ([self.experiment, "--seed", "9"], "another rehearsal: seed: 1 there, 9 now"),
+                ([self.experiment, "--population", changed], "another rehearsal: population, title"),
+                ([self.experiment, "--real-objects"], "another rehearsal: population, title")]:
+            result = dihaptic("rehearse", *arguments, "--people", "2", "--out", out)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertEqual(sorted(os.listdir(out)), ["rehearsal.yaml", "sim-001"])
+        # comments make no difference
+        pathlib.Path(self.experiment).write_text("# the same\n" + text)
+        self.assertEqual(self.rehearse(out, "--people", "2").returncode, 0)
+        os.remove(out + "/rehearsal.yaml")
+        result = self.rehearse(out)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("does not say what it is a rehearsal of", result.stderr)
+
+    def test_collect_joins_seeds_on_purpose_only(self):
+        folders = [self.folder + "/one", self.folder + "/nine"]
+        for folder, seed in zip(folders, ["1", "9"]):
+            self.assertEqual(self.rehearse(folder, "--people", "2", "--seed", seed).returncode, 0)
+        both = self.folder + "/both"
+        result = dihaptic("collect", *folders, "--out", both)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("is another rehearsal than " + folders[0] + ": seed: 1 there, 9 now", result.stderr)
+        self.assertIn("--join-seeds", result.stderr)
+        result = dihaptic("collect", *folders, "--join-seeds", "--out", both)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in ["trials.csv", "people.csv", "adaptation.csv"]:
+            rows = self.rows(both, name)
+            self.assertEqual({(row["seed"], row["id"]) for row in rows},
+                             {(seed, person) for seed in "19" for person in self.PEOPLE[:2]}, name)
+        pathlib.Path(self.experiment).write_text(
+            pathlib.Path(self.experiment).read_text().replace("angle_deg: 30", "angle_deg: 60"))
+        other = self.folder + "/other"
+        self.assertEqual(self.rehearse(other, "--people", "1", "--seed", "5").returncode, 0)
+        result = dihaptic("collect", folders[0], other, "--join-seeds", "--out", both)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("angle_rad", result.stderr)
+
+    def test_people_are_drawn_from_a_file_of_groups(self):
+        population = self.folder + "/groups.yaml"
+        pathlib.Path(population).write_text(f"""title: Two groups
+based_on: {os.getcwd()}/populations/adults.yaml
+groups:
+  - {{ name: control }}
+  - name: patients
+    traits:
+      - {{ trait: slow_retention, median: 0.9, spread: 0, source: a guess }}
+""")
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out, "--population", population).returncode, 0)
+        self.assertEqual(dihaptic("collect", out).returncode, 0)
+        people = self.rows(out, "people.csv")
+        self.assertEqual([row["group"] for row in people], ["control", "patients"] * 2)
+        self.assertEqual([row["slow_retention"] == "0.9" for row in people], [False, True] * 2)
+        self.assertEqual({(row["id"], row["group"]) for row in self.rows(out, "trials.csv")},
+                         {(row["id"], row["group"]) for row in people})
+
+    def test_collect_brings_lifts_and_thresholds(self):
+        text = pathlib.Path("experiments/visual-scaling.yaml").read_text().replace("../", os.getcwd() + "/")
+        text = text.replace("trials: 25", "trials: 12").replace(
+            "procedures: [more along x, less along x, more along y, less along y, more along z, less along z]",
+            "procedures: [more along x]")
+        file = self.folder + "/scaling.yaml"
+        pathlib.Path(file).write_text(text)
+        out = self.folder + "/out"
+        result = dihaptic("rehearse", file, "--people", "1", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = dihaptic("collect", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        asked = [row["procedure"] for row in self.rows(out, "thresholds.csv") if row["trials"] != "0"]
+        self.assertEqual(asked, ["more along x"])
+        self.assertGreaterEqual(len(self.rows(out, "lifts.csv")), 12)
+
+    def test_a_session_that_nothing_ends_says_so(self):
+        text = pathlib.Path(self.experiment).read_text()
+        text = text.replace("        - { when: time, hold_s: 2, outcome: too slow, redo: yes, feedback: "
+                            '"Too slow: reach faster" }\n', "")
+        text = text.replace("radius_mm: 90 }", "radius_mm: 900 }")
+        pathlib.Path(self.experiment).write_text(text)
+        self.assertIn("reach: waits for ever", dihaptic("check", self.experiment).stdout)
+        result = dihaptic("rehearse", self.experiment, "--people", "1", "--out", self.folder + "/out")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("never ended 'reach' of trial 1", result.stderr)
 
     def test_refuses_what_cannot_be(self):
         for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is no part"),
@@ -1134,16 +1264,19 @@ task:
                     result = subprocess.run([PROGRAM, *command, "--size", "64x48"], capture_output=True, text=True, timeout=60)
                     self.assertEqual(result.returncode, 2, f"{command} {file} {kind} " + result.stderr)
                     self.assertNotIn("report this", result.stderr)
-        os.makedirs(self.out + "/people/P001", exist_ok=True)
+        os.makedirs(self.out + "/people/sim-001", exist_ok=True)
+        pathlib.Path(self.out + "/people/rehearsal.yaml").write_text("program: any\nexperiment: any\nseed: 1\n")
         for kind in ["pipe", "device", "folder", "loop", "empty", "gone"]:
             for file in ["trials.csv", "person.yaml"]:
                 for name in ["trials.csv", "person.yaml"]:
-                    there = self.out + "/people/P001/" + name
+                    there = self.out + "/people/sim-001/" + name
                     shutil.rmtree(there) if os.path.isdir(there) else os.path.lexists(there) and os.remove(there)
                     pathlib.Path(there).write_text("id: S07\n" if name == "person.yaml" else "outcome\nreached\n")
-                self.replace(self.out + "/people/P001/" + file, kind)
+                self.replace(self.out + "/people/sim-001/" + file, kind)
                 result = subprocess.run([PROGRAM, "collect", self.out + "/people"], capture_output=True, text=True, timeout=60)
-                self.assertEqual(result.returncode, 0 if (file, kind) == ("person.yaml", "empty") else 2, file + kind + result.stderr)
+                self.assertEqual(result.returncode, 2, file + kind + result.stderr)
+                # without person.yaml, or with an empty one, it is no session of a simulated person
+                self.assertRegex(result.stderr, f"{file}|session.yaml|no complete session")
                 self.assertNotIn("report this", result.stderr)
 
     def test_a_killed_export_leaves_no_run_that_looks_whole(self):
@@ -1169,7 +1302,7 @@ task:
         self.assertEqual(sorted(names), sorted(os.listdir(self.out + "/whole/sub-S07/motion")))
         self.assertEqual(os.listdir(study + "/sub-S07").sort(), os.listdir(self.out + "/whole/sub-S07").sort())
         self.assertEqual(os.path.getsize(motion.replace(self.out + "/whole", study)), size)
-        self.assertEqual([name for name in os.listdir(study + "/sub-S07/motion") + os.listdir(study) if "part" in name and name != "participants.tsv"
+        self.assertEqual([name for name in os.listdir(study + "/sub-S07/motion") + os.listdir(study) if "part" in name and not name.startswith("participants.")
                           or name.startswith(".")], [])
 
     def test_what_a_killed_video_leaves_is_gone_after_the_next(self):
