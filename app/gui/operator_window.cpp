@@ -468,13 +468,15 @@ void OperatorWindow::force_off() {
 }
 
 void OperatorWindow::end(int signal) {
-    std::fprintf(stderr, "%s: %s\n", strsignal(signal),
-                 runner_.running() ? "force is off, and the session ends" : "the window closes");
+    std::fprintf(
+        stderr, "%s: %s\n", strsignal(signal),
+        runner_.running() || cut_ ? "force is off, and the session ends" : "the window closes");
     ended_ = true;
     close();
 }
 
 void OperatorWindow::session_ended(const SessionEnd& end) {
+    cut_ = runner_.stopped();
     calibrator_->end_check();
     mouse_.reset();
     scene_->set_hand(nullptr, false);

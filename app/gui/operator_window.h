@@ -103,6 +103,7 @@ class OperatorWindow : public QMainWindow {
     bool changed_ = false;  ///< the file has, while it could not be read again
     bool closing_ = false;
     bool ended_ = false;  ///< by a signal
+    bool cut_ = false;    ///< the last session was, and its files were written before that is told
 
     Loader loader_;
     SessionRunner runner_;

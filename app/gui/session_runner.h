@@ -66,6 +66,8 @@ class SessionRunner : public QObject {
     void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
     /// In order; the hand may hold what it holds.
     void end() { session_->live.ended = true; }
+    /// Force was switched off for good, as by a signal; also after the session's end.
+    bool stopped() const { return stop_; }
     /// Whether it is to end; from the session's thread too.
     bool ending() const { return session_->live.ended || stop_; }
     /// For a program that must end and unwinds nothing, when its display is gone: does nothing when
