@@ -328,6 +328,7 @@ void OperatorWindow::refused(const QStringList& problems) {
     for (const QString& problem : problems) log(problem, true);
     if (plan_) log("What was open stays as it is.");
     update_state();
+    if (changed_) reload();
 }
 
 void OperatorWindow::start() {
@@ -356,9 +357,10 @@ void OperatorWindow::start_trials() {
 
 void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
     if (!plan_ || runner_.running()) return;
+    if (participant.id.empty()) return begin(participant);
     const auto sessions =
         session::find_unfinished(out_.toStdString(), plan_->title, participant.id);
-    if (participant.id.empty() || sessions.empty()) return begin(participant);
+    if (sessions.empty()) return begin(participant);
     auto* box = new QMessageBox(this);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setWindowTitle("Go on?");
@@ -395,7 +397,7 @@ void OperatorWindow::run(const experiment::Plan& made, const recording::Particip
         options.check =
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
-    changed_ = !made.resumes.empty();  // what is shown is the session's, not the file's
+    changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
     runner_.start(made, options);
     const experiment::Plan& plan = runner_.plan();
     if (plan.mouse) {

@@ -1,6 +1,7 @@
 #include "session_runner.h"
 
 #include <fmt/format.h>
+#include <QCursor>
 
 #include <chrono>
 #include <cstdio>
@@ -42,6 +43,11 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
 constexpr int kBeat = 100;        // a tenth of what the servo waits [ms]
 constexpr int kFirstBeat = 5000;  // at the latest, without any picture [ms]
 
+/// That a key can take force away, the display has to answer too: X tells where the pointer is.
+void ask_display() {
+    QCursor::pos();
+}
+
 std::atomic<SessionRunner*> the_runner{nullptr};
 
 }  // namespace
@@ -53,6 +59,7 @@ SessionRunner::SessionRunner(std::atomic<bool>& stop) : stop_(stop) {
     first_beat_.setSingleShot(true);
     connect(&first_beat_, &QTimer::timeout, this, &SessionRunner::watch);
     connect(&alive_, &QTimer::timeout, this, [this] {
+        ask_display();
         if (running()) session_->live.note_alive();
     });
 }
@@ -84,13 +91,14 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     session_ = std::make_unique<Session>();
     no_suspension_.emplace();
     session_->plan = std::move(plan);
+    // a window that never comes so far as to beat takes force away by that
+    session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
     // for each session anew: what was made before it is still there when this is called
     std::atexit(end_program);
     options.live = &session_->live;
     options.keys = &session_->key;
     options.clock = experiment::Clock::real;
-    if (rig::is_real(session_->plan.rig)) options.keeper = keeper::program();
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
         std::_Exit(1);  // its threads never end
@@ -113,9 +121,10 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     });
 }
 
-SessionEnd SessionRunner::run(Session& session, const experiment::RunOptions& options) {
+SessionEnd SessionRunner::run(Session& session, experiment::RunOptions options) {
     SessionEnd end;
     try {
+        if (rig::is_real(session.plan.rig)) options.keeper = keeper::program();
         const experiment::RunResult result =
             experiment::run_session(session.plan, options, stop_, {});
         end.folder = QString::fromStdString(result.folder);

@@ -87,7 +87,7 @@ class SessionRunner : public QObject {
         std::atomic<char> key{0};
         std::atomic<bool> finishing{false};
     };
-    SessionEnd run(Session& session, const experiment::RunOptions& options);
+    SessionEnd run(Session& session, experiment::RunOptions options);
 
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;

@@ -19,12 +19,12 @@ namespace dihaptic::experiment {
 struct CurveSample {
     static constexpr size_t kFingers = 8;  ///< those beyond are left out
 
-    double time = 0;                            ///< [s]
-    double grip_force = 0;                      ///< [N]
-    double load_force = 0;                      ///< [N]
-    std::array<double, kFingers> forces{};      ///< on the handle, as sent, by finger [N]
-    std::array<double, kFingers> heights{};     ///< of the handle, by finger [m]
-    double object_height = servo::kUnmeasured;  ///< of the object's origin [m]
+    double time = 0;                         ///< [s]
+    double grip_force = 0;                   ///< [N]
+    double load_force = 0;                   ///< [N]
+    std::array<double, kFingers> forces{};   ///< on the handle, as sent, by finger [N]
+    std::array<double, kFingers> heights{};  ///< of the handle, by finger [m]
+    double object_height = kUnmeasured;      ///< of the object's origin [m]
 };
 
 struct Live {
@@ -73,9 +73,11 @@ struct Live {
 
     using Clock = std::chrono::steady_clock;
     /// Whoever watches may hang, and with it every key that switches force off: once it has called
-    /// this it must go on to, and force is off when it has not for longer than kLongestSilence.
-    void note_alive() noexcept {
-        alive_.store(Clock::now().time_since_epoch().count(), std::memory_order_relaxed);
+    /// this it must go on to, and force is off when it has not for longer than kLongestSilence, and
+    /// this once for longer than `more` beyond that [s].
+    void note_alive(double more = 0) noexcept {
+        const Clock::time_point last = Clock::now() + from_seconds(more);
+        alive_.store(last.time_since_epoch().count(), std::memory_order_relaxed);
     }
     static constexpr double kLongestSilence = 1;  // [s]
     /// In the tick: how long whoever watches has been silent, if that is too long; otherwise 0 [s].
@@ -96,7 +98,8 @@ struct Live {
     void note_zero(Time now) noexcept;
 
     static constexpr Clock::rep kNever = 0;
-    std::atomic<Clock::rep> alive_{kNever};  // when note_alive() was called last
+    std::atomic<Clock::rep> alive_{
+        kNever};  // when note_alive() was called last, and what more it gave
 
     std::mutex told_guard_;
     std::string told_;

@@ -25,7 +25,6 @@ class SessionRunnerTest : public ::testing::Test {
         experiment::RunOptions options;
         options.out = folder_.path();
         runner_.start(experiment::make_plan(request), options);
-        runner_.watch();
     }
 
     /// The window answers until then, or for ten seconds.
@@ -76,7 +75,19 @@ class SessionRunnerTest : public ::testing::Test {
     SessionEnd end_;
 };
 
+TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
+    grip();
+    QThread::msleep(6500);  // 5 s for the picture, and 1 s more
+    EXPECT_NE(runner_.frame().status & servo::kForceOff, 0u);
+    QString told;
+    ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
+    EXPECT_TRUE(told.contains("the window has not answered for 1.")) << told.toStdString();
+    runner_.end();
+    end();
+}
+
 TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
+    runner_.watch();
     grip();
     const double before = now();
     QThread::msleep(2500);  // the window's thread does nothing else
@@ -102,6 +113,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
 }
 
 TEST_F(SessionRunnerTest, AStopFromOutsideTakesForceAwayAndEndsInOrder) {
+    runner_.watch();
     grip();
     const double before = now();
     stop_ = true;
