@@ -3,16 +3,16 @@ outside by what its devices go on doing.
 
 Usage: force_test.py PROGRAM, from the project's folder.
 """
-import mmap
 import os
 import pathlib
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+
+from felt import Felt
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 FAKES = pathlib.Path(PROGRAM).resolve().parent / "src/devices"
@@ -35,45 +35,6 @@ RIGS = {
 
 # a busy machine, whose late ticks would soften the coupling, is another test's
 SETTINGS = "settings: {safety: {hand_damping_Ns_m: 100}}\n"
-
-
-class Felt:
-    """What the fakes show: per device force, when it was last told one, its firmware's watchdog, when force last went."""
-    DEVICE = struct.Struct("4d")
-
-    def __init__(self, file):
-        with open(file, "w+b") as f:
-            f.truncate(8 * self.DEVICE.size)
-            self.map = mmap.mmap(f.fileno(), 0)
-
-    def devices(self):
-        return [self.DEVICE.unpack_from(self.map, i * self.DEVICE.size) for i in range(2)]
-
-    def acting(self):
-        """What pushes the hands now [N]."""
-        now = time.monotonic()
-        return [0 if watchdog > 0 and now - told > watchdog else force for force, told, watchdog, _ in self.devices()]
-
-    def wait_for_force(self, seconds=60, settle=0.1):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            forces = [device[0] for device in self.devices()]
-            if min(forces) > 3.3:
-                time.sleep(settle)
-                return [device[0] for device in self.devices()]
-            time.sleep(0.0005)
-        raise AssertionError(f"no force came: {self.devices()}")
-
-    def gone_after(self, since, seconds=1.0):
-        """Time from `since` until nothing pushes any hand [s]; None: something still does after so many seconds."""
-        while time.monotonic() - since < seconds:
-            if max(self.acting()) == 0:
-                times = []
-                for force, told, watchdog, gone in self.devices():
-                    times.append(told + watchdog - since if force > 0 else gone - since)
-                return max(0, *times)  # a force that lasts one tick may have been away already
-            time.sleep(0.0005)
-        return None
 
 
 class Program(unittest.TestCase):
@@ -211,6 +172,8 @@ class Libraries(Program):
         print(f"{backend:15s} {how:8s} force gone after {-1 if gone is None else gone * 1e3:6.2f} ms", file=sys.stderr)
         self.assertEqual(process.returncode, 1, told)
         self.assertIn(b"does not answer", told)
+        if gone is None:
+            self.assertNotIn(b"switched the devices' force off", told)
         if bar is not None:
             self.assertIsNotNone(gone)
             self.assertLess(gone, bar)

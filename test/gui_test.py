@@ -6,11 +6,9 @@ SCREENSHOTS.
 import csv
 import glob
 import math
-import mmap
 import os
 import pathlib
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
@@ -20,12 +18,24 @@ import unittest
 import h5py
 import numpy as np
 
+from felt import Felt
+
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
 SIZE = "1400x900"
 FORCE_OFF, STOPPED, RESUMED, ABANDONED, PAUSED = 10, 21, 22, 28, 29  # bits of a frame's status
 
 SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
+
+
+def end_display(display):
+    """One that is stopped, or was asked just before it began to wait, does not hear that it is to end."""
+    display.terminate()
+    try:
+        display.wait(5)
+    except subprocess.TimeoutExpired:
+        display.kill()
+        display.wait()
 
 
 class Window(unittest.TestCase):
@@ -37,8 +47,7 @@ class Window(unittest.TestCase):
         read, write = os.pipe()
         self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", SIZE + "x24"],
                                         pass_fds=[write], stderr=subprocess.DEVNULL)
-        self.addCleanup(self.display.wait)
-        self.addCleanup(self.display.terminate)
+        self.addCleanup(end_display, self.display)
         os.close(write)
         with os.fdopen(read) as pipe:
             number = pipe.readline().strip()
@@ -63,7 +72,7 @@ class Window(unittest.TestCase):
         time.sleep(1)
 
     def xdotool(self, *words):
-        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True).stdout
+        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True, timeout=60).stdout
 
     def key(self, *keys):
         for key in keys:
@@ -96,7 +105,7 @@ class Window(unittest.TestCase):
     def screenshot(self, name):
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i",
-                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True)
+                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True, timeout=60)
 
     def recording(self):
         """Folder of the session that runs, or the last one."""
@@ -566,12 +575,11 @@ class Rigs(Window):
 
 class Force(Window):
     """On two fakes of real devices whose handles are pushed into the table, and what pushes back."""
-    DEVICES, RECORD = 2, 4 * 8  # of the file that the fakes show: force [N] first
 
     def setUp(self):
         super().setUp()
-        self.felt = self.folder.name + "/felt"
-        self.environment.update(DIHAPTIC_FAKE_FELT=self.felt, DIHAPTIC_FAKE_PUSH="0 0 0.007")  # half a finger is 10 mm
+        self.felt = Felt(self.folder.name + "/felt")
+        self.environment.update(DIHAPTIC_FAKE_FELT=self.folder.name + "/felt", DIHAPTIC_FAKE_PUSH="0 0 0.007")  # half a finger is 10 mm
 
     def open(self, more=""):
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
@@ -586,11 +594,7 @@ class Force(Window):
         super().open(file)
 
     def forces(self):
-        with open(self.felt, "rb") as file:
-            if os.fstat(file.fileno()).st_size == 0:
-                return [0]
-            with mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as felt:
-                return [struct.unpack_from("d", felt, i * self.RECORD)[0] for i in range(self.DEVICES)]
+        return self.felt.forces()
 
     def pushed(self):
         """A busy machine may draw the first picture for longer than a window may be silent: then it is told to go on."""
@@ -736,7 +740,8 @@ class Force(Window):
         self.open()
         self.start()
         self.pushed()
-        # what draws to a display that does not answer waits for it
+        shown = self.recording() + "shown.csv"
+        self.wait("pictures of the session", lambda: os.path.exists(shown) and os.path.getsize(shown) > 100)
         took = self.off_after(lambda: self.display.send_signal(signal.SIGSTOP), 2)
         print(f"hang: {took * 1e3:.1f} ms")
         self.display.send_signal(signal.SIGCONT)

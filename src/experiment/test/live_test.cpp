@@ -51,6 +51,23 @@ class Desk {
     }
     double now() { return seconds(live.frame.read().time); }
 
+    void squeeze(double aperture) {
+        hand::Posture goal = plan.mouse->goal();
+        goal.aperture = aperture;
+        plan.mouse->follow(goal, now());
+    }
+    /// At 5 cm/s of session time, each step once the last was made: a hand that goes on while a
+    /// busy machine lets the session lose ticks would be torn off what it holds.
+    void lift(double height) {
+        hand::Posture goal = plan.mouse->goal();
+        const double end = goal.centre.z() + height;
+        while (goal.centre.z() < end) {
+            goal.centre.z() = std::min(end, goal.centre.z() + 0.0005);
+            plan.mouse->follow(goal, now());
+            at(now() + 0.01);
+        }
+    }
+
     Live live;
     Plan plan;
     RunResult result;
@@ -109,20 +126,10 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
 
 TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
     Desk desk(block(true));
-    const auto follow = [&](const hand::Posture& goal) {
-        desk.plan.mouse->follow(goal, desk.now());
-    };
     desk.at(0.2);
-    hand::Posture goal = desk.plan.mouse->goal();
-    goal.aperture = 0.034;
-    follow(goal);
+    desk.squeeze(0.034);
     desk.at(0.8);
-    // events come sixty times a second
-    for (int i = 0; i < 60; ++i) {
-        goal.centre.z() += 0.001;
-        follow(goal);
-        std::this_thread::sleep_for(milliseconds(16));
-    }
+    desk.lift(0.06);
     const servo::Frame& frame = desk.at(desk.now() + 0.3);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.08, 0.005);
     desk.live.solver.publish(dynamics::Solver::stewart_trinkle);
@@ -139,12 +146,9 @@ TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
 TEST(Live, WorkspacesTurnAndFrictionChangesWhileABlockIsHeldAndTheReplayIsExact) {
     Desk desk(block(true));
     desk.at(0.2);
-    hand::Posture goal = desk.plan.mouse->goal();
-    goal.aperture = 0.034;
-    desk.plan.mouse->follow(goal, desk.now());
+    desk.squeeze(0.034);
     desk.at(0.8);
-    goal.centre.z() += 0.05;
-    desk.plan.mouse->follow(goal, desk.now());
+    desk.lift(0.05);
     const double before = desk.at(desk.now() + 0.5).bodies[1].X_WB.p.z();
     ASSERT_GT(before, 0.06);
     desk.live.friction_scale.publish(1.5);
@@ -165,18 +169,14 @@ TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
     request.set.emplace_back("proxy.changeable=yes");
     Desk desk(request);
     desk.at(0.2);
-    hand::Posture goal = desk.plan.mouse->goal();
-    const double open = goal.aperture;
-    goal.aperture = 0.034;
-    desk.plan.mouse->follow(goal, desk.now());
+    const double open = desk.plan.mouse->goal().aperture;
+    desk.squeeze(0.034);
     EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
     desk.live.proxy.publish(haptics::ProxyKind::point);
     EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, 0);  // they hold the block
-    goal.aperture = open;
-    desk.plan.mouse->follow(goal, desk.now());
+    desk.squeeze(open);
     EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, 1);
-    goal.aperture = 0.03;  // points close on the block as pads do
-    desk.plan.mouse->follow(goal, desk.now());
+    desk.squeeze(0.03);  // points close on the block as pads do
     const servo::Frame& held = desk.at(desk.now() + 1);
     EXPECT_GT(held.grip_force, 0.3);
     desk.end();
@@ -246,9 +246,7 @@ TEST(Live, ATrialThatAPauseInterruptsBeginsAnew) {
 TEST(Live, AWatcherThatFallsSilentTakesForceAwayWithinASecond) {
     Desk desk(block(true));
     desk.at(0.2);
-    hand::Posture goal = desk.plan.mouse->goal();
-    goal.aperture = 0.034;
-    desk.plan.mouse->follow(goal, desk.now());
+    desk.squeeze(0.034);
     double last = 0;
     const auto end = Live::Clock::now() + milliseconds(1500);
     while (Live::Clock::now() < end) {  // it answers for longer than it may be silent

@@ -1,0 +1,46 @@
+"""What the makers' fake libraries show of their devices, in a file that they and the tests share (DIHAPTIC_FAKE_FELT)."""
+import mmap
+import struct
+import time
+
+
+class Felt:
+    """Per device: force, when it was last told one, its firmware's watchdog, when force last went."""
+    DEVICE = struct.Struct("4d")
+
+    def __init__(self, file):
+        with open(file, "w+b") as f:
+            f.truncate(8 * self.DEVICE.size)
+            self.map = mmap.mmap(f.fileno(), 0)
+
+    def devices(self):
+        return [self.DEVICE.unpack_from(self.map, i * self.DEVICE.size) for i in range(2)]
+
+    def forces(self):
+        """What the devices were told last [N]."""
+        return [force for force, *_ in self.devices()]
+
+    def acting(self):
+        """What pushes the hands now [N]."""
+        now = time.monotonic()
+        return [0 if watchdog > 0 and now - told > watchdog else force for force, told, watchdog, _ in self.devices()]
+
+    def wait_for_force(self, seconds=60, settle=0.1):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if min(self.forces()) > 3.3:
+                time.sleep(settle)
+                return self.forces()
+            time.sleep(0.0005)
+        raise AssertionError(f"no force came: {self.devices()}")
+
+    def gone_after(self, since, seconds=1.0):
+        """Time from `since` until nothing pushes any hand [s]; None: something still does after so many seconds."""
+        while time.monotonic() - since < seconds:
+            if max(self.acting()) == 0:
+                times = []
+                for force, told, watchdog, gone in self.devices():
+                    times.append(told + watchdog - since if force > 0 else gone - since)
+                return max(0, *times)  # a force that lasts one tick may have been away already
+            time.sleep(0.0005)
+        return None
