@@ -150,9 +150,10 @@ class DeviceGroup {
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
     /// Force off at once on all devices, whatever is written, until they are activated again.
-    void stop() noexcept {
+    /// Returns whether it is known to be.
+    bool stop() noexcept {
         assert(can_stop());
-        do_stop();
+        return do_stop();
     }
 
   protected:
@@ -164,7 +165,7 @@ class DeviceGroup {
     virtual void do_read(Time now, std::span<Reading> readings) noexcept = 0;
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_pace(const std::function<bool()>&) {}
-    virtual void do_stop() noexcept {}
+    virtual bool do_stop() noexcept { return false; }
     /// Of a group with another one behind it, in whose measure the limit holds too.
     virtual void do_limit(int /*device*/, double /*force*/, double /*torque*/) noexcept {}
 

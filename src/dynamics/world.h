@@ -148,7 +148,8 @@ class World {
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;
-    /// Whether a step found that the world has diverged.
+    /// Whether a step, or somebody who set a pose or a velocity, left the world with what is no
+    /// number.
     bool diverged() const noexcept;
     /// After it has, between two steps: what is nowhere is put back to where the scene has it, at
     /// rest, and what contacts remember is forgotten.

@@ -1,5 +1,6 @@
 // What switches force off. A fault ends it on every device at once, exempt from the slew limit, and
-// until the session restarts: a person who was let go must not be seized again unawares.
+// until somebody says that the session goes on: a person who was let go must not be seized again
+// unawares.
 //
 // A tick asks its HandleGuards first, before anything is computed from a reading that may be wrong.
 #pragma once
@@ -34,8 +35,8 @@ struct Fault {
     FaultKind kind = FaultKind::none;
     int device = -1;   ///< -1: all of them
     Time time{0};      ///< of the tick, from activation
-    double value = 0;  ///< of a speed [m/s], [rad/s] or a pause [s]
-    double limit = 0;  ///< that it exceeded
+    double value = 0;  ///< what was measured, in the unit that describe() says
+    double limit = 0;  ///< by which it is a fault; of keeps_late a stiffness [N/m]
 
     explicit operator bool() const { return kind != FaultKind::none; }
 };

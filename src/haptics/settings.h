@@ -53,6 +53,8 @@ struct CouplingSettings {
     double free_stiffening = 10;     ///< k_b over k while the proxy touches nothing
     double smoothing = 0.2;  ///< alpha: share of the new force in the force sent; 1: no smoothing
 
+    bool operator==(const CouplingSettings&) const = default;
+
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind);

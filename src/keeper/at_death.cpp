@@ -12,8 +12,6 @@
 namespace dihaptic::keeper {
 namespace {
 
-constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGABRT};
-
 /// Async-signal-safe.
 void say(const char* text) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));

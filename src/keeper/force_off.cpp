@@ -25,22 +25,24 @@ void forget(SharedPage* page) noexcept {
     }
 }
 
+bool await_off(const SharedPage& page, int64_t since) noexcept {
+    constexpr timespec kMoment{0, 20'000};
+    while (page.off.load() == 0) {
+        if (monotonic() - since >= kLastWait.count()) return false;
+        nanosleep(&kMoment, nullptr);
+    }
+    return true;
+}
+
 bool force_off_now() noexcept {
     for (const auto& place : pages) {
-        SharedPage* const page = place.load();
-        if (page == nullptr) continue;
-        end_force(*page);
+        if (SharedPage* const page = place.load(); page != nullptr) end_force(*page);
     }
-    const int64_t begin = monotonic();
-    bool all = false;
-    while (!all && monotonic() - begin < kLastWait.count()) {
-        all = true;
-        for (const auto& place : pages) {
-            const SharedPage* const page = place.load();
-            all = all && (page == nullptr || page->off.load() != 0);
-        }
-        constexpr timespec kMoment{0, 20'000};
-        if (!all) nanosleep(&kMoment, nullptr);
+    const int64_t since = monotonic();
+    bool all = true;
+    for (const auto& place : pages) {
+        const SharedPage* const page = place.load();
+        all = (page == nullptr || await_off(*page, since)) && all;
     }
     return all;
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "keeper/force_off.h"
 #include "keeper/messages.h"
 #include "keeper/server.h"
 
@@ -25,7 +26,7 @@ std::atomic<Server*> at_stake{nullptr};
 
 /// The maker's library failed, most likely: its devices' own guards are what is left, unless it can
 /// still be asked to stop them.
-void on_error(int signal) {
+void on_own_error(int signal) {
     constexpr itimerval kLastWait{{0, 0}, {0, 20'000}};
     std::signal(SIGALRM, SIG_DFL);
     setitimer(ITIMER_REAL, &kLastWait, nullptr);  // it may hold a lock
@@ -81,8 +82,7 @@ int keep(const InRealTime& in_real_time) {
     // its end is the program's, or that of the machine
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
-        std::signal(signal, on_error);
+    for (const int signal : kErrors) std::signal(signal, on_own_error);
     Control control(page, in_real_time);
     while (const std::optional<json> message = receive(kSocket))
         send(kSocket, control.answer(*message));

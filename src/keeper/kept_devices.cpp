@@ -30,6 +30,7 @@ constexpr Time kSetUp = std::chrono::seconds(60);
 constexpr Time kSetDown = std::chrono::seconds(2);
 /// What paces may take its time to begin.
 constexpr Time kBeginning = std::chrono::seconds(3);
+/// Between the turns that pacing devices offer, whose own clock may rest for a while.
 constexpr Time kSilence = std::chrono::milliseconds(200);
 /// An answer comes within that, mostly: to sleep and to be woken takes longer.
 constexpr Time kHope = std::chrono::microseconds(20);
@@ -61,13 +62,20 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
+    /// False, for good, once it did not.
+    bool answers() const { return answers_; }
 
     /// Says it and waits for the answer. Throws Error with what the keeper says is wrong, or when
     /// it does not answer.
     json ask(const json& message, Time most) {
-        send(socket_, message);
-        std::optional<json> answer = receive(socket_, most);
-        if (!answer) {
+        std::optional<json> answer;
+        if (answers_) {
+            send(socket_, message);
+            answer = receive(socket_, most);
+        }
+        // what it says too late would be taken for the next answer
+        answers_ = answer.has_value();
+        if (!answers_) {
             throw Error("the program that keeps the devices does not answer",
                         "Switch the devices off and on, and start again.");
         }
@@ -87,13 +95,18 @@ class Process {
         posix_spawn_file_actions_init(&files);
         posix_spawn_file_actions_adddup2(&files, socket, kSocket);
         posix_spawn_file_actions_adddup2(&files, memory, kMemory);
+        posix_spawn_file_actions_addclosefrom_np(&files, kMemory + 1);
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
-        // the terminal's keys, and what is blocked here, are not meant for it
+        // the terminal's keys, and what is blocked or ignored here, are not meant for it
         sigset_t none;
+        sigset_t all;
         sigemptyset(&none);
+        sigfillset(&all);
         posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
+        posix_spawnattr_setsigdefault(&attributes, &all);
+        posix_spawnattr_setflags(
+            &attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
         std::string name = program;
         char* const arguments[] = {name.data(), nullptr};
         const int failed =
@@ -124,6 +137,7 @@ class Process {
     int socket_ = -1;
     pid_t pid_ = 0;
     SharedPage* page_ = nullptr;
+    bool answers_ = true;
 };
 
 class KeptDevices final : public devices::DeviceGroup {
@@ -150,7 +164,7 @@ class KeptDevices final : public devices::DeviceGroup {
 
   private:
     void do_activate() override {
-        if (process_ == nullptr) {
+        if (process_ == nullptr || !process_->answers()) {
             process_ = std::make_unique<Process>(order_.keeping.program);
             process_->ask(to_json(order_), kSetUp);
         }
@@ -174,7 +188,6 @@ class KeptDevices final : public devices::DeviceGroup {
         if (lost_) process_.reset();
     }
 
-    bool await_answer() noexcept { return await_answer(limit_); }
     /// False, for good, when the keeper does not answer for so long.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
@@ -188,9 +201,12 @@ class KeptDevices final : public devices::DeviceGroup {
         return !lost_;
     }
 
-    bool ask(Request request) noexcept {
-        if (lost_ || !await_answer()) return false;
+    /// Once the last request was answered, `fill` may change what the page holds of this one.
+    template <class Fill>
+    bool ask(Request request, const Fill& fill) noexcept {
+        if (lost_ || !await_answer(limit_)) return false;
         SharedPage& page = process_->page();
+        fill(page);
         page.request = request;
         page.asked.fetch_add(1, std::memory_order_release);
         advance(page.bell);
@@ -198,11 +214,10 @@ class KeptDevices final : public devices::DeviceGroup {
     }
 
     void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
-        bool answers = !lost_;
-        if (!in_turn_) {
-            if (!lost_ && await_answer()) process_->page().now = now.count();
-            answers = ask(Request::read) && await_answer();
-        }
+        const bool answers =
+            in_turn_ ? !lost_
+                     : ask(Request::read, [now](SharedPage& page) { page.now = now.count(); }) &&
+                           await_answer(limit_);
         for (size_t i = 0; i < readings.size(); ++i) {
             if (answers) readings[i] = process_->page().readings[i];
             if (!answers) readings[i].status = devices::kNotAnswering;
@@ -210,15 +225,16 @@ class KeptDevices final : public devices::DeviceGroup {
     }
 
     void do_write(std::span<const Wrench> wrenches_D) noexcept override {
-        if (lost_) return;
-        if (!in_turn_ && !await_answer()) return;
-        SharedPage& page = process_->page();
-        std::copy(wrenches_D.begin(), wrenches_D.end(), page.wrenches);
-        if (in_turn_) {
+        const auto fill = [wrenches_D](SharedPage& page) {
+            std::copy(wrenches_D.begin(), wrenches_D.end(), page.wrenches);
+        };
+        if (!in_turn_) {
+            ask(Request::write, fill);
+        } else if (!lost_) {
+            SharedPage& page = process_->page();
+            fill(page);
             page.replied.fetch_add(1, std::memory_order_release);
             advance(page.bell);
-        } else {
-            ask(Request::write);
         }
     }
 
@@ -227,7 +243,7 @@ class KeptDevices final : public devices::DeviceGroup {
             SharedPage& page = process_->page();
             page.closing.store(0);
             const uint32_t before = page.offered.load();
-            if (ask(Request::pace) && !take_turns(before, tick)) return;
+            if (ask(Request::pace, [](SharedPage&) {}) && !take_turns(before, tick)) return;
         }
         lost_ = true;
         // an orderly end: the servo sees that nothing answers, and what it records goes on
@@ -247,13 +263,16 @@ class KeptDevices final : public devices::DeviceGroup {
             if (on) continue;
             page.closing.store(1);
             advance(page.bell);
-            return !await_answer(kSetDown);
+            await_answer(kSetDown);
+            return false;
         }
         return true;
     }
 
-    void do_stop() noexcept override {
-        if (process_ != nullptr) end_force(process_->page());
+    bool do_stop() noexcept override {
+        if (process_ == nullptr) return false;
+        end_force(process_->page());
+        return await_off(process_->page(), monotonic());
     }
 
     Order order_;

@@ -3,6 +3,8 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 
 namespace dihaptic::keeper {
@@ -201,9 +203,15 @@ void send(int socket, const json& message) {
 
 std::optional<json> receive(int socket, Time most) {
     if (most > Time(0)) {
+        const auto end = std::chrono::steady_clock::now() + most;
         pollfd readable{socket, POLLIN, 0};
-        const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(most).count();
-        if (poll(&readable, 1, static_cast<int>(ms)) <= 0) return std::nullopt;
+        int ready = 0;
+        do {
+            const auto left = std::chrono::ceil<std::chrono::milliseconds>(
+                end - std::chrono::steady_clock::now());
+            ready = poll(&readable, 1, static_cast<int>(std::max<int64_t>(left.count(), 0)));
+        } while (ready < 0 && errno == EINTR);  // by a signal that is handled, Ctrl-C above all
+        if (ready <= 0) return std::nullopt;
     }
     const ssize_t size = recv(socket, nullptr, 0, MSG_PEEK | MSG_TRUNC);
     if (size <= 0) return std::nullopt;

@@ -99,8 +99,7 @@ void Server::serve_all() noexcept {
 }
 
 void Server::serve(Request request) noexcept {
-    if (request != Request::pace) busy_since_.store(monotonic());
-    if (request == Request::read) read();
+    if (request == Request::read) read(Time(page_.now));
     if (request == Request::write) write();
     if (request == Request::pace) {
         replied_ = page_.replied.load();
@@ -109,11 +108,23 @@ void Server::serve(Request request) noexcept {
         devices_->pace([this] { return take_turn(); });
         holding_ = false;
     }
-    busy_since_.store(0);
 }
 
-void Server::read() noexcept {
-    devices_->read(Time(page_.now), readings_);
+/// As long as it is there, the watcher looks at how long the call to the devices lasts.
+class Server::Call {
+  public:
+    explicit Call(Server& server) : server_(server) { server_.busy_since_.store(monotonic()); }
+    ~Call() { server_.busy_since_.store(0); }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+  private:
+    Server& server_;
+};
+
+void Server::read(Time now) noexcept {
+    const Call call(*this);
+    devices_->read(now, readings_);
     std::copy(readings_.begin(), readings_.end(), page_.readings);
 }
 
@@ -123,12 +134,14 @@ void Server::write() noexcept {
     const bool some = std::any_of(wrenches_.begin(), wrenches_.end(),
                                   [](const Wrench& wrench) { return !wrench.is_zero(); });
     holding_ = holding_ || some;  // also while the call lasts
+    const Call call(*this);
     devices_->write(wrenches_);
     holding_ = some;
 }
 
 void Server::write_zero() noexcept {
     std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+    const Call call(*this);
     devices_->write(wrenches_);
     holding_ = false;
 }
@@ -157,23 +170,18 @@ bool Server::await_reply() noexcept {
 
 /// One tick of devices that pace: the program computes between reading and writing.
 bool Server::take_turn() noexcept {
-    busy_since_.store(monotonic());
-    devices_->read(turn_time_, readings_);
-    busy_since_.store(0);
+    read(turn_time_);
     turn_time_ += tick_;
-    std::copy(readings_.begin(), readings_.end(), page_.readings);
     replied_ = page_.replied.load(std::memory_order_acquire);
     if (page_.closing.load() == 0) advance(page_.offered);
     const bool replied = await_reply();
     behind_ = !replied;
-    busy_since_.store(monotonic());
     if (replied && !ended()) {
         write();
     } else {
         write_zero();
         if (ended()) page_.off.store(1);
     }
-    busy_since_.store(0);
     return page_.closing.load() == 0;
 }
 
@@ -187,10 +195,8 @@ void Server::watch() noexcept {
         const bool wanted = ended() || hangs;
         if (wanted && !stopped) {
             if (ended()) std::this_thread::sleep_for(kOwnWay);
-            if (page_.off.load() == 0 && devices_->can_stop()) {
-                devices_->stop();
+            if (page_.off.load() == 0 && devices_->can_stop() && devices_->stop())
                 page_.off.store(1);
-            }
         } else if (ended()) {
             std::this_thread::sleep_for(kLook);
         }

@@ -35,11 +35,13 @@ class Server {
     }
 
   private:
+    class Call;
+
     void serve_all() noexcept;
     void serve(Request request) noexcept;
     bool take_turn() noexcept;
     bool await_reply() noexcept;
-    void read() noexcept;
+    void read(Time now) noexcept;
     void write() noexcept;
     void write_zero() noexcept;
     void take_force_away() noexcept;

@@ -36,7 +36,7 @@ class CorrectedGroup final : public devices::DeviceGroup {
     void do_activate() override { inner_->activate(); }
     void do_deactivate() override { inner_->deactivate(); }
     void do_pace(const std::function<bool()>& tick) override { inner_->pace(tick); }
-    void do_stop() noexcept override { inner_->stop(); }
+    bool do_stop() noexcept override { return inner_->stop(); }
     void do_limit(int device, double force, double torque) noexcept override {
         inner_->limit(device, force / adjustments_[static_cast<size_t>(device)].scale, torque);
     }
@@ -59,9 +59,6 @@ class CorrectedGroup final : public devices::DeviceGroup {
             const auto& [correction, scale] = adjustments_[i];
             wrenches_[i] = {slopes_[i].transpose() * wrenches_D[i].force / scale,
                             correction.X.R.conjugate() * wrenches_D[i].torque};
-            // a reading that is no number leaves a slope that is none: nor has zero force one then
-            const Wrench& out = wrenches_[i];
-            if (!out.force.allFinite() || !out.torque.allFinite()) wrenches_[i] = {};
         }
         inner_->write(wrenches_);
     }

@@ -17,8 +17,9 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Until their first tick devices that pace start a thread, or a scheduler, of their own.
-constexpr Time kDevicesBegin = std::chrono::milliseconds(500);
+/// Until their first tick devices that pace start a thread, or a scheduler, of their own. No force
+/// is on them then: the watchdog waits for longer than any of them does before it gives up.
+constexpr Time kDevicesBegin = std::chrono::seconds(4);
 
 double elapsed(Steady::time_point since) {
     return std::chrono::duration<double>(Steady::now() - since).count();
@@ -64,7 +65,7 @@ std::string describe(const Timing::Stall& stall) {
     return fmt::format("no tick had ended for {:.0f} ms at {:.3f} s, and {}",
                        seconds(stall.pause) * 1e3, seconds(stall.at),
                        stall.stopped ? "the watchdog switched the devices' force off"
-                                     : "these devices have no stop that the watchdog may call");
+                                     : "the watchdog could not switch the devices' force off");
 }
 
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
@@ -112,7 +113,8 @@ struct RealLoop {
         if (sink) sink(frame);
         if ((frame.status & kLate) != 0 && !servo.real()) {
             ++timing.pauses;
-            timing.longest_pause = std::max(timing.longest_pause, seconds(now - timing.reached));
+            timing.longest_pause =
+                std::max({timing.longest_pause, seconds(now - timing.reached), lateness});
         }
         const auto end = Steady::now();
         watchdog.end_tick(end);
@@ -176,7 +178,7 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
         timing.refusals = real_time.refusals();
         auto start = Steady::now();
         // a tick more than the servo allows itself: whenever this stops the devices, a tick after
-        // it is late by the servo's own clock, which is recorded
+        // it, but for the first one, is late by the servo's own clock, which is recorded
         const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
         // simulated ones have nobody to be switched off for
         const Time limit = servo.real() ? pause : Watchdog::kStuck;

@@ -190,9 +190,7 @@ void Servo::deactivate() {
 }
 
 bool Servo::stop_devices() noexcept {
-    if (!devices_->can_stop()) return false;
-    devices_->stop();
-    return true;
+    return devices_->can_stop() && devices_->stop();
 }
 
 void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcept {
@@ -263,7 +261,7 @@ void Servo::measure(Time now) noexcept {
     judge_lateness(now, elapsed);
     // a device has one position a period, however near to each other two ticks come
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
-    if ((real_ && late_told_ != 0) || faults_.tripped()) turn_.stop();
+    if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
         haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};

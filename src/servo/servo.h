@@ -71,8 +71,8 @@ class Servo {
     void rest() noexcept;
     /// After rest(), before the next tick: hands may be elsewhere by now, and force comes on
     /// softly, from zero in the next tick. After a fault the devices are activated anew, and it is
-    /// forgotten; bodies of a world that diverged are where the scene has them. Throws Error when
-    /// the devices cannot be activated.
+    /// forgotten; what was nowhere, in a world that diverged, is where the scene has it. Throws
+    /// Error when the devices cannot be activated.
     void resume();
     /// Memory for every Frame that this servo makes; only copies into it allocate nothing.
     void reserve(Frame& frame) const;
@@ -157,8 +157,7 @@ class Servo {
     std::vector<Move> moves_;  // of the unturned handles since the last tick
     Lateness late_;
     double elapsed_ = 0;             // since the last tick [s]
-    haptics::Fault lateness_fault_;  // of this tick, where devices are real
-    uint32_t late_told_ = 0;         // its Status, where not, too
+    haptics::Fault lateness_fault_;  // of this tick; only told where no device is real
     bool real_ = false;
     double damping_ = 0;
     haptics::CouplingSettings in_force_;

@@ -81,7 +81,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     frame_.solver = static_cast<int32_t>(world_.solver());
-    if (!real_) frame_.status |= late_told_;
+    if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
     const haptics::Tuning tuning = in_force_.tuning();
     if (tuning.stiffness < settings_.coupling.stiffness) frame_.status |= kSoftened;
     frame_.coupling = static_cast<int32_t>(tuning.kind);

@@ -7,40 +7,37 @@
 
 namespace dihaptic::servo {
 
-/// What is no fault, with simulated devices alone, is told all the same.
+/// With simulated devices alone it is no fault, and told all the same.
 void Servo::judge_lateness(Time now, double elapsed) noexcept {
     late_.tick(now, from_seconds(elapsed));
     elapsed_ = elapsed;
     lateness_fault_ = {};
-    late_told_ = 0;
+    // nobody may have noted a lateness: it is no number then, and the second of the two counts less
     const double overdue = std::max(elapsed - settings_.tick(), lateness_);
     const double pause = settings_.safety.max_pause;
-    const double most = settings_.safety.max_late.value_or(pause);
+    const std::optional<double>& most = settings_.safety.max_late;
     // a clock that goes back says nothing of how long the last force was held
     if (elapsed > pause || elapsed < 0) {
         lateness_fault_ = {haptics::FaultKind::late, -1, now, elapsed, pause};
-        late_told_ = kLate;
-    } else if (frame_.sequence >= 0 && settings_.safety.max_late && overdue > most) {
-        lateness_fault_ = {haptics::FaultKind::late, -1, now, overdue, most};
-        late_told_ = kLate;
+    } else if (frame_.sequence >= 0 && most && overdue > *most) {
+        lateness_fault_ = {haptics::FaultKind::late, -1, now, overdue, *most};
     } else if (haptics::held_stiffness(damping_, late_.sustained()) < haptics::kLeastHeld) {
         lateness_fault_ = {haptics::FaultKind::keeps_late, -1, now,
                            settings_.tick() + late_.sustained(), haptics::kLeastHeld};
-        late_told_ = kKeepsLate;
     }
 }
 
 void Servo::retune() noexcept {
     haptics::CouplingSettings next = settings_.coupling;
     if (real_) next = haptics::softened(next, damping_, late_.sustained(), settings_.tick());
-    if (next.tuning() == in_force_.tuning() && next.turn_stiffness == in_force_.turn_stiffness)
-        return;
+    if (next == in_force_) return;
     in_force_ = next;
     for (haptics::Finger& finger : fingers_) finger.retune(in_force_);
 }
 
-/// Until lateness that has just begun has softened the couplings, and for the wall and the fields:
-/// the force of the last tick may go on as a spring that the loop holds.
+/// Lateness that has just begun has not softened the couplings yet, and never softens the wall or
+/// the fields. Force may rise from the last tick's only as a spring that the loop holds would, and
+/// by the creep, which lets it come back; and never as a spring stiffer than the coupling.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
     Force& force = forces_[finger];
@@ -48,7 +45,6 @@ void Servo::bound_rise(size_t finger, double share) noexcept {
     const double k = haptics::held_stiffness(damping_, late_.expected());
     const double turn_k = haptics::kTurnHeld * k;
     const Wrench asked = force.felt_0;
-    // no stiffer than the coupling, which is bounded by little then; it is let go by the creep
     force.felt_0.force =
         haptics::bound_rise(asked.force, force.last_0.force / share, move.way,
                             std::min(k, in_force_.stiffness), k * haptics::kCreep * elapsed_);

@@ -207,10 +207,13 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
     }
 }
 
-void Group::do_stop() noexcept {
+bool Group::do_stop() noexcept {
     stopped_.store(true);
+    bool off = true;
     // the library may be called from several threads at once
-    for (const Device& device : devices_) dhd_.enable_force(0, device.connection.id());
+    for (const Device& device : devices_)
+        off = dhd_.enable_force(0, device.connection.id()) >= 0 && off;
+    return off;
 }
 
 }  // namespace dihaptic::devices::forcedimension

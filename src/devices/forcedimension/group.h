@@ -87,7 +87,7 @@ class Group final : public DeviceGroup {
     void do_deactivate() override;
     void do_read(Time now, std::span<Reading> readings) noexcept override;
     void do_write(std::span<const Wrench> wrenches_D) noexcept override;
-    void do_stop() noexcept override;
+    bool do_stop() noexcept override;
 
     void set_watchdog(const Device& device) const;
     bool read_motion(const Device& device, Reading& reading) noexcept;

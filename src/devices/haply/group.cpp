@@ -184,9 +184,10 @@ class HaplyGroup final : public DeviceGroup {
         }
     }
 
-    void do_stop() noexcept override {
+    bool do_stop() noexcept override {
         stopped_.store(true);
         connection_.shut_down();
+        return true;
     }
 
     std::vector<Wanted> devices_;

@@ -9,8 +9,6 @@
 namespace dihaptic::devices::openhaptics {
 namespace {
 
-constexpr double kPerMm = 1e-3;  // [m]
-
 bool sound(double limit) {
     return std::isfinite(limit) && limit > 0;
 }

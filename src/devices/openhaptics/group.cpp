@@ -10,7 +10,6 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-constexpr double kPerMm = 1e-3;  // [m]
 /// A scheduler that calls no more is given up: after it began, and before.
 constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);

@@ -6,6 +6,8 @@
 
 namespace dihaptic::devices::openhaptics {
 
+constexpr double kPerMm = 1e-3;  // [m]
+
 using HdHandle = unsigned;
 constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 

@@ -162,7 +162,10 @@ class SimulatedGroup final : public DeviceGroup {
         }
     }
 
-    void do_stop() noexcept override { stopped_.store(true); }
+    bool do_stop() noexcept override {
+        stopped_.store(true);
+        return true;
+    }
 
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
