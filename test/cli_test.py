@@ -814,29 +814,30 @@ class Interruptions(unittest.TestCase):
             self.assertTrue(os.path.exists(folder + "session.nwb"))
             self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
 
-    def test_escape_on_a_terminal_switches_force_off(self):
-        with tempfile.TemporaryDirectory() as out:
-            master, slave = pty.openpty()
-            before = termios.tcgetattr(slave)
-            process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
-                                       stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-                                       start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
-            wait_for_log(out, 300000)
-            os.write(master, b"q")  # no other key does
-            time.sleep(0.2)
-            self.assertIsNone(process.poll())
-            os.write(master, b"\x1b")
-            stdout, _ = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, 1)
-            self.assertIn("Escape or Ctrl-C switches force off", stdout)
-            self.assertRegex(stdout, r"force is off since [0-9.]+ s: ")
-            folder = session_of(out)
-            self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
-            self.assertEqual(termios.tcgetattr(slave), before)
-            os.close(slave)
-            os.close(master)
-            replay = dihaptic("replay", folder)
-            self.assertEqual(replay.returncode, 0, replay.stdout)
+    def test_keys_of_a_terminal_switch_force_off(self):
+        for name, key in [("Escape", b"\x1b"), ("Ctrl-C", b"\x03"), ("Ctrl-\\", b"\x1c"), ("Ctrl-Z", b"\x1a")]:
+            with self.subTest(name), tempfile.TemporaryDirectory() as out:
+                master, slave = pty.openpty()
+                before = termios.tcgetattr(slave)
+                process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
+                                           stdin=slave, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+                                           start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+                wait_for_log(out, 300000)
+                os.write(master, b"q")  # no other key does
+                time.sleep(0.2)
+                self.assertIsNone(process.poll())
+                os.write(master, key)
+                stdout, _ = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, 1)
+                self.assertIn("Escape or Ctrl-C switches force off", stdout)
+                self.assertRegex(stdout, r"force is off since [0-9.]+ s: ")
+                folder = session_of(out)
+                self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
+                self.assertEqual(termios.tcgetattr(slave), before)
+                os.close(slave)
+                os.close(master)
+                replay = dihaptic("replay", folder)
+                self.assertEqual(replay.returncode, 0, replay.stdout)
 
     def test_a_running_session_is_not_recovered(self):
         with tempfile.TemporaryDirectory() as out:
@@ -1300,7 +1301,7 @@ task:
         self.assertEqual(dihaptic("export", self.made, "--bids", study).returncode, 0)
         names = os.listdir(study + "/sub-S07/motion")
         self.assertEqual(sorted(names), sorted(os.listdir(self.out + "/whole/sub-S07/motion")))
-        self.assertEqual(os.listdir(study + "/sub-S07").sort(), os.listdir(self.out + "/whole/sub-S07").sort())
+        self.assertEqual(sorted(os.listdir(study + "/sub-S07")), sorted(os.listdir(self.out + "/whole/sub-S07")))
         self.assertEqual(os.path.getsize(motion.replace(self.out + "/whole", study)), size)
         self.assertEqual([name for name in os.listdir(study + "/sub-S07/motion") + os.listdir(study) if "part" in name and not name.startswith("participants.")
                           or name.startswith(".")], [])

@@ -21,8 +21,6 @@ EscapeKey::EscapeKey(std::atomic<bool>& pressed, std::atomic<char>& key) {
     keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     keys.c_cc[VMIN] = 1;
     keys.c_cc[VTIME] = 0;
-    // a suspended program would leave its devices with their last force
-    keys.c_cc[VSUSP] = _POSIX_VDISABLE;
     if (tcsetattr(STDIN_FILENO, TCSANOW, &keys) != 0) return;
     listens_ = true;
     thread_ = std::thread([this, &pressed, &key] { listen(pressed, key); });

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <initializer_list>
@@ -21,23 +22,24 @@ void on_signal(int signal) {
     errno = before;
 }
 
-using Handler = void (*)(int);
+struct sigaction done_at(int signal) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    return now;
+}
 
-/// Returns what was done at it before.
-Handler handle(int signal, Handler handler) {
+void handle(int signal, void (*handler)(int)) {
     struct sigaction action {};
-    struct sigaction before {};
     action.sa_handler = handler;
     action.sa_flags = SA_RESTART;
     sigfillset(&action.sa_mask);
-    sigaction(signal, &action, &before);
-    return before.sa_handler;
+    sigaction(signal, &action, nullptr);
 }
 
 constexpr std::initializer_list<int> kEnding = {SIGINT,    SIGTERM, SIGHUP,  SIGQUIT, SIGUSR1,
                                                 SIGUSR2,   SIGALRM, SIGXCPU, SIGPOLL, SIGVTALRM,
                                                 SIGSTKFLT, SIGPROF, SIGPWR};
-constexpr std::initializer_list<int> kSuspending = {SIGTSTP, SIGTTIN, SIGTTOU};
+constexpr std::array kSuspending{SIGTSTP, SIGTTIN, SIGTTOU};
 
 }  // namespace
 
@@ -45,10 +47,11 @@ void stop_on_signals(std::atomic<bool>& stop, int wake) {
     wake_file.store(wake);
     flag.store(&stop);
     for (const int signal : kEnding) {
-        const Handler before = handle(signal, on_signal);
-        const bool nohup = signal == SIGHUP && before == SIG_IGN;
-        const bool anothers = before != SIG_IGN && before != SIG_DFL;  // a profiler's
-        if (nohup || anothers) handle(signal, before);
+        const struct sigaction before = done_at(signal);
+        const bool nohup = signal == SIGHUP && before.sa_handler == SIG_IGN;
+        const bool anothers = (before.sa_flags & SA_SIGINFO) != 0 ||
+                              (before.sa_handler != SIG_IGN && before.sa_handler != SIG_DFL);
+        if (!nohup && !anothers) handle(signal, on_signal);  // another's: a profiler's
     }
     // writing fails then, and says so: to a pipe that nobody reads, beyond a quota
     handle(SIGPIPE, SIG_IGN);
@@ -56,11 +59,14 @@ void stop_on_signals(std::atomic<bool>& stop, int wake) {
 }
 
 NoSuspension::NoSuspension() {
-    for (const int signal : kSuspending) handle(signal, on_signal);
+    for (size_t i = 0; i < kSuspending.size(); ++i) {
+        before_[i] = done_at(kSuspending[i]);
+        handle(kSuspending[i], on_signal);
+    }
 }
 
 NoSuspension::~NoSuspension() {
-    for (const int signal : kSuspending) handle(signal, SIG_DFL);
+    for (size_t i = 0; i < kSuspending.size(); ++i) sigaction(kSuspending[i], &before_[i], nullptr);
 }
 
 }  // namespace dihaptic::app

@@ -5,6 +5,9 @@
 // can be ended in order.
 #pragma once
 
+#include <csignal>
+
+#include <array>
 #include <atomic>
 
 namespace dihaptic::app {
@@ -12,7 +15,7 @@ namespace dihaptic::app {
 /// From now on whatever would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal, a
 /// log-out, a timer, a limit of the system's) only sets `stop`, and writes the signal's number as a
 /// byte to the file `wake`, if there is one. A hangup that is ignored already stays so, as nohup
-/// wants. Both outlive the program's signals.
+/// wants. `stop` and `wake` must live as long as the program.
 void stop_on_signals(std::atomic<bool>& stop, int wake = -1);
 
 /// As long as it is there, what would suspend the program, Ctrl-Z above all, is such a signal too.
@@ -22,6 +25,9 @@ class NoSuspension {
     ~NoSuspension();
     NoSuspension(const NoSuspension&) = delete;
     NoSuspension& operator=(const NoSuspension&) = delete;
+
+  private:
+    std::array<struct sigaction, 3> before_;  // what was done at each
 };
 
 }  // namespace dihaptic::app
