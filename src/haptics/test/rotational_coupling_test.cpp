@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "haptics/finger.h"
+#include "haptics/test/stops.h"
 
 namespace dihaptic::haptics {
 namespace {
@@ -55,21 +56,6 @@ Handle turned(const Vec3& rotation, const Vec3& w = Vec3::Zero()) {
     Handle out;
     out.R_WH = rotation_by(rotation);
     out.w_WH = w;
-    return out;
-}
-
-/// Blocks 1 um above one end and below the other: the bar does not turn about +y.
-scene::Scene stops() {
-    scene::Scene out;
-    for (const int side : {-1, 1}) {
-        scene::Body stop;
-        stop.name = side < 0 ? "left" : "right";
-        stop.shape = scene::Shape::box({0.02, 0.04, 0.02});
-        // turning about +y takes the end at +x down
-        stop.position = {side * 0.09, 0, -side * (0.015 + 1e-6)};
-        stop.fixed = true;
-        out.bodies.push_back(stop);
-    }
     return out;
 }
 

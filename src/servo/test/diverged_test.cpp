@@ -21,10 +21,6 @@ struct Planted {
     std::function<void(Commands&, double)> order;       ///< what the director wants in it
 };
 
-void PrintTo(const Planted& planted, std::ostream* out) {
-    *out << planted.name;
-}
-
 void read(PlantedGrasp& grasp, const std::function<void(devices::Reading&)>& change) {
     grasp.devices->plant = [change](std::span<devices::Reading> readings) { change(readings[1]); };
 }
@@ -66,7 +62,7 @@ const std::vector<Planted> kPlanted{
      haptics::FaultKind::diverged,
      {},
      [](Commands& c, double x) {
-         c.task.placements.push_back({kBlock, {{}, x * kEast}});
+         c.task.placements.push_back({kBlock, {Quat::Identity(), x * kEast}});
      }},
     {"turn_of_a_body",
      haptics::FaultKind::diverged,
@@ -78,7 +74,7 @@ const std::vector<Planted> kPlanted{
      haptics::FaultKind::diverged,
      {},
      [](Commands& c, double) {
-         c.task.placements.push_back({kTable, {{}, Vec3::Constant(kUnmeasured)}});
+         c.task.placements.push_back({kTable, {Quat::Identity(), Vec3::Constant(kUnmeasured)}});
      }},
     {"velocity_of_a_body",
      haptics::FaultKind::diverged,

@@ -11,6 +11,7 @@
 #include "devices/test/fakes.h"
 #include "haptics/late_loop.h"
 #include "lift.h"
+#include "planted_group.h"
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
@@ -21,34 +22,6 @@ using std::chrono::milliseconds;
 
 constexpr double kWanted = 1.5;  // on each finger, of a hand of 300 N/m through 1000 N/m [N]
 constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // of its target [m]
-
-/// Simulated devices that pass for real ones, or the other way round.
-class PassingGroup final : public devices::DeviceGroup {
-  public:
-    PassingGroup(std::unique_ptr<devices::DeviceGroup> inner, bool simulated)
-        : DeviceGroup(infos(*inner, simulated)), inner_(std::move(inner)) {}
-
-  private:
-    static std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& group,
-                                                  bool simulated) {
-        std::vector<devices::DeviceInfo> out;
-        for (int i = 0; i < group.size(); ++i) {
-            out.push_back(group.info(i));
-            out.back().simulated = simulated;
-        }
-        return out;
-    }
-    void do_activate() override { inner_->activate(); }
-    void do_deactivate() override { inner_->deactivate(); }
-    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
-        inner_->read(now, readings);
-    }
-    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
-        inner_->write(wrenches_D);
-    }
-
-    std::unique_ptr<devices::DeviceGroup> inner_;
-};
 
 /// Thumb and index close on a block, or the thumb presses a wall, from 3 cm off within 1 s.
 struct Hold {
@@ -91,7 +64,7 @@ struct Hold {
         const rig::Rig rig = rig::simulated_rig(fingers);
         std::unique_ptr<devices::DeviceGroup> group;
         if (backend == "real" || backend == "simulated") {
-            group = std::make_unique<PassingGroup>(rig::make_devices(rig, fingers, context),
+            group = std::make_unique<PlantedGroup>(rig::make_devices(rig, fingers, context),
                                                    backend == "simulated");
         } else {
             std::vector<devices::DeviceConfig> configs;

@@ -7,16 +7,6 @@
 
 namespace dihaptic::servo {
 
-/// Of simulated devices that pass for real ones: a pause of the loop is a fault.
-inline std::vector<devices::DeviceInfo> real_infos(const devices::DeviceGroup& inner) {
-    std::vector<devices::DeviceInfo> out;
-    for (int i = 0; i < inner.size(); ++i) {
-        out.push_back(inner.info(i));
-        out.back().simulated = false;
-    }
-    return out;
-}
-
 inline scene::Scene block_on_table() {
     scene::Scene out;
     scene::Body table;

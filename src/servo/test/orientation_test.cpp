@@ -2,6 +2,7 @@
 // rule of safety holds for torque as it does for force.
 #include <gtest/gtest.h>
 
+#include "planted_group.h"
 #include "rig/rig.h"
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
@@ -10,35 +11,12 @@
 namespace dihaptic::servo {
 namespace {
 
-/// One device within another group's, whose readings a test may spoil.
-class SpoiltGroup final : public devices::DeviceGroup {
-  public:
-    explicit SpoiltGroup(std::unique_ptr<devices::DeviceGroup> inner)
-        : DeviceGroup({inner->info(0)}), inner_(std::move(inner)) {}
-
-    Wrench told;  ///< in D
-    std::function<void(devices::Reading&)> spoil;
-    uint32_t buttons = 1;
-
-  private:
-    void do_activate() override { inner_->activate(); }
-    void do_deactivate() override { inner_->deactivate(); }
-    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
-        inner_->read(now, readings);
-        readings[0].buttons = buttons;
-        if (spoil) spoil(readings[0]);
-    }
-    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
-        told = wrenches_D[0];
-        inner_->write(wrenches_D);
-    }
-    std::unique_ptr<devices::DeviceGroup> inner_;
-};
-
 /// turning_bar() by simulated devices.
 struct Session {
     std::unique_ptr<hand::ScriptDriver> driver;
-    SpoiltGroup* device = nullptr;
+    PlantedGroup* device = nullptr;
+    std::function<void(devices::Reading&)> spoil;
+    uint32_t buttons = 1;
     std::unique_ptr<Servo> servo;
     int next = 0;
 
@@ -52,8 +30,13 @@ struct Session {
         rig.devices[0].rotation = rotation;
         devices::Context context;
         context.driver = driver.get();
-        auto group = std::make_unique<SpoiltGroup>(rig::make_devices(rig, {"hand"}, context));
+        auto group =
+            std::make_unique<PlantedGroup>(rig::make_devices(rig, {"hand"}, context), true);
         device = group.get();
+        device->plant = [this](std::span<devices::Reading> readings) {
+            readings[0].buttons = buttons;
+            if (spoil) spoil(readings[0]);
+        };
         servo = std::make_unique<Servo>(turning_bar(), settings, std::move(group),
                                         rig::poses(rig, {"hand"}));
         servo->activate();
@@ -81,7 +64,7 @@ TEST(Orientation, AToolThatIsStoppedIsFeltAsATorqueWhereverTheDeviceStands) {
         EXPECT_LT((rotation_vector(turn.R_WH) - Vec3(0, 0.1, 0)).norm(), 1e-4);
         EXPECT_LT(angle_between(frame.fingers[0].R_WP, Quat::Identity()), 1e-4);
         const Quat R_WD = rotation_xyz(rotation);
-        EXPECT_LT((R_WD * session.device->told.torque - turn.t_sent_W).norm(), 1e-12);
+        EXPECT_LT((R_WD * session.device->told[0].torque - turn.t_sent_W).norm(), 1e-12);
         EXPECT_LT((R_WD * rotation_vector(turn.R_DH) - rotation_vector(turn.R_WH)).norm(), 1e-9);
     }
 }
@@ -100,7 +83,7 @@ TEST(Orientation, LeavesToolsOfOtherDevicesAsTheyAre) {
     const Frame& frame = session.run(600);
     EXPECT_TRUE(frame.turns.empty());
     EXPECT_EQ(frame.fingers[0].R_WP.coeffs(), Quat::Identity().coeffs());
-    EXPECT_EQ(session.device->told.torque, Vec3::Zero());
+    EXPECT_EQ(session.device->told[0].torque, Vec3::Zero());
 }
 
 TEST(Orientation, TorqueIsCutToTheDevicesPeakAndTheSetting) {
@@ -122,7 +105,7 @@ TEST(Orientation, TorqueHeldTooLongFallsToTheContinuousOne) {
     double peak = 0;
     for (int i = 0; i < 6000; ++i) peak = std::max(peak, session.tick().turns[0].t_sent_W.norm());
     EXPECT_GT(peak, 0.1);
-    EXPECT_NEAR(session.device->told.torque.norm(), 0.05, 1e-3);
+    EXPECT_NEAR(session.device->told[0].torque.norm(), 0.05, 1e-3);
 }
 
 TEST(Orientation, TorqueChangesNoFasterThanAllowed) {
@@ -147,11 +130,11 @@ TEST(Orientation, TorqueComesOnSoftlyAndGoesWithTheDeadManSwitch) {
     settings.safety.dead_man_finger = "hand";
     Session session(0.2, settings);
     session.run(800);
-    EXPECT_GT(session.device->told.torque.norm(), 0.05);
-    session.device->buttons = 0;
+    EXPECT_GT(session.device->told[0].torque.norm(), 0.05);
+    session.buttons = 0;
     EXPECT_NE(session.tick().status & kSwitchedOff, 0u);
-    EXPECT_TRUE(session.device->told.is_zero());
-    session.device->buttons = 1;
+    EXPECT_TRUE(session.device->told[0].is_zero());
+    session.buttons = 1;
     session.tick();
     const Frame& frame = session.run(100);
     EXPECT_NE(frame.status & kSoftStarted, 0u);
@@ -180,17 +163,17 @@ TEST(Orientation, WhatCannotBeIsAFaultThatEndsTorqueAndForce) {
                                  haptics::FaultKind::turned_too_fast, kTooFast}}) {
         Session session(0.2);
         session.run(800);
-        EXPECT_GT(session.device->told.torque.norm(), 0.05);
-        session.device->spoil = bad.spoil;
+        EXPECT_GT(session.device->told[0].torque.norm(), 0.05);
+        session.spoil = bad.spoil;
         const Frame& frame = session.tick();
-        EXPECT_TRUE(session.device->told.is_zero());
+        EXPECT_TRUE(session.device->told[0].is_zero());
         EXPECT_EQ(session.servo->fault().kind, bad.kind);
         EXPECT_NE(frame.status & bad.status, 0u);
         EXPECT_NE(frame.status & kForceOff, 0u);
         EXPECT_EQ(frame.turns[0].w_WH, Vec3::Zero());
         EXPECT_TRUE(frame.fingers[0].R_WP.coeffs().allFinite());
         session.run(100);
-        EXPECT_TRUE(session.device->told.is_zero());
+        EXPECT_TRUE(session.device->told[0].is_zero());
     }
 }
 
@@ -201,7 +184,7 @@ TEST(Orientation, TheOperatorEndsTorqueToo) {
                         [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
                             commands.force_off = true;
                         });
-    EXPECT_TRUE(session.device->told.is_zero());
+    EXPECT_TRUE(session.device->told[0].is_zero());
 }
 
 TEST(Orientation, IsWatchedByTheEnergyGuard) {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "lift.h"
+#include "planted_group.h"
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
@@ -429,32 +430,22 @@ TEST(Run, RealTimeAllocatesNothing) {
 }
 
 /// Simulated devices that call the tick themselves, every 2 ms, from a thread of their own.
-class PacingGroup final : public devices::DeviceGroup {
+class PacingGroup final : public PlantedGroup {
   public:
-    explicit PacingGroup(std::unique_ptr<devices::DeviceGroup> inner)
-        : DeviceGroup({inner->info(0), inner->info(1)}), inner_(std::move(inner)) {}
+    using PlantedGroup::PlantedGroup;
     bool paces() const override { return true; }
 
   private:
-    void do_activate() override { inner_->activate(); }
-    void do_deactivate() override { inner_->deactivate(); }
-    void do_read(Time now, std::span<devices::Reading> readings) noexcept override {
-        inner_->read(now, readings);
-    }
-    void do_write(std::span<const Wrench> wrenches_D) noexcept override {
-        inner_->write(wrenches_D);
-    }
     void do_pace(const std::function<bool()>& tick) override {
         std::thread([&] {
             while (tick()) std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }).join();
     }
-    std::unique_ptr<devices::DeviceGroup> inner_;
 };
 
 TEST(Run, IsPacedByDevicesThatDoAndTimeIsThatOfTheirTicks) {
     Grasp grasp({}, "", [](std::unique_ptr<devices::DeviceGroup> inner) {
-        return std::make_unique<PacingGroup>(std::move(inner));
+        return std::make_unique<PacingGroup>(std::move(inner), true);
     });
     const std::atomic<bool> stop{false};
     Timing timing;

@@ -2,21 +2,13 @@
 #pragma once
 
 #include "hand/script.h"
-#include "scene/scene.h"
+#include "haptics/test/stops.h"
 
 namespace dihaptic::servo {
 
 /// The bar is the finger "hand".
 inline scene::Scene turning_bar() {
-    scene::Scene out;
-    for (const int side : {-1, 1}) {
-        scene::Body stop;
-        stop.name = side < 0 ? "left" : "right";
-        stop.shape = scene::Shape::box({0.02, 0.04, 0.02});
-        stop.position = {side * 0.09, 0, -side * (0.015 + 1e-6)};
-        stop.fixed = true;
-        out.bodies.push_back(stop);
-    }
+    scene::Scene out = haptics::stops();
     scene::Finger bar;
     bar.name = "hand";
     bar.shape = scene::Shape::box({0.2, 0.02, 0.01});
