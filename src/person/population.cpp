@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/field_writer.h"
 #include "base/random.h"
@@ -13,6 +14,8 @@
 
 namespace dihaptic::person {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kFarthest = 2.5;  // SDs from the median: nobody is further off
 
@@ -37,7 +40,8 @@ double drawn(const TraitSpread& row, double z) {
     return median;
 }
 
-TraitSpread* find(std::vector<TraitSpread>& traits, const std::string& name) {
+/// Null when there is none of that name.
+auto find(auto& traits, const std::string& name) {
     const auto found = std::find_if(traits.begin(), traits.end(),
                                     [&](const TraitSpread& t) { return t.trait == name; });
     return found == traits.end() ? nullptr : &*found;
@@ -108,98 +112,87 @@ std::string without_unit(const std::string& trait) {
     return out;
 }
 
-class Checker {
-  public:
-    Checker(const Population& population, Diagnostics& diagnostics)
-        : population_(population), diagnostics_(diagnostics) {}
-
-    void check(const std::string& file) {
-        for (const TraitSpread& trait : population_.traits) {
-            if (!trait.law || !trait.median || !trait.spread)
-                error(trait.place, trait.trait, "has no law, median or spread",
-                      "Write e.g. law: log_normal, median: 0.1, spread: 0.2.");
-        }
-        for (const std::string& name : all_traits()) {
-            const auto& traits = population_.traits;
-            if (std::none_of(traits.begin(), traits.end(),
-                             [&](const TraitSpread& t) { return without_unit(t.trait) == name; }))
-                error({file, 0}, name, "is missing",
-                      "Give every trait, or base the file on another: based_on: adults.yaml.");
-        }
-        if (diagnostics_.has_errors()) return;
-        check_bounds("");
-        for (const Group& group : population_.groups) check_group(group);
-        check_correlations(file);
+/// The median, and those that are furthest from it.
+void check_bounds(const Population& population, const std::string& group,
+                  Diagnostics& diagnostics) {
+    const auto rows = traits_of(population, group);
+    for (const double z : {0.0, -kFarthest, kFarthest}) {
+        std::vector<double> values;
+        for (const TraitSpread& row : rows) values.push_back(drawn(row, z));
+        Diagnostics found;
+        traits_with(rows, values, found);
+        diagnostics.add(found.problems());
+        if (found.has_errors()) return;
     }
+}
 
-  private:
-    void error(const Place& place, const std::string& key, const std::string& what,
-               const std::string& remedy) {
-        diagnostics_.error(place, key, what, remedy);
+void check_group(const Population& population, const Group& group, Diagnostics& diagnostics) {
+    for (const TraitSpread& change : group.traits) {
+        if (find(population.traits, change.trait) == nullptr)
+            diagnostics.error(change.place, change.trait, "is no trait of this population",
+                              "Write its name and unit as under the population's traits.");
     }
+    check_bounds(population, group.name, diagnostics);
+}
 
-    void check_group(const Group& group) {
-        for (const TraitSpread& change : group.traits) {
-            auto traits = population_.traits;
-            if (find(traits, change.trait) == nullptr)
-                error(change.place, change.trait, "is no trait of this population",
-                      "Write its name and unit as under the population's traits.");
+/// Of all traits, in their order.
+Eigen::MatrixXd correlations(const Population& population) {
+    const auto n = static_cast<Eigen::Index>(population.traits.size());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
+    const auto index = [&](const std::string& name) {
+        Eigen::Index i = 0;
+        while (population.traits[static_cast<size_t>(i)].trait != name) ++i;
+        return i;
+    };
+    for (const Correlation& c : population.correlations) {
+        const auto a = index(c.traits[0]);
+        const auto b = index(c.traits[1]);
+        out(a, b) = out(b, a) = c.r;
+    }
+    return out;
+}
+
+void check_correlations(const Population& population, const std::string& file,
+                        Diagnostics& diagnostics) {
+    std::set<std::set<std::string>> pairs;
+    for (const Correlation& c : population.correlations) {
+        for (const std::string& name : c.traits) {
+            if (find(population.traits, name) == nullptr)
+                diagnostics.error(c.place, name, "is no trait of this population",
+                                  "Write its name and unit as under the population's traits.");
         }
-        check_bounds(group.name);
-    }
-
-    /// The median, and those that are furthest from it.
-    void check_bounds(const std::string& group) {
-        const auto rows = traits_of(population_, group);
-        for (const double z : {0.0, -kFarthest, kFarthest}) {
-            std::vector<double> values;
-            for (const TraitSpread& row : rows) values.push_back(drawn(row, z));
-            Diagnostics found;
-            traits_with(rows, values, found);
-            diagnostics_.add(found.problems());
-            if (found.has_errors()) return;
+        const std::set<std::string> pair(c.traits.begin(), c.traits.end());
+        if (c.traits.size() != 2 || pair.size() != 2) {
+            diagnostics.error(c.place, "traits", "are not two", "Write e.g. traits: [a, b].");
+        } else if (!pairs.insert(pair).second) {
+            diagnostics.error(c.place, "traits", "have a correlation already", "Keep one of them.");
         }
     }
+    if (diagnostics.has_errors() || population.correlations.empty()) return;
+    if (Eigen::LLT<Eigen::MatrixXd>(correlations(population)).info() != Eigen::Success)
+        diagnostics.error({file, 0}, "correlations", "contradict each other",
+                          "Three traits cannot all be correlated at will: make them smaller.");
+}
 
-    void check_correlations(const std::string& file) {
-        auto traits = population_.traits;
-        for (const Correlation& c : population_.correlations) {
-            if (c.traits.size() != 2)
-                error(c.place, "traits", "are not two", "Write e.g. traits: [a, b].");
-            for (const std::string& name : c.traits) {
-                if (find(traits, name) == nullptr)
-                    error(c.place, name, "is no trait of this population",
-                          "Write its name and unit as under the population's traits.");
-            }
-        }
-        if (diagnostics_.has_errors() || population_.correlations.empty()) return;
-        if (Eigen::LLT<Eigen::MatrixXd>(matrix(population_)).info() != Eigen::Success)
-            error({file, 0}, "correlations", "contradict each other",
-                  "Three traits cannot all be correlated at will: make them smaller.");
+void check(const Population& population, const std::string& file, Diagnostics& diagnostics) {
+    for (const TraitSpread& trait : population.traits) {
+        if (!trait.law || !trait.median || !trait.spread)
+            diagnostics.error(trait.place, trait.trait, "has no law, median or spread",
+                              "Write e.g. law: log_normal, median: 0.1, spread: 0.2.");
     }
-
-  public:
-    /// Of all traits, in their order.
-    static Eigen::MatrixXd matrix(const Population& population) {
-        const auto n = static_cast<Eigen::Index>(population.traits.size());
-        Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
-        const auto index = [&](const std::string& name) {
-            Eigen::Index i = 0;
-            while (population.traits[static_cast<size_t>(i)].trait != name) ++i;
-            return i;
-        };
-        for (const Correlation& c : population.correlations) {
-            const auto a = index(c.traits[0]);
-            const auto b = index(c.traits[1]);
-            out(a, b) = out(b, a) = c.r;
-        }
-        return out;
+    for (const std::string& name : all_traits()) {
+        const auto& traits = population.traits;
+        if (std::none_of(traits.begin(), traits.end(),
+                         [&](const TraitSpread& t) { return without_unit(t.trait) == name; }))
+            diagnostics.error({file, 0}, name, "is missing",
+                              "Give every trait, or base the file on another: based_on: "
+                              "adults.yaml.");
     }
-
-  private:
-    const Population& population_;
-    Diagnostics& diagnostics_;
-};
+    if (diagnostics.has_errors()) return;
+    check_bounds(population, "", diagnostics);
+    for (const Group& group : population.groups) check_group(population, group, diagnostics);
+    check_correlations(population, file, diagnostics);
+}
 
 /// Over the file that it is based on.
 Population resolved(Population change, Population base) {
@@ -207,7 +200,7 @@ Population resolved(Population change, Population base) {
         if (TraitSpread* there = find(base.traits, trait.trait)) {
             overlay(*there, trait);
         } else {
-            base.traits.push_back(trait);  // the checker says what is wrong with it
+            base.traits.push_back(trait);  // check() says what is wrong with it
         }
     }
     change.traits = std::move(base.traits);
@@ -225,7 +218,7 @@ Population parse(const Node& node, Diagnostics& diagnostics) {
 }
 
 Population checked(Population population, const std::string& file, Diagnostics& diagnostics) {
-    Checker(population, diagnostics).check(file);
+    check(population, file, diagnostics);
     diagnostics.throw_if_errors();
     return population;
 }
@@ -259,6 +252,21 @@ Traits with_names(Traits traits, const Population& population, const std::string
     return traits;
 }
 
+/// `above`: the files that are based on this one.
+Population read_based(std::set<fs::path> above, const std::string& file) {
+    Diagnostics diagnostics;
+    Population out = parse(read_yaml(file), diagnostics);
+    if (!out.based_on.empty()) {
+        above.insert(fs::weakly_canonical(file));
+        const fs::path base = fs::path(file).parent_path() / out.based_on;
+        if (above.contains(fs::weakly_canonical(base)))
+            throw Error({file, 0}, "based_on", "leads back to the file itself",
+                        "Name a file that is based on no other, or on another one.");
+        out = resolved(std::move(out), read_based(above, base.string()));
+    }
+    return checked(std::move(out), file, diagnostics);
+}
+
 }  // namespace
 
 std::string Population::group_of(const std::string& id) const {
@@ -267,15 +275,7 @@ std::string Population::group_of(const std::string& id) const {
 }
 
 Population read_population(const std::string& file) {
-    Diagnostics diagnostics;
-    Population out = parse(read_yaml(file), diagnostics);
-    if (!out.based_on.empty()) {
-        const auto base = std::filesystem::path(file).parent_path() / out.based_on;
-        if (std::filesystem::weakly_canonical(base) == std::filesystem::weakly_canonical(file))
-            throw Error({file, 0}, "based_on", "is the file itself", "Name another file.");
-        out = resolved(std::move(out), read_population(base.string()));
-    }
-    return checked(std::move(out), file, diagnostics);
+    return read_based({}, file);
 }
 
 const Population& shipped_population(Objects objects) {
@@ -306,8 +306,7 @@ Traits draw_person(const Population& population, uint64_t seed, const std::strin
         const std::string trait = without_unit(rows[static_cast<size_t>(i)].trait);
         u[i] = Random(seed, fmt::format("person {}, {}", id, trait)).normal();
     }
-    const Eigen::VectorXd z =
-        Eigen::LLT<Eigen::MatrixXd>(Checker::matrix(population)).matrixL() * u;
+    const Eigen::VectorXd z = Eigen::LLT<Eigen::MatrixXd>(correlations(population)).matrixL() * u;
     std::vector<double> values;
     for (size_t i = 0; i < rows.size(); ++i) {
         const double cut = std::clamp(z[static_cast<Eigen::Index>(i)], -kFarthest, kFarthest);

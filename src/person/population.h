@@ -34,7 +34,7 @@ struct TraitSpread {
     std::string trait;  ///< as person.yaml has it, with a unit where it has one
     std::optional<Law> law;
     std::optional<double> median;  ///< in that unit
-    std::optional<double> spread;  ///< SD of z's factor: of the value, its logarithm or its logit
+    std::optional<double> spread;  ///< multiplies z in the law
     std::string source;
     Place place;
 

@@ -106,11 +106,34 @@ TEST(Population, ThatCannotBeIsRefusedWithFileLineAndRemedy) {
 )")
                   .find("contradict each other"),
               std::string::npos);
+    EXPECT_NE(
+        file.refused("correlations: [{ traits: [tempo, tempo], r: 0.5 }]\n").find("are not two"),
+        std::string::npos);
+    EXPECT_NE(file.refused(R"(correlations:
+  - { traits: [tempo, slow_learning], r: 0.5 }
+  - { traits: [slow_learning, tempo], r: 0.1 }
+)")
+                  .find("p.yaml:5: error: traits: have a correlation already"),
+              std::string::npos);
     try {
         read_population(file.folder.write("alone.yaml", "title: Alone\n"));
         FAIL();
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("slow_learning: is missing"), std::string::npos);
+    }
+}
+
+TEST(Population, IsNotBasedOnItselfByAWayAround) {
+    testing::TemporaryFolder folder;
+    const std::string a = folder.write("a.yaml", "title: A\nbased_on: b.yaml\n");
+    folder.write("b.yaml", "title: B\nbased_on: a.yaml\n");
+    try {
+        read_population(a);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("b.yaml: error: based_on: leads back"),
+                  std::string::npos)
+            << e.what();
     }
 }
 

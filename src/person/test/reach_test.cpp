@@ -200,7 +200,7 @@ TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScale
         EXPECT_EQ(curve.unit, "%");
         EXPECT_NEAR(curve.perturbation(), f, 3);
         ASSERT_EQ(curve.trials.size(), 17u);
-        const double baseline = curve.landmarks().baseline;
+        const double baseline = curve.windows().baseline.mean;
         EXPECT_NEAR(baseline, 0, 5);
         const std::vector<double> x =
             model::compensation(model::TwoRate{traits.gain(), {0, 0}}, curve.schedule());
