@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 #include "base/regular_file.h"
@@ -72,12 +71,6 @@ void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnosti
     plan.task = made;
 }
 
-void make_task_hand(Plan& plan) {
-    plan.seeing = std::make_shared<TaskHand>(plan.task, plan.hand, scene::finger_names(plan.scene));
-    plan.driver = plan.seeing;
-    plan.moved_by.mover = recording::Mover::script;
-}
-
 /// The rig file; "": ideal simulated devices.
 std::string rig_file(const Request& request, const Experiment& experiment) {
     if (!request.rig.empty()) return request.rig;
@@ -90,6 +83,21 @@ std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     hand.centre = plan.hand.centre;
     hand.script = {{"person", hand::kLongestScript, {}, Vec3::Zero(), false}};
     return std::make_shared<hand::ScriptDriver>(hand, scene::finger_names(plan.scene));
+}
+
+/// In a task the driver is the file's hand: whoever seats a simulated person puts its own in place.
+void seat_mover(Plan& plan, recording::Mover mover) {
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (mover == recording::Mover::devices) {
+        plan.driver = person_at_devices(plan);
+    } else if (mover == recording::Mover::mouse) {
+        plan.mouse = std::make_shared<hand::MouseDriver>(plan.hand, fingers);
+        plan.driver = plan.mouse;
+    } else {
+        plan.seeing = std::make_shared<TaskHand>(plan.task, plan.hand, fingers);
+        plan.driver = plan.seeing;
+    }
+    plan.moved_by.mover = mover;
 }
 
 }  // namespace
@@ -184,15 +192,11 @@ Plan make_plan(const Request& request) {
     }
     diagnostics.throw_if_errors();
     if (real) {
-        plan.driver = person_at_devices(plan);
-        plan.moved_by.mover = recording::Mover::devices;
+        seat_mover(plan, recording::Mover::devices);
     } else if (request.mouse) {
-        plan.mouse =
-            std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
-        plan.driver = plan.mouse;
-        plan.moved_by.mover = recording::Mover::mouse;
+        seat_mover(plan, recording::Mover::mouse);
     } else if (plan.task) {
-        make_task_hand(plan);
+        seat_mover(plan, recording::Mover::script);
     } else if (!movement.empty()) {
         plan.moved_by.mover = recording::Mover::recorded_movement;
         plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
@@ -210,15 +214,6 @@ Plan make_plan(const Request& request) {
 
 namespace {
 
-uint64_t seed_of(const recording::SessionInfo& info, const recording::SessionFolder& folder) {
-    uint64_t seed = 0;
-    const char* const last = info.seed.data() + info.seed.size();
-    const auto [end, status] = std::from_chars(info.seed.data(), last, seed);
-    if (status == std::errc() && end == last) return seed;
-    throw Error({folder.file("session.yaml"), 0}, "seed", "is no whole number",
-                "Put it back as it was; raw.log has it in its first lines.");
-}
-
 /// How each attempt at a trial ended: trials.csv has a row for each, in the order in which they
 /// were made.
 std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
@@ -226,8 +221,9 @@ std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
         return Error({file, 0}, "", what,
                      "Make it anew from raw.log: dihaptic recover, on the session's folder.");
     };
-    if (read_bytes(file, kMostTable).empty()) throw bad("is empty");
-    if (!read_bytes(file, kMostTable).ends_with('\n')) throw bad("is cut off in its last line");
+    const std::string text = read_bytes(file, kMostTable);
+    if (text.empty()) throw bad("is empty");
+    if (!text.ends_with('\n')) throw bad("is cut off in its last line");
     const CsvFile trials(file);
     if (!trials.has("outcome")) throw bad("has no column 'outcome'");
     std::vector<int> out;
@@ -273,36 +269,20 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     return mover;
 }
 
-void put_mover_back(Plan& plan, recording::Mover mover) {
-    if (mover == recording::Mover::devices) {
-        plan.driver = person_at_devices(plan);
-    } else if (mover == recording::Mover::mouse) {
-        plan.mouse =
-            std::make_shared<hand::MouseDriver>(plan.hand, scene::finger_names(plan.scene));
-        plan.driver = plan.mouse;
-    } else {
-        make_task_hand(plan);
-    }
-    plan.moved_by.mover = mover;
-}
-
-}  // namespace
-
-Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info) {
-    const auto folder = recording::SessionFolder::open(session);
-    info = folder.read_info();
+/// What a session ran, from its own files, and how each of its attempts ended.
+Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
+                 Diagnostics& diagnostics) {
     if (!is_there(folder.file("task.yaml"))) {
-        throw Error({session, 0}, "", "has no trials that could go on",
+        throw Error({folder.path(), 0}, "", "has no trials that could go on",
                     "Run the experiment again; dihaptic recover makes the files of what there is.");
     }
-    Diagnostics diagnostics;
     diagnostics.add(folder.changed(info.inputs, Severity::error));
     diagnostics.throw_if_errors();
     Plan plan;
     plan.file = info.experiment;
     plan.title = info.title;
     plan.study = info.study;
-    plan.seed = seed_of(info, folder);
+    plan.seed = folder.seed_of(info);
     plan.resumes = folder.path();
     plan.scene_folder = folder.path();
     plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
@@ -318,11 +298,31 @@ Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& in
     made->trials = read_trial_list(task, folder.file("trial-list.csv"));
     plan.task = made;
     plan.done = attempts_made(*made, folder.file("trials.csv"));
-    if (TaskDirector(*made, plan.seed, plan.settings.tick(), plan.done).share() >= 1) {
+    return plan;
+}
+
+bool trials_left(const Plan& plan) {
+    return TaskDirector(*plan.task, plan.seed, plan.settings.tick(), plan.done).share() < 1;
+}
+
+}  // namespace
+
+bool trials_left(const std::string& session) {
+    const auto folder = recording::SessionFolder::open(session);
+    Diagnostics diagnostics;
+    return trials_left(frozen_plan(folder, folder.read_info(), diagnostics));
+}
+
+Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info) {
+    const auto folder = recording::SessionFolder::open(session);
+    info = folder.read_info();
+    Diagnostics diagnostics;
+    Plan plan = frozen_plan(folder, info, diagnostics);
+    if (!trials_left(plan)) {
         throw Error({session, 0}, "", "is complete: every trial is done",
                     "Run the experiment again for another session.");
     }
-    put_mover_back(plan, mover_of(info, plan, folder, seat));
+    seat_mover(plan, mover_of(info, plan, folder, seat));
     check_with_devices(plan, diagnostics);
     return plan;
 }

@@ -77,6 +77,8 @@ enum class Seat { terminal, window };
 /// (session/resume.h). Throws Error when there is nothing left, when it has no trials, or when what
 /// moved its hand is not known or cannot do so here.
 Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info);
+/// Whether anything is left of it. Throws Error when it has no trials, or its files are damaged.
+bool trials_left(const std::string& session);
 
 /// Servo on the plan's rig. `keeper`: the program that owns its devices if they are real; "": this
 /// one does.

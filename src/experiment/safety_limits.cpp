@@ -44,8 +44,8 @@ class Limits {
     std::vector<Limit> limits_;
 };
 
-/// The rig's limits, and what is asked for.
-struct Both {
+/// The limits that a rig sets, and who says so.
+struct RigLimits {
     haptics::SafetySettings allowed;
     Origins set_by;
     bool real;
@@ -68,7 +68,7 @@ void overlay(haptics::SafetySettings& safety, const Node& settings, Origins& ori
     safety.visit(reader);
 }
 
-Place place_of(const Plan& plan, const std::string& name) {
+Place place_of_limit(const Plan& plan, const std::string& name) {
     const auto origin = plan.origins.find("safety." + name);
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
@@ -89,25 +89,25 @@ bool wider(const Limit& limit, const Limit& wish) {
 
 void refuse(const Plan& plan, const std::string& name, const std::string& key,
             const std::string& what, Diagnostics& diagnostics) {
-    diagnostics.error(place_of(plan, name), "safety." + key, what,
+    diagnostics.error(place_of_limit(plan, name), "safety." + key, what,
                       "A scene, an experiment or a command line may only tighten the rig's safety "
                       "limits: leave it out, or change settings: safety: of the rig file.");
 }
 
-void check_switch(const Plan& plan, const Both& both, Diagnostics& diagnostics) {
+void check_switch(const Plan& plan, const RigLimits& rig, Diagnostics& diagnostics) {
     const haptics::SafetySettings& asked = plan.settings.safety;
-    const auto finger = both.set_by.find("safety.dead_man_finger");
-    if (finger == both.set_by.end() || both.allowed.dead_man_finger.empty()) return;
-    if (asked.dead_man_finger != both.allowed.dead_man_finger) {
+    const auto finger = rig.set_by.find("safety.dead_man_finger");
+    if (finger == rig.set_by.end() || rig.allowed.dead_man_finger.empty()) return;
+    if (asked.dead_man_finger != rig.allowed.dead_man_finger) {
         refuse(plan, "dead_man_finger", "dead_man_finger",
                fmt::format("'{}' takes away the dead-man switch of the {}'s device, which {} asks "
                            "for",
-                           asked.dead_man_finger, both.allowed.dead_man_finger, finger->second),
+                           asked.dead_man_finger, rig.allowed.dead_man_finger, finger->second),
                diagnostics);
-    } else if (asked.dead_man_button != both.allowed.dead_man_button) {
+    } else if (asked.dead_man_button != rig.allowed.dead_man_button) {
         refuse(plan, "dead_man_button", "dead_man_button",
                fmt::format("{} is another button than the {} of {}", asked.dead_man_button,
-                           both.allowed.dead_man_button, finger->second),
+                           rig.allowed.dead_man_button, finger->second),
                diagnostics);
     }
 }
@@ -115,27 +115,27 @@ void check_switch(const Plan& plan, const Both& both, Diagnostics& diagnostics) 
 }  // namespace
 
 void limit_safety(Plan& plan, const SafetySources& sources, Diagnostics& diagnostics) {
-    Both both{{}, {}, rig::is_real(plan.rig)};
-    overlay(both.allowed, sources.rig, both.set_by);
+    RigLimits rig{{}, {}, rig::is_real(plan.rig)};
+    overlay(rig.allowed, sources.rig, rig.set_by);
 
     std::erase_if(plan.origins, [](const auto& one) { return one.first.starts_with("safety."); });
-    plan.settings.safety = {};
-    overlay(plan.settings.safety, sources.rig, plan.origins);
+    plan.settings.safety = rig.allowed;
+    plan.origins.insert(rig.set_by.begin(), rig.set_by.end());
     for (const Node* const other : sources.others)
         overlay(plan.settings.safety, *other, plan.origins);
 
-    const Limits allowed(both.allowed);
+    const Limits allowed(rig.allowed);
     const Limits asked(plan.settings.safety);
     for (size_t i = 0; i < asked.all().size(); ++i) {
         const Limit& limit = allowed.all()[i];
         const Limit& wish = asked.all()[i];
-        const std::optional<std::string> set_by = both.limit_of(limit.name);
+        const std::optional<std::string> set_by = rig.limit_of(limit.name);
         if (!set_by || !wider(limit, wish)) continue;
         refuse(plan, limit.name, si_key(limit.name, limit.field.quantity),
                fmt::format("{} widens what {} allows: {}", wish.shown, *set_by, limit.shown),
                diagnostics);
     }
-    check_switch(plan, both, diagnostics);
+    check_switch(plan, rig, diagnostics);
 }
 
 std::vector<std::string> describe_safety(const Plan& plan) {

@@ -196,15 +196,14 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
     const auto servo = make_servo(plan, options.keeper);
     for (int i = 0; i < servo->devices().size(); ++i) {
         const devices::DeviceInfo& device = servo->devices().info(i);
-        recording::DeviceRecord record{plan.scene.fingers[static_cast<size_t>(i)].name,
-                                       device.model,
-                                       device.peak_force,
-                                       {},
-                                       device.workspace,
-                                       device.measures_orientation,
-                                       device.peak_torque,
-                                       {},
-                                       device.scale};
+        recording::DeviceRecord record;
+        record.finger = plan.scene.fingers[static_cast<size_t>(i)].name;
+        record.model = device.model;
+        record.peak_force = device.peak_force;
+        record.workspace = device.workspace;
+        record.orientation = device.measures_orientation;
+        record.peak_torque = device.peak_torque;
+        record.scale = device.scale;
         if (std::isfinite(device.continuous_force))
             record.continuous_force = device.continuous_force;
         if (std::isfinite(device.continuous_torque))

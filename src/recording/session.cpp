@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -203,6 +204,15 @@ InputFile SessionFolder::input(const std::string& name) const {
         at += static_cast<int64_t>(read);
     }
     return {name, fmt::format("{:08x}", crc)};
+}
+
+uint64_t SessionFolder::seed_of(const SessionInfo& info) const {
+    uint64_t seed = 0;
+    const char* const last = info.seed.data() + info.seed.size();
+    const auto [end, status] = std::from_chars(info.seed.data(), last, seed);
+    if (status == std::errc() && end == last) return seed;
+    throw Error({file("session.yaml"), 0}, "seed", "is no whole number",
+                "Put it back as it was; raw.log has it in its first lines.");
 }
 
 std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs,

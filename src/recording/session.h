@@ -88,6 +88,8 @@ class SessionFolder {
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
     /// Throws Error when that log is of another session than session.yaml.
     void check_log(const SessionInfo& info, const Setup& setup) const;
+    /// The seed of its info. Throws Error when it is no whole number.
+    uint64_t seed_of(const SessionInfo& info) const;
     /// After a loss of power too there is the old one or the new.
     void write_info(const SessionInfo& info) const;
     /// Returns once all of its files are on the disk, and their names, and its own.

@@ -53,6 +53,7 @@ const char* who_goes_on(Mover mover) {
     }
 }
 
+/// Of which an attempt was ended, if only by one that is to be done again.
 size_t trials_done(const recording::SessionFolder& folder) {
     if (!is_there(folder.file("trials.csv"))) return 0;
     const CsvFile trials(folder.file("trials.csv"));
@@ -79,10 +80,11 @@ std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
     if (!is_there(folder.file("task.yaml")) || info.state == SessionState::complete ||
         !at_rest(folder))
         return std::nullopt;
-    Unfinished out{folder.path(), info.started, trials_done(folder), 0, info.moved_by};
-    out.trials = CsvFile(folder.file("trial-list.csv")).rows();
-    if (out.done >= out.trials) return std::nullopt;
-    return out;
+    // one that was killed has no tables yet
+    const bool killed = info.state == SessionState::running;
+    if (!killed && !experiment::trials_left(folder.path())) return std::nullopt;
+    return Unfinished{folder.path(), info.started, trials_done(folder),
+                      CsvFile(folder.file("trial-list.csv")).rows(), info.moved_by};
 }
 
 }  // namespace
@@ -102,11 +104,7 @@ Rest rest_of(const std::string& session, experiment::Seat seat,
     if (folder.read_info(log.head(), ignored).state == SessionState::running)
         out.warnings = analysis::recover_session(folder, progress).warnings;
     out.plan = experiment::make_rest(session, seat, out.before);
-    if (out.plan.moved_by.mover == Mover::simulated_person) {
-        const std::string population = out.before.moved_by.population;
-        sit_down_again(out.plan, folder);
-        if (!population.empty()) out.plan.moved_by.population = population;
-    }
+    if (out.plan.moved_by.mover == Mover::simulated_person) sit_down_again(out.plan, folder);
     return out;
 }
 

@@ -29,7 +29,7 @@ Rest rest_of(const std::string& session, experiment::Seat seat,
 struct Unfinished {
     std::string folder;
     std::string started;  ///< ISO 8601
-    size_t done = 0;      ///< trials; 0 of one that was killed, until it is recovered
+    size_t done = 0;  ///< trials that were tried; 0 of one that was killed, until it is recovered
     size_t trials = 0;
     recording::MovedBy moved_by;
 };

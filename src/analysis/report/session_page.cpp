@@ -310,7 +310,7 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
         }
         const model::Psychometric& f = fitted->function;
         const PsychometricIntervals intervals =
-            threshold_intervals(track, *fitted, std::stoull(session.info.seed));
+            threshold_intervals(track, *fitted, session.folder.seed_of(session.info));
         row.insert(row.end(),
                    {f.threshold, in_words(intervals.threshold), track.share(f.threshold), f.shape,
                     in_words(intervals.shape), f.lapse, intervals.deviance_share, threshold.note});

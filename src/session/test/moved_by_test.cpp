@@ -75,7 +75,7 @@ TEST_P(MovedBy, IsKnownFromTheLogAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Each, MovedBy,
                          ::testing::Values(Mover::script, Mover::simulated_person, Mover::mouse),
-                         [](const auto& info) { return std::string(enum_name(info.param)); });
+                         [](const auto& one) { return std::string(enum_name(one.param)); });
 
 TEST(Report, OfAFolderNeverMixesASimulationWithAPerson) {
     Sessions sessions;
