@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Rows = std::vector<std::vector<std::string>>;
 
-struct Options {
+struct CollectOptions {
     std::vector<std::string> folders;
     std::string out;
     bool join_seeds = false;
@@ -31,22 +31,23 @@ struct Key {
 };
 
 /// Every folder must be of one rehearsal, or of one that only its seed tells apart.
-void check_same(const Options& options, const Rehearsal& first, const Rehearsal& other,
-                const std::string& folder) {
+void check_same(const CollectOptions& options, const std::string& first_folder,
+                const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
     if (options.join_seeds) same_seed.seed = first.seed;
     const std::string what = difference(first, same_seed);
     if (what.empty()) return;
     const bool seeds = first.seed != other.seed && !options.join_seeds;
     throw Error({folder, 0}, "",
-                fmt::format("is another rehearsal than {}: {}", options.folders.front(), what),
+                fmt::format("is another rehearsal than {}: {}", first_folder, what),
                 seeds ? "Join several seeds on purpose with --join-seeds."
                       : "Collect sessions of one experiment and one version only.");
 }
 
-std::map<Key, std::string> find_people(const Options& options) {
+std::map<Key, std::string> find_people(const CollectOptions& options) {
     std::map<Key, std::string> out;
     std::optional<Rehearsal> first;
+    std::string first_folder;
     for (const std::string& folder : options.folders) {
         std::error_code unreadable;
         if (!fs::is_directory(folder, unreadable)) {
@@ -60,8 +61,11 @@ std::map<Key, std::string> find_people(const Options& options) {
         }
         if (ids.empty()) continue;
         const Rehearsal rehearsal = read_rehearsal(folder);
-        if (!first) first = rehearsal;
-        check_same(options, *first, rehearsal, folder);
+        if (!first) {
+            first = rehearsal;
+            first_folder = folder;
+        }
+        check_same(options, first_folder, *first, folder, rehearsal);
         for (const std::string& id : ids) {
             const std::string session = folder + "/" + id;
             const auto [there, is_new] = out.emplace(Key{rehearsal.seed, id}, session);
@@ -160,7 +164,7 @@ class Collection {
     std::map<std::string, Rows> tables_;
 };
 
-void collect(const Options& options) {
+void collect(const CollectOptions& options) {
     const auto people = find_people(options);
     Collection collection;
     {
@@ -185,7 +189,7 @@ void collect(const Options& options) {
 void add_collect(CLI::App& app) {
     auto* command = app.add_subcommand(
         "collect", "Join the tables of rehearsed people: trials, lifts, fits, who they were");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CollectOptions>();
     command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");
     command->add_flag("--join-seeds", options->join_seeds,

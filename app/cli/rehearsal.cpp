@@ -7,6 +7,7 @@
 
 #include "base/field_writer.h"
 #include "base/regular_file.h"
+#include "base/temporary_folder.h"
 #include "base/text_file.h"
 #include "experiment/frozen_inputs.h"
 
@@ -61,8 +62,7 @@ bool has_people(const std::string& folder) {
 
 }  // namespace
 
-Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population,
-                       const std::string& scratch) {
+Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population) {
     Rehearsal out;
     out.program = recording::program_version();
     out.experiment = plan.title;
@@ -70,14 +70,14 @@ Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& p
     person::Population copy = population;
     out.population = write_fields(copy);
     out.inputs = Node::mapping();
-    const auto folder = recording::SessionFolder::create(scratch, "inputs");
+    const TemporaryFolder scratch;
+    const auto folder = recording::SessionFolder::create(scratch.path(), "inputs");
     for (const recording::InputFile& input : experiment::freeze_inputs(plan, folder)) {
         if (input.file == "trial-list.csv") continue;  // each person's own
         const bool text = fs::path(input.file).extension() == ".yaml";
         out.inputs.set(input.file,
                        text ? read_yaml(folder.file(input.file)) : Node::of(input.checksum));
     }
-    fs::remove_all(folder.path());
     return out;
 }
 

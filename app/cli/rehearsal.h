@@ -26,9 +26,8 @@ struct Rehearsal {
     }
 };
 
-/// Of a plan whose person is not seated yet. `scratch`: a folder for what it freezes.
-Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population,
-                       const std::string& scratch);
+/// Of a plan whose person is not seated yet.
+Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population);
 /// Throws Error when the folder does not say, or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
 /// In words, the first difference; "" when there is none. `there`: in the folder.

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RehearseOptions {
     experiment::Request request;
     std::string out;
     std::string shard = "1/1";
@@ -54,16 +54,16 @@ std::string id_of(int person) {
     return fmt::format("sim-{:03d}", person);
 }
 /// Where a person's session is made, and where it is once it is complete.
-std::string unfinished(const Options& options, const std::string& id) {
+std::string unfinished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/unfinished-" + id;
 }
-std::string finished(const Options& options, const std::string& id) {
+std::string finished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + id;
 }
 
 /// One person's session, in a process of its own: whatever becomes of it, the others go on.
 /// Returns what the process returns.
-int run_person(const Options& options, const std::string& id) {
+int run_person(const RehearseOptions& options, const std::string& id) {
     const std::string folder = unfinished(options, id);
     const int messages = open((folder + "/messages.txt").c_str(), O_CREAT | O_WRONLY, 0644);
     if (messages >= 0) {
@@ -90,7 +90,7 @@ int run_person(const Options& options, const std::string& id) {
         }
         const experiment::RunResult result = experiment::run_session(plan, run, stop_requested, {});
         if (result.interrupted) {
-            fmt::print("{}\n", result.fault);
+            if (!result.fault.empty()) fmt::print("{}\n", result.fault);
             return kFailed;
         }
         const auto session = recording::SessionFolder::open_tables(result.folder);
@@ -112,7 +112,7 @@ int run_person(const Options& options, const std::string& id) {
 }
 
 /// Starts a person's process.
-pid_t start(const Options& options, const std::string& id) {
+pid_t start(const RehearseOptions& options, const std::string& id) {
     fs::remove_all(unfinished(options, id));
     fs::create_directories(unfinished(options, id));
     std::fflush(nullptr);
@@ -135,14 +135,14 @@ std::string what_became(int status) {
 }
 
 /// What a person's process had to say. A disk that is full takes no messages either.
-std::string messages_of(const Options& options, const std::string& id) {
+std::string messages_of(const RehearseOptions& options, const std::string& id) {
     const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
-    if (messages.find_first_not_of(" \n") != std::string::npos || stop_requested) return messages;
+    if (!messages.empty() || stop_requested) return messages;
     return fmt::format("It left no message: look whether the disk is full (df -h {}).",
                        options.out);
 }
 
-void rehearse(Options& options) {
+void rehearse(RehearseOptions& options) {
     const Shard shard = parse_shard(options.shard);
     options.request.simulate = true;
     options.request.participant = id_of(1);
@@ -163,7 +163,7 @@ void rehearse(Options& options) {
             fmt::format("rehearsals/{}_{}", fs::path(options.request.file).stem().string(),
                         options.request.seed);
     }
-    claim(options.out, rehearsal_of(plan, *options.population, options.out));
+    claim(options.out, rehearsal_of(plan, *options.population));
 
     std::vector<std::string> waiting;
     int there = 0;
@@ -221,7 +221,7 @@ void rehearse(Options& options) {
 void add_rehearse(CLI::App& app) {
     auto* command =
         app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RehearseOptions>();
     command->add_option("FILE", options->request.file, "experiment with trials")->required();
     command->add_option("--population", options->population_file,
                         "population file that people are drawn from; default: the program's own, "
