@@ -126,9 +126,15 @@ class Exporter {
         while (const servo::Frame* frame = log.next()) {
             for (size_t i = 0; i < systems_.size(); ++i) {
                 line.clear();
-                for (const bids::Channel& channel : systems_[i].channels)
-                    fmt::format_to(std::back_inserter(line), "{}{:.9g}", line.empty() ? "" : "\t",
-                                   channel.value(*frame));
+                for (const bids::Channel& channel : systems_[i].channels) {
+                    if (!line.empty()) line += '\t';
+                    const double value = channel.value(*frame);
+                    if (std::isnan(value)) {
+                        line += "n/a";  // after a gap in the recording
+                    } else {
+                        fmt::format_to(std::back_inserter(line), "{:.9g}", value);
+                    }
+                }
                 out[i] << line << '\n';
             }
             if (++ticks_ % 5000 == 0 && progress) progress(log.share());

@@ -34,7 +34,7 @@ const Knob kKnobs[] = {
     {"coupling.kind", [](const servo::Frame& f) { return static_cast<double>(f.coupling); },
      choice<haptics::CouplingKind>},
     {"coupling.stiffness_N_m", [](const servo::Frame& f) { return f.stiffness; }, number},
-    // not a number where it is k h / 2, and that equals nothing
+    // not a number where it is k h / 2, which would look like a change in each tick
     {"coupling.damping_Ns_m",
      [](const servo::Frame& f) { return std::isnan(f.damping) ? -1 : f.damping; },
      [](double value) { return value < 0 ? "k h / 2" : number(value); }},
@@ -115,12 +115,11 @@ void EventFinder::add(const servo::Frame& frame) {
         if (seen_ && !supported_ && on_support) say("replaced", name(object_));
         supported_ = on_support;
     }
-    seen_ = true;
     for (size_t i = 0; i < tuned_.size(); ++i) {
         const Knob& knob = kKnobs[i];
         const double value = knob.of(frame);
         Tuned& tuned = tuned_[i];
-        if (frame.sequence == 0) tuned.told = value;
+        if (!seen_) tuned = {value, value};  // the first ticks may be lost
         // what is eased in is told of when it has arrived
         if (value == tuned.last && value != tuned.told) {
             say("setting",
@@ -129,6 +128,7 @@ void EventFinder::add(const servo::Frame& frame) {
         }
         tuned.last = value;
     }
+    seen_ = true;
     if ((frame.status & servo::kPaused) != 0) say("paused", "force off");
     if ((frame.status & servo::kResumed) != 0) say("went on", "after a pause");
     for (int bit = 0; bit < servo::kStatusBits; ++bit) {

@@ -12,6 +12,8 @@ namespace {
 
 /// What looks like a chunk and is none may be read at each of its bytes anew. Beyond so much of
 /// that a file is made to keep its reader busy.
+/// Kinds are sought in pieces of so many bytes.
+constexpr int64_t kBlock = 1 << 16;
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 
 }  // namespace
@@ -69,14 +71,17 @@ bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
                              ? checksum(out, chunk_.payload)
                              : checksum(ChunkHeader1{out.kind, out.size, 0}, chunk_.payload);
     if (whole && sum == out.checksum) return true;
-    wasted_ += std::max<int64_t>(out.size, 1 << 12);
+    wasted_ += out.size;
     return false;
 }
 
 /// The first whole chunk from there on.
 bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
     for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
-        if (!read_at(at, header)) continue;
+        if (!read_at(at, header)) {
+            wasted_ += kBlock;  // is read again from there
+            continue;
+        }
         found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};
         if (header.session != session_) found.place = Chunk::Place::foreign;
         return true;
@@ -85,7 +90,6 @@ bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
 }
 
 int64_t ChunkReader::find_kind(int64_t from) const {
-    constexpr int64_t kBlock = 1 << 16;
     constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may lie across two blocks
     if (wasted_ > kMostWasted) return -1;
     std::string block;

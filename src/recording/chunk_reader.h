@@ -38,7 +38,6 @@ class ChunkReader {
     explicit ChunkReader(const std::string& file);
 
     const std::vector<std::byte>& head() const { return head_; }
-    bool numbered() const { return version_ > 1; }
     /// The next chunk, valid until the next call; null at the end.
     const Chunk* next();
     /// Share of the file that was read.

@@ -50,6 +50,7 @@ std::string codes_of(const std::string& name, const LogHead& head) {
     if (name == "solver") return listed<contact::Solver>();
     if (name == "coupling") return listed<haptics::CouplingKind>();
     if (name == "proxy") return listed<haptics::ProxyKind>();
+    if (name == "solver_route") return listed<contact::Route>();
     if (name == "solver_fallback") return "0: the solver answered, 1: another one did";
     if (name == "marker") return "0: none";
     if (name == "trial") return "0: none";

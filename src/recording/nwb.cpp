@@ -1,8 +1,6 @@
 #include "recording/nwb.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -14,6 +12,7 @@
 #include <optional>
 #include <random>
 
+#include "base/disk.h"
 #include "recording/codes.h"
 #include "recording/hdf5.h"
 #include "recording/raw_log.h"
@@ -268,8 +267,8 @@ class FrameExporter {
 
 /// Columns that count or number something.
 bool is_whole(const std::string& column) {
-    return column == "trial" || column == "attempt" || column == "slips" ||
-           column.ends_with("_num") || column == "trial_num_in_block";
+    return column == "trial" || column == "attempt" || column.ends_with("_num") ||
+           column == "trial_num_in_block";
 }
 
 Id write_column(hid_t group, const std::string& name, const Table& table, size_t c) {
@@ -392,15 +391,6 @@ void write_file(const std::string& name, RawLogReader& log, const NwbContent& co
     hdf5::close(std::move(file));
 }
 
-/// Until then a file system may keep to itself that there is no room.
-void sync(const std::string& file) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
-    const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-    const std::string why = std::strerror(errno);
-    if (descriptor >= 0) ::close(descriptor);
-    if (!synced) throw hdf5::WriteFailure(why);
-}
-
 /// A file in the making, which goes unless it got its name.
 struct Part {
     std::string name;
@@ -417,16 +407,23 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
                const std::function<void(double)>& progress) {
     RawLogReader log(folder.raw_log());
     const Part part{folder.nwb() + ".part"};
+    const auto failed = [&](const std::string& why) {
+        return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
+                     "raw.log has all of it: free some space, then run 'dihaptic recover " +
+                         folder.path() + "'.");
+    };
     try {
         write_file(part.name, log, content, progress);
-        sync(part.name);
-        if (std::rename(part.name.c_str(), folder.nwb().c_str()) != 0)
-            throw hdf5::WriteFailure(std::strerror(errno));
     } catch (const hdf5::WriteFailure& e) {
-        throw Error({folder.nwb(), 0}, "", "cannot be written: " + std::string(e.what()),
-                    "raw.log has all of it: free some space, then run 'dihaptic recover " +
-                        folder.path() + "'.");
+        throw failed(e.what());
     }
+    try {
+        sync_to_disk(part.name);  // until then a file system may keep to itself that it is full
+    } catch (const Error& e) {
+        throw failed(e.problems().front().what);
+    }
+    if (std::rename(part.name.c_str(), folder.nwb().c_str()) != 0)
+        throw failed(std::strerror(errno));
     if (progress) progress(1);
 }
 

@@ -216,13 +216,13 @@ int64_t RawLogReader::ticks_in(int64_t bytes) const {
 
 /// What is not known of bodies is NaN: of all, or of those that this frame does not have.
 void RawLogReader::forget_bodies(bool all) {
-    const Vec3 unknown = Vec3::Constant(servo::kUnmeasured);
+    const Vec3 unknown = Vec3::Constant(kUnmeasured);
     for (size_t i = 0; i < frame_.bodies.size(); ++i) {
         if (!all &&
             std::find(frame_.changed.begin(), frame_.changed.end(), i) != frame_.changed.end())
             continue;
         servo::BodyFrame& body = frame_.bodies[i];
-        body = {{Quat(Eigen::Vector4d::Constant(servo::kUnmeasured)), unknown}, unknown, unknown};
+        body = {{Quat(Eigen::Vector4d::Constant(kUnmeasured)), unknown}, unknown, unknown};
     }
 }
 

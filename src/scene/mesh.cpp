@@ -16,7 +16,7 @@ namespace dihaptic::scene {
 
 namespace {
 
-constexpr const char* kProgram = "dihaptic-mesh";
+constexpr const char* kReader = "dihaptic-mesh";
 constexpr const char* kRemedy = "Export it again as OBJ, STL or PLY, with its surface.";
 constexpr int64_t kLargestFile = 400'000'000;  // bytes: millions of triangles
 
@@ -116,8 +116,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
     const auto refused = [&](const std::string& why, const std::string& remedy) {
         return Error(asked_at, "file", "the mesh " + file + " " + why, remedy);
     };
-    std::error_code ignored;
-    if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
+    if (!is_there(file)) {
         throw Error(asked_at, "file", "there is no mesh " + file,
                     "Give its path relative to the scene file, or put the mesh there.");
     }
@@ -134,7 +133,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
                       kRemedy);
     }
     const CompanionTask task{
-        kProgram, {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy,
+        kReader,  {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy,
         asked_at, "file"};
     const std::optional<std::string> answer = run_companion(task, bytes);
     std::optional<Mesh> mesh = answer ? mesh_of(*answer, unit) : std::nullopt;
@@ -150,7 +149,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
 }
 
 void cancel_reading() noexcept {
-    cancel_companions(kProgram);
+    cancel_companions(kReader);
 }
 
 }  // namespace dihaptic::scene

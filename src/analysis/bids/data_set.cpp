@@ -91,9 +91,8 @@ const Json kParticipantColumns{
 
 /// Of a list in one cell, with commas.
 std::string with(const std::string& list, const std::string& item) {
-    if (list.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos)
-        return list.empty() ? item : list;
-    return list + "," + item;
+    if (item.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos) return list;
+    return list.empty() ? item : list + "," + item;
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct TrackingSystem {
     int points = 0;  ///< tracked
 };
 
-/// In the order in which files get their names from the last to the first: the objects are last.
+/// Fingers in the log's order, then the objects; files get their names in the opposite order.
 /// Objects: bodies that can move, by the frozen scene; all bodies where that cannot be read.
 /// Throws Error when a finger's label is another's.
 std::vector<TrackingSystem> tracking_systems(const recording::SessionFolder& session,
