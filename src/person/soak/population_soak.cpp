@@ -40,6 +40,15 @@ double deviation(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+/// Of trials [from, to), those that were not given up.
+std::vector<double> done(const std::vector<double>& hand, size_t from, size_t to) {
+    std::vector<double> out;
+    for (size_t n = from; n < to; ++n) {
+        if (!std::isnan(hand[n])) out.push_back(hand[n]);
+    }
+    return out;
+}
+
 struct People {
     std::array<std::vector<double>, kFigures.size()> figures;
     std::vector<double> baseline_sd;  // of trials
@@ -56,14 +65,10 @@ People population(int people, bool adapts) {
         sit_down(plan, traits);
         const Curve curve = reaches(plan);
         for (size_t f = 0; f < kFigures.size(); ++f) {
-            std::vector<double> values;
-            for (size_t n = kFigures[f].from; n < kFigures[f].to; ++n) {
-                if (!std::isnan(curve.hand[n])) values.push_back(curve.hand[n]);  // not given up
-            }
+            const auto values = done(curve.hand, kFigures[f].from, kFigures[f].to);
             if (!values.empty()) out.figures[f].push_back(mean(values));
         }
-        out.baseline_sd.push_back(
-            deviation(std::vector<double>(curve.hand.begin(), curve.hand.begin() + 64)));
+        out.baseline_sd.push_back(deviation(done(curve.hand, 0, 64)));
         if (adapts) out.fits.push_back(analysis::fit_two_rate(curve.hand, schedule(plan)));
     }
     return out;
@@ -92,18 +97,17 @@ TEST(Population, OfEightyAdaptsAndDiffersAsPeopleDo) {
         fmt::print("{:22s} median {:.3f}, quartiles {:.3f} to {:.3f}   people {}\n", what,
                    all[all.size() / 2], all[all.size() / 4], all[3 * all.size() / 4], published);
     };
-    const auto& rate = [](const auto& fit) { return fit.rates; };
     quartiles(
-        "fit: slow retention", [&](const auto& f) { return rate(f).slow.retention; },
+        "fit: slow retention", [&](const auto& f) { return f.rates.slow.retention; },
         "0.9995, 0.991 to 1");
     quartiles(
-        "fit: slow learning", [&](const auto& f) { return rate(f).slow.learning; },
+        "fit: slow learning", [&](const auto& f) { return f.rates.slow.learning; },
         "0.033, 0.026 to 0.056");
     quartiles(
-        "fit: fast retention", [&](const auto& f) { return rate(f).fast.retention; },
+        "fit: fast retention", [&](const auto& f) { return f.rates.fast.retention; },
         "0.635, 0.54 to 0.73");
     quartiles(
-        "fit: fast learning", [&](const auto& f) { return rate(f).fast.learning; },
+        "fit: fast learning", [&](const auto& f) { return f.rates.fast.learning; },
         "0.242, 0.17 to 0.49");
     quartiles(
         "fit: residual SD [deg]", [](const auto& f) { return f.residual_sd; }, "6.6");

@@ -1,5 +1,5 @@
 // The shipped population on schedules that nothing was calibrated to. README.md has what people do
-// there, the rules, and what came out.
+// there, and the rules that these tests are.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,6 +85,8 @@ TEST(Schedule, OfSeventeenOthers) {
         fmt::print("A {:18s} {:6.1f} (SD {:4.1f})   people {:6.1f} (SD {:4.1f})  mean {}, SD {}\n",
                    place.what, found.mean, found.sd, place.mean, place.sd, mean ? "ok" : "FAILS",
                    sd ? "ok" : "FAILS");
+        EXPECT_TRUE(mean) << place.what;
+        EXPECT_TRUE(sd) << place.what;
     }
 }
 
@@ -125,6 +127,9 @@ TEST(Schedule, OfAnterogradeInterference) {
     const bool level = std::abs(after_230.mean - after_112.mean) < after_112.mean - after_13.mean;
     fmt::print("B slower {}, the more the longer {}, levels off {}\n", slower ? "ok" : "FAILS",
                longer ? "ok" : "FAILS", level ? "ok" : "FAILS");
+    EXPECT_TRUE(slower);
+    EXPECT_TRUE(longer);
+    EXPECT_TRUE(level);
 }
 
 TEST(Schedule, OfSavingsAfterWashout) {
@@ -135,6 +140,7 @@ TEST(Schedule, OfSavingsAfterWashout) {
     const Sample found = sample(savings);
     fmt::print("C savings {:.2f} degrees, SE {:.2f}: {}\n", found.mean, found.error,
                found.mean > 2 * found.error ? "ok" : "FAILS");
+    EXPECT_GT(found.mean, 2 * found.error);
 }
 
 }  // namespace
