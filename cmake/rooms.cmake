@@ -14,6 +14,15 @@ function(dihaptic_precompile target by)
         <thread> <variant> <vector>)
 endfunction()
 
+# Sources are compiled several at a time, which takes half as long: most of a compiler's work is to read
+# the same headers. What one source keeps for itself (in its unnamed namespace) has a name that no other
+# source of the target gives to something else.
+function(dihaptic_together target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+    # what a class keeps behind a pointer to its Impl may be of a type of its source's own
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+endfunction()
+
 # A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and
 # its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus beside it; test/support/fuzz.h).
 #
@@ -34,6 +43,7 @@ function(dihaptic_room name)
     set(room dihaptic_${name})
     if(sources)
         add_library(${room} STATIC ${sources} ${ROOM_SOURCES})
+        dihaptic_together(${room})
         set(scope PUBLIC)
     else()
         add_library(${room} INTERFACE)  # headers only

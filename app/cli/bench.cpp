@@ -15,7 +15,7 @@
 namespace dihaptic::cli {
 namespace {
 
-struct Options {
+struct BenchOptions {
     measure::BenchSetup setup;
     std::string solver;
     std::string coupling;
@@ -24,7 +24,7 @@ struct Options {
     bool json = false;
 };
 
-void add_common(CLI::App& command, Options& options) {
+void add_common(CLI::App& command, BenchOptions& options) {
     command.add_option(
         "--solver", options.solver,
         "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
@@ -49,7 +49,7 @@ void choose(const std::string& word, const char* option, E& value) {
     throw Error({option, 0}, word, "is not known", "See --help.");
 }
 
-void resolve(Options& options) {
+void resolve(BenchOptions& options) {
     choose(options.solver, "--solver", options.setup.settings.dynamics.solver);
     choose(options.proxy, "--proxy", options.setup.settings.proxy.kind);
     choose(options.coupling, "--coupling", options.setup.settings.coupling.kind);
@@ -60,7 +60,7 @@ void resolve(Options& options) {
 void add_grasp(CLI::App& bench) {
     auto* command = bench.add_subcommand(
         "grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     add_common(*command, *options);
     command->add_option("--proxy", options->proxy, "what a finger is in the world: rigid, point");
     command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
@@ -105,7 +105,7 @@ void add_grasp(CLI::App& bench) {
 void add_friction(CLI::App& bench) {
     auto* command = bench.add_subcommand(
         "friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     command->add_option("--solver", options->solver,
                         "only this contact solver; otherwise all, and peers");
     command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
@@ -145,7 +145,7 @@ void add_friction(CLI::App& bench) {
 void add_scale(CLI::App& bench) {
     auto* command =
         bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     // the bare step beside it is Bullet's
     options->setup.settings.dynamics.solver = dynamics::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
@@ -252,7 +252,7 @@ void add_jitter(CLI::App& bench) {
     auto* command = bench.add_subcommand(
         "jitter",
         "How punctual the real-time thread is, beside cyclictest, and how long ticks take");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchOptions>();
     auto time = std::make_shared<double>(60);
     command->add_option("--time", *time, "in real time, cyclictest's as much again [s]")
         ->check(time_range())
@@ -262,7 +262,9 @@ void add_jitter(CLI::App& bench) {
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     auto runs = std::make_shared<int>(1);
-    command->add_option("--runs", *runs, "so often, one after another, and how the figures spread")
+    command
+        ->add_option("--runs", *runs,
+                     "how many runs, one after another: prints the median and the spread")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     auto view = std::make_shared<bool>(false);

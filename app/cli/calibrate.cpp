@@ -7,12 +7,12 @@
 namespace dihaptic::cli {
 namespace {
 
-struct Options {
+struct CalibrateOptions {
     std::string rig;
     std::string out;
 };
 
-void calibrate(const Options& options) {
+void calibrate(const CalibrateOptions& options) {
     Diagnostics diagnostics;
     const rig::Rig rig = rig::read_rig_to_calibrate(options.rig, diagnostics);
     diagnostics.throw_if_errors();
@@ -45,7 +45,7 @@ void add_calibrate(CLI::App& app) {
     auto* command = app.add_subcommand(
         "calibrate",
         "Find where a rig's devices truly are, by a link between their endpoints and a jig");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CalibrateOptions>();
     command->add_option("RIG", options->rig, "rig file, with the jig's points if there is one")
         ->required();
     command->add_option("-o,--out", options->out,

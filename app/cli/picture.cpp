@@ -5,11 +5,11 @@
 namespace dihaptic::cli {
 namespace {
 
-struct Options : ViewOptions {
+struct PictureOptions : ViewOptions {
     std::optional<double> time;
 };
 
-void make_picture(const Options& options) {
+void make_picture(const PictureOptions& options) {
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
     // a scene is shown as it starts, a session as it ended
@@ -49,7 +49,7 @@ void make_picture(const Options& options) {
 void add_picture(CLI::App& app) {
     auto* command = app.add_subcommand(
         "picture", "Draw a scene, an experiment or a recorded session, without a window");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<PictureOptions>();
     options->out = "scene.png";
     command->add_option("FILE", options->file, "scene, experiment, or folder of a session")
         ->required();

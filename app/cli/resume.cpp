@@ -9,13 +9,13 @@
 namespace dihaptic::cli {
 namespace {
 
-struct Options {
+struct ResumeOptions {
     std::string session;
     std::string out;
     double sync = 0;  // [s]
 };
 
-void resume(const Options& options) {
+void resume(const ResumeOptions& options) {
     const session::Rest rest = session::rest_of(options.session, experiment::Seat::terminal, {});
     const recording::SessionInfo& info = rest.before;
     print(rest.warnings);
@@ -35,7 +35,7 @@ void resume(const Options& options) {
 void add_resume(CLI::App& app) {
     auto* command = app.add_subcommand(
         "resume", "Go on with a session of trials that was interrupted, at the right trial");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ResumeOptions>();
     command->add_option("SESSION", options->session, "folder of the session")->required();
     command->add_option("--out", options->out, "folder for the new session; default: beside it");
     command->add_option("--sync", options->sync, "as of dihaptic run [s]")

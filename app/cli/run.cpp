@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SessionOptions {
     experiment::Request request;
     experiment::RunOptions run;
     std::string solver;
@@ -122,7 +122,7 @@ void ask(recording::Participant& participant) {
     question("handedness (right, left, both)", participant.handedness);
 }
 
-void run_one(const Options& options) {
+void run_one(const SessionOptions& options) {
     experiment::Plan plan = experiment::make_plan(options.request);
     if (options.simulate && plan.task) {
         const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
@@ -169,7 +169,7 @@ void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
 namespace {
 
 /// One movement of a batch: its row, printed and kept.
-std::vector<Table::Cell> run_movement(const Options& options, const std::string& name) {
+std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::string& name) {
     const experiment::Plan plan = experiment::make_plan(options.request);
     const experiment::RunResult result =
         experiment::run_session(plan, options.run, stop_requested, {});
@@ -229,7 +229,7 @@ std::vector<Table::Cell> run_movement(const Options& options, const std::string&
 
 /// A folder of movements: a session each, and a summary row each. The summary is written anew after
 /// every movement: whatever becomes of the next, it has those before.
-void run_batch(Options& options) {
+void run_batch(SessionOptions& options) {
     const Console console(options.run);
     std::vector<std::string> files;
     for (const auto& entry : fs::directory_iterator(options.request.movement)) {
@@ -268,7 +268,7 @@ void run_batch(Options& options) {
     size_t refused = 0;
     for (const std::string& file : files) {
         if (stop_requested) break;
-        Options one = options;
+        SessionOptions one = options;
         one.request.movement = file;
         const std::string name = fs::path(file).filename().string();
         try {
@@ -294,7 +294,7 @@ void run_batch(Options& options) {
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
-void run(Options& options) {
+void run(SessionOptions& options) {
     // settings that have an option of their own
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
@@ -330,7 +330,7 @@ void run(Options& options) {
 
 void add_run(CLI::App& app) {
     auto* command = app.add_subcommand("run", "Run a scene or an experiment, and record it");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SessionOptions>();
     command->add_option("FILE", options->request.file, "scene or experiment")->required();
     command->add_option(
         "--movement", options->request.movement,

@@ -12,7 +12,7 @@
 namespace dihaptic::cli {
 namespace {
 
-struct Options {
+struct TuneOptions {
     experiment::Request request;
     std::string coupling;
     std::string map = "tune.svg";
@@ -32,7 +32,7 @@ void check_writable(const std::string& file) {
                 "Name another file by --map, in a folder that there is and with room left.");
 }
 
-void run(Options options) {
+void run(TuneOptions options) {
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
     if (experiment::on_real_devices(options.request)) {
@@ -73,7 +73,7 @@ void run(Options options) {
 void add_tune(CLI::App& app) {
     auto* command = app.add_subcommand(
         "tune", "Find the stiffest coupling that stays calm on a device, in a hand");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TuneOptions>();
     command
         ->add_option("FILE", options->request.file,
                      "scene or experiment: its rig, hand and settings, as run takes them")

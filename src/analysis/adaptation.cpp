@@ -7,11 +7,11 @@
 #include <span>
 
 #include "analysis/report/statistics.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr size_t kFew = 8;
 
 using Trial = AdaptationCurve::Trial;
@@ -28,7 +28,7 @@ std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
 
 /// 100 ln(a / b); NaN where one of them is not positive.
 double in_percent(double a, double b) {
-    return a > 0 && b > 0 ? 100 * std::log(a / b) : kNaN;
+    return a > 0 && b > 0 ? 100 * std::log(a / b) : kUnmeasured;
 }
 
 /// Perturbations that differ by less are the same [deg], [%].
@@ -233,13 +233,6 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
     return out;
 }
 
-AdaptationCurve::Landmarks AdaptationCurve::landmarks() const {
-    const Windows w = windows();
-    return {w.baseline.mean,      w.early.mean,       w.late.mean,
-            w.catch_trials.mean,  w.clamp_first.mean, w.clamp_last.mean,
-            w.washout_first.mean, w.savings.mean,     w.rebound.mean};
-}
-
 std::string AdaptationCurve::note() const {
     std::string what;
     for (const Trial& trial : trials) {
@@ -330,14 +323,14 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
         trial.clamp = trial.kind == "error_clamp" || std::isnan(trial.compensation);
         trial.perturbation = trial.clamp ? 0 : shown;
         // what was seen in an attempt that is done again was seen, but does not count
-        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kNaN;
+        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
         const auto under = unmeasured.find(trials.text(i, "perturbation"));
         // what has no share of it is as it was without
         if (under != unmeasured.end() && trials.number(i, "share") != 0) {
             trial.under = under->second;
             trial.clamp = true;
-            trial.perturbation = trial.compensation = kNaN;
+            trial.perturbation = trial.compensation = kUnmeasured;
         }
         const std::string round = trials.text(i, "round");
         if (curves.empty() || curves.back().round != round) curves.push_back({round, "deg", {}});
@@ -357,7 +350,7 @@ std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
     if (std::abs(curve.perturbation()) < 1e-6 || measured(curve.trials, all).size() < kLeast)
         return std::nullopt;
     AdaptationFits fits;
-    const double baseline = curve.landmarks().baseline;
+    const double baseline = curve.windows().baseline.mean;
     fits.bias = std::isnan(baseline) ? 0 : baseline;
     std::vector<double> compensation = curve.compensation();
     for (double& x : compensation) x -= fits.bias;

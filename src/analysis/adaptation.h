@@ -86,12 +86,6 @@ struct AdaptationCurve {
             rebound;
     };
     Windows windows() const;
-    /// Their means.
-    struct Landmarks {
-        double baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first, savings,
-            rebound;
-    };
-    Landmarks landmarks() const;
     /// Why what was learned is not measured, or only of a part; empty: it is.
     std::string note() const;
     /// The perturbation and the windows, for a table with landmark_columns().

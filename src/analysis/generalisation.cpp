@@ -8,11 +8,10 @@
 #include <set>
 
 #include "base/geometry.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Mean {
     double sum = 0;
@@ -21,7 +20,7 @@ struct Mean {
         sum += x;
         ++count;
     }
-    double value() const { return count == 0 ? kNaN : sum / count; }
+    double value() const { return count == 0 ? kUnmeasured : sum / count; }
 };
 
 /// A condition in a round.
@@ -34,7 +33,7 @@ struct Direction {
 /// Unit vector of the reach that a trial asks for; `number`: in the session, from 1.
 Vec3 direction_of(const CsvFile& list, int number) {
     const auto i = static_cast<size_t>(number - 1);
-    if (number < 1 || i >= list.rows()) return Vec3::Constant(kNaN);
+    if (number < 1 || i >= list.rows()) return Vec3::Constant(kUnmeasured);
     Vec3 way;
     for (int k = 0; k < 3; ++k) {
         const std::string axis(1, "xyz"[k]);
@@ -80,7 +79,7 @@ std::vector<Generalisation> find_generalisation(const CsvFile& trials, const Csv
         const size_t first = out.size();
         for (const auto& [condition, direction] : directions) {
             if (direction.probes.count == 0) continue;
-            double nearest = kNaN;
+            double nearest = kUnmeasured;
             for (const auto& [name, other] : directions) {
                 if (!other.trained) continue;
                 const double cosine = direction.along_W.dot(other.along_W);

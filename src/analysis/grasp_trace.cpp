@@ -31,7 +31,7 @@ void GraspTrace::add(const servo::Frame& frame) {
     for (const servo::PropertiesFrame& properties : frame.task.properties) {
         if (properties.body == object_) sample.friction_scale = properties.friction_scale;
     }
-    sample.torque = frame.turns.empty() ? servo::kUnmeasured : 0;
+    sample.torque = frame.turns.empty() ? kUnmeasured : 0;
     for (const servo::TurnFrame& turn : frame.turns)
         sample.torque = std::max(sample.torque, turn.t_sent_W.norm());
     if (object_ >= 0) {

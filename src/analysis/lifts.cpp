@@ -104,8 +104,8 @@ double threshold(const Signals& signals, const Signal& rate) {
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// When a digit touches, by the force of all of its samples or of the first of them, and when it
-/// lets go after `replaced`; none: it does not.
+/// When a digit touches, by the force of all of its samples or of the first of them; none: it does
+/// not.
 std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
                             const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
@@ -118,6 +118,7 @@ std::optional<size_t> touch(const Signals& signals, std::span<const double> forc
     return i;
 }
 
+/// When a digit lets go after `replaced`; none: it does not.
 std::optional<size_t> release(const Signals& signals, const Signal& force, const Signal& rate,
                               size_t replaced) {
     const double limit = threshold(signals, rate);

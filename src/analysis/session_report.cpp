@@ -17,6 +17,7 @@
 #include "analysis/trials.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
+#include "base/unmeasured.h"
 #include "recording/log_scene.h"
 #include "recording/nwb.h"
 #include "recording/showings.h"
@@ -24,8 +25,6 @@
 
 namespace dihaptic::analysis {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// What reading the log once gives.
 struct Reading {
@@ -42,7 +41,7 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     out.start = trace.samples()[range.first].time;
     out.end = trace.samples()[range.last - 1].time;
     out.mean_grip = trace.mean_grip(range);
-    out.peak_grip = trace.fingers() > 1 ? trace.peak_grip(range) : kNaN;
+    out.peak_grip = trace.fingers() > 1 ? trace.peak_grip(range) : kUnmeasured;
     out.mean_load = trace.mean_load(range);
     out.mean_force = trace.mean_force(range);
     out.peak_force = trace.peak_force(range);
@@ -54,8 +53,8 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
         carried = !trace.samples()[i].on_support;
     // after damage to the log it may not be known where the object was
     const bool known = trace.samples()[range.first].X_WB.p.allFinite();
-    out.slip = held && known ? trace.slip(range) : kNaN;
-    out.weight_felt = carried ? trace.weight_felt(range) / weight : kNaN;
+    out.slip = held && known ? trace.slip(range) : kUnmeasured;
+    out.weight_felt = carried ? trace.weight_felt(range) / weight : kUnmeasured;
     return out;
 }
 
@@ -279,7 +278,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
     std::map<int, std::vector<const PhaseFigures*>> by_trial;
     for (const PhaseFigures& phase : figures.phases) by_trial[phase.trial].push_back(&phase);
     for (const auto& [trial, phases] : by_trial) {
-        double grip = kNaN;
+        double grip = kUnmeasured;
         double force = 0;
         for (const PhaseFigures* phase : phases) {
             grip = std::fmax(grip, phase->peak_grip);

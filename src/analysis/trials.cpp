@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/regular_file.h"
+#include "base/unmeasured.h"
 #include "recording/trial_list.h"
 #include "servo/displayed.h"
 
@@ -18,7 +19,6 @@ constexpr const char* kBefore = "trials-before.csv";
 constexpr const char* kInterrupted = "interrupted";
 constexpr double kMostPhases = 1e6;
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const std::vector<Table::Column> kSessionColumns = {
     {"start_time", "of the session [s]"},
@@ -64,7 +64,7 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
     const Vec3 a = from - from.dot(axis) * axis;
     const Vec3 b = to - to.dot(axis) * axis;
     constexpr double kAlong = 1e-9;
-    if (a.norm() <= kAlong * from.norm() || b.norm() <= kAlong * to.norm()) return kNaN;
+    if (a.norm() <= kAlong * from.norm() || b.norm() <= kAlong * to.norm()) return kUnmeasured;
     return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
@@ -85,7 +85,8 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
                         "Put back the list that the session was recorded with.");
         }
         const auto number = [&](size_t k) {
-            return first + k < row.size() ? std::strtod(row[first + k].c_str(), nullptr) : kNaN;
+            return first + k < row.size() ? std::strtod(row[first + k].c_str(), nullptr)
+                                          : kUnmeasured;
         };
         const auto vector = [&](size_t k) { return Vec3(number(k), number(k + 1), number(k + 2)); };
         ReachPlan reach;
@@ -110,8 +111,8 @@ void TrialFinder::add(const servo::Frame& frame) {
         row.trial = frame.trial;
         row.attempt = frame.task.attempt;
         row.start = seconds(frame.time);
-        row.peak_grip = row.hand_angle = row.shown_angle = row.reach_time = kNaN;
-        row.hand_extent = row.shown_extent = row.wanted_extent = kNaN;
+        row.peak_grip = row.hand_angle = row.shown_angle = row.reach_time = kUnmeasured;
+        row.hand_extent = row.shown_extent = row.wanted_extent = kUnmeasured;
         rows_.push_back(row);
     }
     Row& row = rows_.back();

@@ -109,19 +109,13 @@ constexpr auto kNewtonStarts = [] {
     return out;
 }();
 
-struct NoChange {
-    void operator()() const noexcept {}
-};
-
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
 /// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
-/// memory.u. Before each proximal step, when memory.u is the velocity of r, `change_law` may change
-/// the law.
-template <class System, class Law, class Measure, class Change = NoChange>
+/// memory.u.
+template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
-                        std::span<const NewtonStart> starts = kNewtonStarts,
-                        const Change& change_law = {}) {
+                        std::span<const NewtonStart> starts = kNewtonStarts) {
     using Vec = typename System::Vec;
     constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
     constexpr double kLeastRho = 1e-7;
@@ -166,7 +160,6 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         return error;
     };
     const auto restart_proximal = [&](double rho) {
-        change_law();
         std::copy(r.begin(), r.end(), memory.r_k.begin());
         return linearise(rho);
     };

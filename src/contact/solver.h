@@ -1,8 +1,9 @@
 // The door to all contact solvers but Bullet's own: a problem and a start in, impulses and what was
 // achieved out.
 //
-// A solver that misses its tolerance hands over to Newton on the cone, that to staggered
-// projections, and those to Newton again after many projected Gauss-Seidel sweeps; that another
+// A solver that misses its tolerance hands over to Newton on the cone, that, in three dimensions,
+// to Newton after an answer on a coarse polygon, that to staggered projections, and those to Newton
+// again after many projected Gauss-Seidel sweeps; that another
 // answered is told, and when even the last one missed. Each has a bound on counted work and none
 // reads a clock, so that replay repeats every solve bit for bit.
 #pragma once

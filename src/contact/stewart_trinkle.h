@@ -57,12 +57,12 @@ struct StewartTrinkleMemory {
     std::vector<double> last;  // z of the last proximal step
     Lemke lemke;
 
-    /// Lemke's tableau grows with the square of the contacts: problems beyond `lemke_contacts` do
-    /// without it.
+    /// Lemke's tableau grows with the square of its variables, which are as many as
+    /// `lemke_contacts` have with the most directions: problems of more do without it.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
         polygons.reserve(contacts);
-        directions.reserve(lemke_contacts);
+        directions.reserve(contacts);
         best.reserve(contacts);
         aim.reserve(contacts * T);
         image.reserve(contacts * T);

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "model/sigmoid_levels.h"
-
 namespace dihaptic::experiment {
 namespace {
 

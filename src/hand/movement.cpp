@@ -14,12 +14,11 @@
 #include "base/plural.h"
 #include "base/text_file.h"
 #include "base/unit.h"
+#include "base/unmeasured.h"
 #include "hand/movement_check.h"
 
 namespace dihaptic::hand {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// "3 frames".
 std::string counted_of(const auto& list, const std::string& noun) {
@@ -191,12 +190,12 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     bool readable = true;
     const auto cell = [&](int i) {
         const std::string& text = cells[static_cast<size_t>(i)];
-        if (is_missing(text)) return kNaN;
+        if (is_missing(text)) return kUnmeasured;
         if (const auto value = number(text)) return *value;
         problems.error(place, columns.key(i), fmt::format("'{}' is not a number", shortened(text)),
                        kLineRemedy);
         readable = false;
-        return kNaN;
+        return kUnmeasured;
     };
     frame.line = place.line;
     frame.time = cell(columns.time) * columns.time_unit;

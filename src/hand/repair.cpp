@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/field.h"
+#include "base/unmeasured.h"
 #include "model/butterworth.h"
 
 namespace dihaptic::hand {
@@ -16,7 +17,6 @@ constexpr double kGap = 1.75;  // frames further apart than this many frame time
 constexpr size_t kFrozenRun = 5;       // as many equal positions in a row, and then a step: frozen
 constexpr double kFrozenStep = 0.003;  // [m]
 constexpr size_t kWildRun = 5;         // a wild position may last so many frames
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double frame_time(const Movement& movement) {
     std::vector<double> steps;
@@ -76,7 +76,7 @@ class FingerRepair {
         const bool both_sides = before != first && end < valid_.size();
         fault.start = time(before);
         fault.end = time(after);
-        fault.distance = both_sides ? (at(after) - at(before)).norm() : kNaN;
+        fault.distance = both_sides ? (at(after) - at(before)).norm() : kUnmeasured;
         fault.wrong_unit = wrong_unit;
         if (kind == FaultKind::wild_position) {
             Vec3::Index axis = 0;

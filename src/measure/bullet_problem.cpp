@@ -3,11 +3,10 @@
 #include <cassert>
 
 #include "dynamics/bullet/shape.h"
+#include "measure/simulator.h"
 
 namespace dihaptic::measure {
 namespace {
-
-constexpr double kStep = 1e-3;  // [s]; gaps over it are biases
 
 using dynamics::from_bullet;
 using dynamics::to_bullet;

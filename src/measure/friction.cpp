@@ -11,12 +11,13 @@
 
 #include "measure/blocks.h"
 #include "model/grasp.h"
+#include "model/gravity.h"
 
 namespace dihaptic::measure {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kGravity = 9.81;
+using model::kGravity;
 constexpr double kFallen = 0.02;  // what moved so far has fallen [m]
 
 scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "model/grasp.h"
+#include "model/gravity.h"
 #include "model/minimum_jerk.h"
 
 namespace dihaptic::measure {
@@ -15,7 +16,7 @@ namespace {
 constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
                                1500, 2000, 3000, 4000, 5000, 6000, 8000};
 constexpr double kLastSeconds = 3;  // of the hold: what is judged there has settled
-constexpr double kGravity = 9.81;
+using model::kGravity;
 
 double degrees(double rad) {
     return rad * 180 / std::numbers::pi;

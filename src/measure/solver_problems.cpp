@@ -9,11 +9,12 @@
 #include "base/random.h"
 #include "measure/blocks.h"
 #include "measure/friction.h"
+#include "model/gravity.h"
 
 namespace dihaptic::measure {
 namespace {
 
-constexpr double kGravity = 9.81;
+using model::kGravity;
 constexpr double kFriction = 0.6;
 constexpr std::array kGrowth{8, 20, 52, 100, 164, 200};  // contacts of walls and piles
 

@@ -41,7 +41,7 @@ struct Times {
 };
 
 /// 0 ... count - 1 so that any first part of it is spread evenly (van der Corput).
-std::vector<size_t> spread(size_t count) {
+std::vector<size_t> spread_over(size_t count) {
     std::vector<size_t> out;
     unsigned bits = 0;
     while ((size_t{1} << bits) < count) ++bits;
@@ -61,7 +61,7 @@ template <class Solve>
 Times times(size_t count, double budget, const Solve& solve) {
     Times out;
     double spent = 0;
-    for (const size_t i : spread(count)) {
+    for (const size_t i : spread_over(count)) {
         if (spent > budget / 2) break;
         spent += solve(i) * 1e-6;
         out.solved.push_back(i);

@@ -11,11 +11,12 @@
 #include <thread>
 
 #include "model/grasp.h"
+#include "model/gravity.h"
 
 namespace dihaptic::measure {
 namespace {
 
-constexpr double kGravity = 9.81;
+using model::kGravity;
 constexpr double kHandSpread = 3;   // firm over usual, usual over loose
 constexpr double kGripShare = 0.4;  // of the weaker device's peak force
 constexpr double kNotMargin = 1.5;  // so much stiffer a proposal need not bear

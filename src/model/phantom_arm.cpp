@@ -4,11 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/gravity.h"
+
 namespace dihaptic::model {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kGravity = 9.81;  // [m/s^2]
 
 /// Distance of the endpoint from the turret's axis [m].
 double rho(const PhantomLinks& links, const Vec3& q) {

@@ -23,6 +23,11 @@ constexpr auto enum_names(Sigmoid) {
     return std::array{"normal", "logistic", "weibull", "weibull_log10"};
 }
 
+/// Whether a sigmoid has a value at a level: `weibull` has none at 0 or below.
+constexpr bool takes(Sigmoid sigmoid, double level) {
+    return sigmoid != Sigmoid::weibull || level > 0;
+}
+
 struct Psychometric {
     Sigmoid sigmoid = Sigmoid::normal;
     double threshold = 0;

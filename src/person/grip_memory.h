@@ -3,11 +3,12 @@
 
 #include "base/geometry.h"
 #include "model/adaptation.h"
+#include "model/gravity.h"
 #include "person/traits.h"
 
 namespace dihaptic::person {
 
-constexpr double kGravity = 9.81;  // that people live in [m/s^2]
+using model::kGravity;
 
 struct GripMemory {
     double weight = 1;      ///< that is expected [N]

@@ -10,9 +10,10 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr double kPanel = 420, kTop = 78, kGap = 40;  // [px]
+constexpr double kPanel = 420, kPanelTop = 78, kGap = 40;  // [px]
 /// From no misfit to the largest of the scale.
-constexpr std::array kColours{"#1b4f9c", "#3f8fc4", "#8cc5c9", "#f2d388", "#ec8f45", "#c0392b"};
+constexpr std::array kErrorColours{"#1b4f9c", "#3f8fc4", "#8cc5c9",
+                                   "#f2d388", "#ec8f45", "#c0392b"};
 
 struct View {
     Eigen::AlignedBox2d area;
@@ -26,7 +27,7 @@ struct View {
         scale = (kPanel - 30) / area.sizes().maxCoeff();
     }
     double x(double p) const { return kPanel / 2 + (p - area.center().x()) * scale; }
-    double y(double p) const { return kTop + kPanel / 2 - (p - area.center().y()) * scale; }
+    double y(double p) const { return kPanelTop + kPanel / 2 - (p - area.center().y()) * scale; }
 };
 
 /// A round number that most of the misfits are below [m].
@@ -45,8 +46,8 @@ void draw(Svg& svg, double left, const std::string& title,
           const std::vector<LinkResidual>& residuals) {
     const View view(residuals);
     const double most = scale_of(residuals);
-    svg.text(left + kPanel / 2, kTop - 10, title, "middle", "font-weight=\"bold\"");
-    svg.rectangle(left, kTop, kPanel, kPanel, "none", "stroke=\"#999999\"");
+    svg.text(left + kPanel / 2, kPanelTop - 10, title, "middle", "font-weight=\"bold\"");
+    svg.rectangle(left, kPanelTop, kPanel, kPanel, "none", "stroke=\"#999999\"");
     for (const LinkResidual& r : residuals) {
         const double x = left + view.x(r.p_W.x());
         const double y = view.y(r.p_W.y());
@@ -55,15 +56,16 @@ void draw(Svg& svg, double left, const std::string& title,
             continue;
         }
         const double share = std::min(1.0, std::abs(r.misfit) / most);
-        const auto colour = std::min(
-            kColours.size() - 1, static_cast<size_t>(share * static_cast<double>(kColours.size())));
-        svg.rectangle(x - 2, y - 2, 4, 4, kColours[colour]);
+        const auto colour =
+            std::min(kErrorColours.size() - 1,
+                     static_cast<size_t>(share * static_cast<double>(kErrorColours.size())));
+        svg.rectangle(x - 2, y - 2, 4, 4, kErrorColours[colour]);
     }
-    const double y = kTop + kPanel + 16;
-    for (size_t i = 0; i < kColours.size(); ++i)
-        svg.rectangle(left + 26 * static_cast<double>(i), y, 26, 12, kColours[i]);
+    const double y = kPanelTop + kPanel + 16;
+    for (size_t i = 0; i < kErrorColours.size(); ++i)
+        svg.rectangle(left + 26 * static_cast<double>(i), y, 26, 12, kErrorColours[i]);
     svg.text(left, y + 28, "0");
-    svg.text(left + 26 * static_cast<double>(kColours.size()), y + 28,
+    svg.text(left + 26 * static_cast<double>(kErrorColours.size()), y + 28,
              fmt::format("{:.3g} mm", most * 1e3), "end");
     const double bar = 0.05 * view.scale;
     svg.path(
@@ -75,7 +77,7 @@ void draw(Svg& svg, double left, const std::string& title,
 }  // namespace
 
 std::string residual_picture(const CalibrationResult& result, const std::string& title) {
-    Svg svg(2 * kPanel + 3 * kGap, kTop + kPanel + 76);
+    Svg svg(2 * kPanel + 3 * kGap, kPanelTop + kPanel + 76);
     svg.text(kGap, 28, "Calibration: " + title, "start", "font-size=\"18\" font-weight=\"bold\"");
     svg.text(
         kGap, 50,

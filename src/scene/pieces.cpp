@@ -16,11 +16,11 @@ namespace dihaptic::scene {
 namespace {
 
 constexpr const char* kFirstLine = "dihaptic pieces 1";
-constexpr const char* kProgram = "dihaptic-decompose";
-constexpr int64_t kLargestFile = 1'000'000'000;  // bytes
+constexpr const char* kDecomposer = "dihaptic-decompose";
+constexpr int64_t kMostPieces = 1'000'000'000;  // bytes
 /// Meshes with thousands of dents take minutes, and who waits can cancel.
 constexpr CompanionLimits kLimits{
-    .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kLargestFile};
+    .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kMostPieces};
 
 /// FNV-1a.
 class Fingerprint {
@@ -86,7 +86,7 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
     if (!is_there(file)) return std::nullopt;
     const std::string text = [&]() -> std::string {
         try {
-            return read_bytes(file, kLargestFile);
+            return read_bytes(file, kMostPieces);
         } catch (const Error&) {
             return "";  // they are cut anew
         }
@@ -111,7 +111,7 @@ std::string off_of(const Mesh& mesh) {
 
 std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at) {
     const CompanionTask task{
-        kProgram,
+        kDecomposer,
         {},
         kLimits,
         "cutting " + file + " into convex pieces",
@@ -132,7 +132,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
 }  // namespace
 
 void cancel_cut() noexcept {
-    cancel_companions(kProgram);
+    cancel_companions(kDecomposer);
 }
 
 Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/clock.h"
 #include "base/geometry.h"
+#include "base/unmeasured.h"
 #include "servo/task_frame.h"
 
 namespace dihaptic::servo {
-
-constexpr double kUnmeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// What a tick could not do as asked; describe() has the remedies.
 enum Status : uint32_t {

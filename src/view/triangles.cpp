@@ -9,12 +9,12 @@
 namespace dihaptic::view {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kRound = 48;             // segments of a full circle
 constexpr int kBevel = 3;              // of half a rounded edge
 constexpr double kMostBevel = 1.2e-3;  // [m]
 /// Faces of a mesh that meet at a smaller angle are shaded as one smooth surface.
-const double kSmooth = std::cos(40 * kPi / 180);
+const double kSmooth = std::cos(40 * pi / 180);
 
 double bevel(double smallest_edge) {
     return std::min(kMostBevel, 0.05 * smallest_edge);
@@ -43,7 +43,7 @@ Triangles box(const Vec3& size) {
     const Vec3 core = size / 2 - Vec3::Constant(r);
     std::array<double, 2 * (kBevel + 1)> steps{};  // beyond the core, in r; below: at the low side
     for (int i = 0; i <= kBevel; ++i) {
-        const double out = std::tan(kPi / 4 * i / kBevel);
+        const double out = std::tan(pi / 4 * i / kBevel);
         steps[static_cast<size_t>(kBevel - i)] = -out;
         steps[static_cast<size_t>(kBevel + 1 + i)] = out;
     }
@@ -91,7 +91,7 @@ Triangles lathe(std::span<const Profile> profile) {
     Triangles out;
     for (const Profile& at : profile) {
         for (int j = 0; j <= kRound; ++j) {
-            const double angle = 2 * kPi * j / kRound;
+            const double angle = 2 * pi * j / kRound;
             const double c = std::cos(angle);
             const double s = std::sin(angle);
             add(out, {at.r * c, at.r * s, at.z}, {at.n_r * c, at.n_r * s, at.n_z});
@@ -114,16 +114,16 @@ void add_arc(std::vector<Profile>& profile, double r, double z, double radius, d
 /// A sphere, or with a length two halves of one and what is between.
 Triangles capsule(double radius, double length) {
     std::vector<Profile> profile;
-    add_arc(profile, 0, -length / 2, radius, -kPi / 2, 0, kRound / 4);
-    add_arc(profile, 0, length / 2, radius, 0, kPi / 2, kRound / 4);
+    add_arc(profile, 0, -length / 2, radius, -pi / 2, 0, kRound / 4);
+    add_arc(profile, 0, length / 2, radius, 0, pi / 2, kRound / 4);
     return lathe(profile);
 }
 
 Triangles cylinder(double radius, double length) {
     const double b = bevel(std::min(2 * radius, length));
     std::vector<Profile> profile{{0, -length / 2, 0, -1}};
-    add_arc(profile, radius - b, -length / 2 + b, b, -kPi / 2, 0, 2 * kBevel);
-    add_arc(profile, radius - b, length / 2 - b, b, 0, kPi / 2, 2 * kBevel);
+    add_arc(profile, radius - b, -length / 2 + b, b, -pi / 2, 0, 2 * kBevel);
+    add_arc(profile, radius - b, length / 2 - b, b, 0, pi / 2, 2 * kBevel);
     profile.push_back({0, length / 2, 0, 1});
     return lathe(profile);
 }
@@ -226,7 +226,7 @@ Triangles tube(std::span<const Vec3> path, double radius) {
         const double n_across = std::sqrt(1 - n_along * n_along);
         const Vec3 other = along.cross(across);
         for (int j = 0; j <= kSides; ++j) {
-            const double angle = 2 * kPi * j / kSides;
+            const double angle = 2 * pi * j / kSides;
             const Vec3 out_w = std::cos(angle) * across + std::sin(angle) * other;
             add(out, p + r * out_w, n_across * out_w + n_along * along);
         }
@@ -244,7 +244,7 @@ Triangles tube(std::span<const Vec3> path, double radius) {
         const auto cap = [&](double side) {
             for (int k = 0; k < kBevel; ++k) {
                 const double up = side < 0 ? kBevel - k : k + 1;
-                const double angle = kPi / 2 * up / kBevel;
+                const double angle = pi / 2 * up / kBevel;
                 ring(points[i] + side * radius * std::sin(angle) * along, along,
                      radius * std::cos(angle), side * std::sin(angle));
                 ++rings;

@@ -87,13 +87,13 @@ class LeastSquares {
     Minimum best_;
 };
 
-void check(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
+}  // namespace
+
+void check_numbers(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
     if (measured.size() != trials.size())
         throw Error("there are not as many measurements as trials",
                     "give one for each trial, NaN where there is none");
 }
-
-}  // namespace
 
 LearningCurveFit fit_learning_curve(std::span<const double> measured) {
     double low = INFINITY, high = -INFINITY;
@@ -135,7 +135,7 @@ LearningCurveFit fit_learning_curve(std::span<const double> measured) {
 
 SingleRateFit fit_single_rate(std::span<const double> measured,
                               std::span<const AdaptationTrial> trials) {
-    check(measured, trials);
+    check_numbers(measured, trials);
     LeastSquares search(
         measured,
         [&](std::span<const double> x) {

@@ -43,4 +43,8 @@ LearningCurveFit fit_learning_curve(std::span<const double> measured);
 SingleRateFit fit_single_rate(std::span<const double> measured,
                               std::span<const model::AdaptationTrial> trials);
 
+/// Throws Error when their numbers differ.
+void check_numbers(std::span<const double> measured,
+                   std::span<const model::AdaptationTrial> trials);
+
 }  // namespace dihaptic::analysis

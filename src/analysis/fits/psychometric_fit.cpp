@@ -7,7 +7,6 @@
 
 #include "base/diagnostics.h"
 #include "base/random.h"
-#include "model/sigmoid_levels.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -49,10 +48,10 @@ class Search {
 
     /// The least of the minima that are found from the best point of a grid at each spread: flat
     /// and steep functions have minima of their own.
-    Minimum run() const { return run(true, kSpreads.size(), 1e-7); }
+    Minimum run() const { return run(Effort::full); }
     /// Of a resample: from a coarser grid, on the two best of its minima, to far less than what
     /// resamples differ by.
-    Minimum run_quickly() const { return run(false, 2, kCoarse); }
+    Minimum run_quickly() const { return run(Effort::quick); }
 
     /// In the unit of the data.
     Psychometric function(std::span<const double> x) const {
@@ -74,7 +73,12 @@ class Search {
     }
 
   private:
-    Minimum run(bool fine, size_t starts, double tolerance) const {
+    enum class Effort { full, quick };
+
+    Minimum run(Effort effort) const {
+        constexpr double kFine = 1e-7;
+        constexpr size_t kQuickStarts = 2;
+        const bool fine = effort == Effort::full;
         std::vector<Minimum> best;
         for (const double spread : kSpreads) {
             Minimum& here = best.emplace_back(Minimum{{}, std::numeric_limits<double>::max()});
@@ -90,11 +94,11 @@ class Search {
         }
         const auto less = [](const Minimum& a, const Minimum& b) { return a.value < b.value; };
         std::stable_sort(best.begin(), best.end(), less);
-        best.resize(std::min(starts, best.size()));
+        if (!fine) best.resize(std::min(kQuickStarts, best.size()));
         const Cost all = [this](std::span<const double> x) { return cost(x); };
         for (Minimum& m : best) m = minimise(all, variables_, m.x, kCoarse);
         const Minimum& least = *std::min_element(best.begin(), best.end(), less);
-        return tolerance < kCoarse ? minimise(all, variables_, least.x, tolerance) : least;
+        return fine ? minimise(all, variables_, least.x, kFine) : least;
     }
 
     bool linear_weibull() const { return settings_.sigmoid == Sigmoid::weibull; }

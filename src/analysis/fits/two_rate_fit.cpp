@@ -211,7 +211,7 @@ constexpr size_t kScouts = 48;   // of the lattice's points go downhill,
 constexpr int kScoutSteps = 12;  // so far,
 constexpr size_t kPolished = 8;  // and the best of them to the end
 constexpr int kSteps = 400;
-constexpr double kSame = 1e-3;  // minima no further apart are one
+constexpr double kSamePlace = 1e-3;  // minima no further apart are one
 
 /// Minima, the least first; more than one, since what is least may change with a parameter held.
 std::vector<Found> minima(const Data& data) {
@@ -234,7 +234,7 @@ std::vector<Found> minima(const Data& data) {
     std::vector<Found> different;
     for (const Found& f : found) {
         const bool known = std::any_of(different.begin(), different.end(), [&](const Found& other) {
-            return (f.p - other.p).cwiseAbs().maxCoeff() < kSame;
+            return (f.p - other.p).cwiseAbs().maxCoeff() < kSamePlace;
         });
         if (!known) different.push_back(f);
     }
@@ -258,12 +258,6 @@ Interval interval(const Data& data, const std::vector<Found>& minima, int parame
                             best.p[parameter], {0, 1}, limit);
 }
 
-void check(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
-    if (measured.size() != trials.size())
-        throw Error("there are not as many measurements as trials",
-                    "give one for each trial, NaN where there is none");
-}
-
 int count_of(std::span<const double> measured) {
     return static_cast<int>(
         std::count_if(measured.begin(), measured.end(), [](double y) { return !std::isnan(y); }));
@@ -272,7 +266,7 @@ int count_of(std::span<const double> measured) {
 }  // namespace
 
 TwoRateFit fit_two_rate(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
-    check(measured, trials);
+    check_numbers(measured, trials);
     const int count = count_of(measured);
     if (count <= kParameters)
         throw Error("too few trials were measured to fit a curve",
@@ -292,11 +286,10 @@ TwoRateFit fit_two_rate(std::span<const double> measured, std::span<const Adapta
     return fit;
 }
 
-TwoRateDescent descend_two_rate(std::span<const double> measured,
-                                std::span<const AdaptationTrial> trials, const TwoRate& start) {
-    check(measured, trials);
-    const Found found = descend({measured, trials}, Cube(), parameters_of(start), kSteps);
-    return {rates_of(found.p), found.squares};
+double squares_downhill(std::span<const double> measured, std::span<const AdaptationTrial> trials,
+                        const TwoRate& start) {
+    check_numbers(measured, trials);
+    return descend({measured, trials}, Cube(), parameters_of(start), kSteps).squares;
 }
 
 }  // namespace dihaptic::analysis

@@ -23,14 +23,10 @@ struct TwoRateFit : CurveFit {
 TwoRateFit fit_two_rate(std::span<const double> measured,
                         std::span<const model::AdaptationTrial> trials);
 
-/// The nearest model that is found downhill from one start, and its sum of squared residuals: what
+/// The sum of squared residuals of the nearest model that is found downhill from one start: what
 /// the search is judged by.
-struct TwoRateDescent {
-    model::TwoRate rates;
-    double squares = 0;
-};
-TwoRateDescent descend_two_rate(std::span<const double> measured,
-                                std::span<const model::AdaptationTrial> trials,
-                                const model::TwoRate& start);
+double squares_downhill(std::span<const double> measured,
+                        std::span<const model::AdaptationTrial> trials,
+                        const model::TwoRate& start);
 
 }  // namespace dihaptic::analysis

@@ -8,14 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "base/unmeasured.h"
+
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// Of sorted values, linear between them.
 double quantile(const std::vector<double>& x, double share) {
-    if (x.empty()) return kNaN;
+    if (x.empty()) return kUnmeasured;
     const double at = share * static_cast<double>(x.size() - 1);
     const auto i = static_cast<size_t>(at);
     const size_t j = std::min(i + 1, x.size() - 1);
@@ -35,11 +35,11 @@ Sample sample(std::span<const double> values) {
     out.count = static_cast<int>(x.size());
     double sum = 0;
     for (const double value : x) sum += value;
-    out.mean = x.empty() ? kNaN : sum / n;
+    out.mean = x.empty() ? kUnmeasured : sum / n;
     double square = 0;
     for (const double value : x) square += (value - out.mean) * (value - out.mean);
-    out.sd = x.size() < 2 ? kNaN : std::sqrt(square / (n - 1));
-    out.mean_interval = {kNaN, kNaN};
+    out.sd = x.size() < 2 ? kUnmeasured : std::sqrt(square / (n - 1));
+    out.mean_interval = {kUnmeasured, kUnmeasured};
     if (x.size() >= 2) {
         const boost::math::students_t student(n - 1);
         const double half = boost::math::quantile(student, 0.975) * out.sd / std::sqrt(n);

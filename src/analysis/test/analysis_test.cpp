@@ -224,7 +224,7 @@ TEST(Events, TellsWhatWasTunedOnceItHasArrived) {
         f.sequence = i;
         f.time = i * std::chrono::milliseconds(1);
         f.phase = 0;
-        f.damping = servo::kUnmeasured;
+        f.damping = kUnmeasured;
         f.stiffness = i < 20 ? 1000 : std::min(2000, 1000 + 50 * (i - 20));
         if (i >= 60) f.damping = 3;
         if (i == 80) f.status = servo::kResumed;

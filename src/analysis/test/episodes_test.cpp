@@ -15,7 +15,7 @@ constexpr double kFriction = 0.3;
 const Vec3 kGravity(0, 0, -9.81);
 
 ObjectFacts facts() {
-    return {kMass, kGravity, {kFriction, 0}};
+    return {kMass, kGravity, {kFriction, 0}, {}};
 }
 
 /// Body 0 is the table, body 1 the object, which nothing touches; bodies 2 to 5 are four fingers.

@@ -20,7 +20,7 @@ constexpr double kMostMargin = 5e-2;  // [m]
 /// A contact is the continuation of an old one within this distance on the body.
 constexpr double kSamePoint = 5e-3;  // [m]
 
-const Polyhedron* polyhedron(const btCollisionObjectWrapper& part) {
+const Polyhedron* polyhedron_of(const btCollisionObjectWrapper& part) {
     return static_cast<const Polyhedron*>(part.getCollisionShape()->getUserPointer());
 }
 
@@ -47,13 +47,13 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
         const double margin = std::min(kMostMargin, kMargin + approach(*a_wrap, *b_wrap, step_));
         ContactPatch patch;
-        if (polyhedron(*a_wrap) == nullptr) {
-            patch = collide_half_space(X_WA, *polyhedron(*b_wrap), X_WB, margin);
-        } else if (polyhedron(*b_wrap) == nullptr) {
-            patch = collide_half_space(X_WB, *polyhedron(*a_wrap), X_WA, margin);
+        if (polyhedron_of(*a_wrap) == nullptr) {
+            patch = collide_half_space(X_WA, *polyhedron_of(*b_wrap), X_WB, margin);
+        } else if (polyhedron_of(*b_wrap) == nullptr) {
+            patch = collide_half_space(X_WB, *polyhedron_of(*a_wrap), X_WA, margin);
             flip(patch);
         } else {
-            patch = collide(*polyhedron(*a_wrap), X_WA, *polyhedron(*b_wrap), X_WB, margin);
+            patch = collide(*polyhedron_of(*a_wrap), X_WA, *polyhedron_of(*b_wrap), X_WB, margin);
         }
         result->setPersistentManifold(manifold_);
         store(patch, X_WA, X_WB, manifold_->getBody0() == &a);
@@ -133,7 +133,7 @@ struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
                                                    const btCollisionObjectWrapper* b) override {
         const auto flat = [](const btCollisionObjectWrapper* w) {
             return w->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE ||
-                   polyhedron(*w) != nullptr;
+                   polyhedron_of(*w) != nullptr;
         };
         if (!flat(a) || !flat(b)) return otherwise->CreateCollisionAlgorithm(info, a, b);
         void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));

@@ -55,9 +55,9 @@ inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
             1e3 * static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC / people;
         const double squares = fit.mean_square * static_cast<double>(measured.size());
         if (squares > of_truth) ++out.above_truth;
-        double least = descend_two_rate(measured, trials, truth).squares;
+        double least = squares_downhill(measured, trials, truth);
         for (int i = 0; i < starts; ++i)
-            least = std::min(least, descend_two_rate(measured, trials, anywhere()).squares);
+            least = std::min(least, squares_downhill(measured, trials, anywhere()));
         out.worst_start = std::max(out.worst_start, (squares - least) / least);
     }
     return out;

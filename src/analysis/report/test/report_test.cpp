@@ -89,13 +89,13 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_NEAR(curve.perturbation(), -30, 1e-5);
     EXPECT_TRUE(std::isnan(curve.trials[20].compensation));
     EXPECT_EQ(curve.landmark_cells().size(), landmark_columns().size());
-    const auto at = curve.landmarks();
-    EXPECT_NEAR(at.baseline, bias, 1e-5);
-    EXPECT_LT(at.late, at.early);
-    EXPECT_NEAR(at.catch_trials, curve.trials[46].compensation, 1e-12);
+    const auto at = curve.windows();
+    EXPECT_NEAR(at.baseline.mean, bias, 1e-5);
+    EXPECT_LT(at.late.mean, at.early.mean);
+    EXPECT_NEAR(at.catch_trials.mean, curve.trials[46].compensation, 1e-12);
     double washout = 0;  // its first eight, as that of every window
     for (size_t i = 96; i < 104; ++i) washout += curve.trials[i].compensation / 8;
-    EXPECT_NEAR(at.washout_first, washout, 1e-12);
+    EXPECT_NEAR(at.washout_first.mean, washout, 1e-12);
     const auto fits = fit_adaptation(curve);
     ASSERT_TRUE(fits);
     EXPECT_LT(fits->two_rate.residual_sd, 0.05);
@@ -119,8 +119,8 @@ TEST(Adaptation, SavingsAreWhatIsThereSoonerWhenTheSameIsLearnedAgain) {
         again += curve.trials[62 + i].compensation / 8;
     }
     EXPECT_LT(again, first - 1);  // both are negative: more is learned
-    EXPECT_NEAR(curve.landmarks().savings, first - again, 1e-12);
-    EXPECT_TRUE(std::isnan(curve.landmarks().rebound));
+    EXPECT_NEAR(curve.windows().savings.mean, first - again, 1e-12);
+    EXPECT_TRUE(std::isnan(curve.windows().rebound.mean));
 }
 
 TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
@@ -137,8 +137,8 @@ TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
     for (size_t i = t.size() - 8; i < t.size(); ++i) last += t[i].compensation / 8;
     const double before = (t[238].compensation + t[239].compensation) / 2;
     EXPECT_GT(last - before, 3);
-    EXPECT_NEAR(curve.landmarks().rebound, last - before, 1e-12);
-    EXPECT_TRUE(std::isnan(curve.landmarks().savings));
+    EXPECT_NEAR(curve.windows().rebound.mean, last - before, 1e-12);
+    EXPECT_TRUE(std::isnan(curve.windows().savings.mean));
 }
 
 TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
