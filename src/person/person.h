@@ -88,7 +88,7 @@ class Person final : public experiment::SeeingDriver {
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = 0;
-    int acting_ = 0;  // the state whose steps are done: of those since, none asked for a movement
+    int acting_ = 0;  // the state whose steps are done; later ones without steps leave it as it is
     bool between_ = true;
     double since_ = 0;  // when this began: the state, the time between trials, or being done [s]
     double wait_until_ = 0;  // [s]
