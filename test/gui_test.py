@@ -60,8 +60,10 @@ class Window(unittest.TestCase):
     def open(self, file=None):
         self.log = open(self.folder.name + "/log", "w+")
         self.addCleanup(self.log.close)
+        # a test that is run by nohup too
         self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, file or self.scene], env=self.environment,
-                                       stdout=self.log, stderr=self.log)
+                                       stdout=self.log, stderr=self.log,
+                                       preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
         self.addCleanup(self.window.wait)
         self.addCleanup(self.window.kill)
         name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", " - Dihaptic$"))
