@@ -1,6 +1,8 @@
 // An outlet of each kind that tests can make and break.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -39,7 +41,7 @@ class FallibleLsl final : public Fallible {
     FallibleLsl() { setenv("DIHAPTIC_FAKE_LSL", (folder_.path() + "/lsl.txt").c_str(), 1); }
     ~FallibleLsl() override { fake_lsl_fails(FakeLslFails::nothing); }
     std::string options() const override {
-        return std::string("{ library: ") + DIHAPTIC_FAKE_LSL + " }";
+        return fmt::format("{{ library: {} }}", DIHAPTIC_FAKE_LSL);
     }
     void never_open() override { fake_lsl_fails(FakeLslFails::opening); }
     void fail() override { fake_lsl_fails(FakeLslFails::every_push); }
