@@ -191,13 +191,16 @@ Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) 
     return best;
 }
 
+constexpr size_t kRatesEach = 77;  // of learning in the lattice, for each pair of retentions
+
 /// Points of the whole space, dense where people are: what is forgotten in a trial, and what is
 /// learned, spans powers of ten.
 std::vector<Vec4> lattice() {
     constexpr double kSlow[] = {0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 0.7};  // 1 - A_slow
     constexpr double kFast[] = {0, 0.2, 0.4, 0.6, 0.75, 0.88, 0.96, 1};           // A_fast / A_slow
-    constexpr double kBFast[] = {0.02, 0.05, 0.1, 0.2, 0.35, 0.55, 0.8, 1};
+    constexpr double kBFast[] = {1e-4, 1e-3, 0.005, 0.02, 0.05, 0.1, 0.2, 0.35, 0.55, 0.8, 1};
     constexpr double kBSlow[] = {0, 0.02, 0.06, 0.15, 0.35, 0.7, 1};  // B_slow / B_fast
+    static_assert(std::size(kBFast) * std::size(kBSlow) == kRatesEach);
     std::vector<Vec4> out;
     for (const double slow : kSlow)
         for (const double fast : kFast)
@@ -207,9 +210,11 @@ std::vector<Vec4> lattice() {
     return out;
 }
 
-constexpr size_t kScouts = 48;   // of the lattice's points go downhill,
-constexpr int kScoutSteps = 12;  // so far,
-constexpr size_t kPolished = 8;  // and the best of them to the end
+// the best of the lattice's points, and the best of each pair of retentions, go downhill: where
+// many are good, the least may begin at none of the best
+constexpr size_t kScouts = 48;
+constexpr int kScoutSteps = 12;   // so far,
+constexpr size_t kPolished = 12;  // and the best of them to the end
 constexpr int kSteps = 400;
 constexpr double kSamePlace = 1e-3;  // minima no further apart are one
 
@@ -219,14 +224,18 @@ std::vector<Found> minima(const Data& data) {
     std::vector<Found> found;
     found.reserve(points.size());
     for (const Vec4& p : points) found.push_back({p, data.squares(p)});
+    const auto less = [](const Found& a, const Found& b) { return a.squares < b.squares; };
     const auto keep_best = [&](size_t count) {
-        const auto less = [](const Found& a, const Found& b) { return a.squares < b.squares; };
         count = std::min(count, found.size());
         std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
                           found.end(), less);
         found.resize(count);
     };
+    std::vector<Found> of_each;
+    for (auto first = found.begin(); first != found.end(); first += kRatesEach)
+        of_each.push_back(*std::min_element(first, first + kRatesEach, less));
     keep_best(kScouts);
+    found.insert(found.end(), of_each.begin(), of_each.end());
     for (Found& f : found) f = descend(data, Cube(), f.p, kScoutSteps);
     keep_best(kPolished);
     for (Found& f : found) f = descend(data, Cube(), f.p, kSteps);
