@@ -37,6 +37,30 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     return out;
 }
 
+/// What the session's devices can do, by finger.
+std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
+                                                const scene::Scene& scene) {
+    std::vector<recording::DeviceRecord> out;
+    for (int i = 0; i < servo.devices().size(); ++i) {
+        const devices::DeviceInfo& device = servo.devices().info(i);
+        recording::DeviceRecord& record = out.emplace_back();
+        record.finger = scene.fingers[static_cast<size_t>(i)].name;
+        record.model = device.model;
+        record.peak_force = device.peak_force;
+        record.workspace = device.workspace;
+        record.orientation = device.measures_orientation;
+        record.peak_torque = device.peak_torque;
+        record.scale = device.scale;
+        if (std::isfinite(device.continuous_force))
+            record.continuous_force = device.continuous_force;
+        if (std::isfinite(device.continuous_torque))
+            record.continuous_torque = device.continuous_torque;
+        record.simulated = device.simulated;
+        if (servo.real()) record.damping = servo.damping();
+    }
+    return out;
+}
+
 recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& settings,
                             const recording::Setup& setup) {
     recording::LogHead head;
@@ -194,24 +218,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         info.object = plan.scene.bodies[static_cast<size_t>(object)].name;
     }
     const auto servo = make_servo(plan, options.keeper);
-    for (int i = 0; i < servo->devices().size(); ++i) {
-        const devices::DeviceInfo& device = servo->devices().info(i);
-        recording::DeviceRecord record;
-        record.finger = plan.scene.fingers[static_cast<size_t>(i)].name;
-        record.model = device.model;
-        record.peak_force = device.peak_force;
-        record.workspace = device.workspace;
-        record.orientation = device.measures_orientation;
-        record.peak_torque = device.peak_torque;
-        record.scale = device.scale;
-        if (std::isfinite(device.continuous_force))
-            record.continuous_force = device.continuous_force;
-        if (std::isfinite(device.continuous_torque))
-            record.continuous_torque = device.continuous_torque;
-        record.simulated = device.simulated;
-        if (servo->real()) record.damping = servo->damping();
-        info.devices.push_back(record);
-    }
+    info.devices = records_of(*servo, plan.scene);
     if (!plan.task) info.phases = phases_of(*plan.driver);
     if (plan.task) {
         for (const std::string& phase : plan.task->phases()) info.phases.push_back({phase, 0, 0});

@@ -2,9 +2,12 @@
 // with the truth and with what random starts lead to.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <string>
 #include <vector>
 
 #include "analysis/fits/two_rate_fit.h"
@@ -67,6 +70,14 @@ inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
         out.worst_start = std::max(out.worst_start, (squares - least) / least);
     }
     return out;
+}
+
+/// No fit is worse than the truth, nor than what any start leads to.
+inline void expect_least_of_all(int people, int starts, uint64_t seed) {
+    const WideResult result = fit_wide_people(people, starts, seed);
+    EXPECT_EQ(result.above_truth, 0);
+    EXPECT_LT(result.worst_start, 1e-9);
+    ::testing::Test::RecordProperty("ms_a_fit", std::to_string(result.milliseconds));
 }
 
 }  // namespace dihaptic::analysis
