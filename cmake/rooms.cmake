@@ -16,7 +16,7 @@ endfunction()
 
 # Sources are compiled several at a time, which saves a third of their time: most of a compiler's work is
 # to read the same headers. What one source keeps for itself (in its unnamed namespace) has a name that no other
-# source of the target gives to something else.
+# source of the target gives to something else; NAME_test.cpp has a namespace NAME_test, and so may use any name.
 function(dihaptic_together target)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
     # what a class keeps behind a pointer to its Impl may be of a type of its source's own
@@ -67,12 +67,13 @@ function(dihaptic_room name)
     if(tests)
         add_executable(${name}_test ${tests})
         target_link_libraries(${name}_test PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
+        dihaptic_together(${name}_test)
         dihaptic_precompile(${name}_test dihaptic_testing)
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
             PROPERTIES LABELS ${name} TIMEOUT 900)
     endif()
     file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
-    if(soaks)
+    if(DIHAPTIC_SOAKS AND soaks)
         add_executable(${name}_soak ${soaks})
         target_link_libraries(${name}_soak PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
         gtest_discover_tests(${name}_soak DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}

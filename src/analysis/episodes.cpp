@@ -17,7 +17,7 @@ constexpr double kHandSpeed = 0.05;    // below, the hand stands still [m/s]
 /// What one sample is part of, if anything.
 struct State {
     std::optional<EpisodeKind> kind;
-    std::vector<char> touching;
+    PerFinger<char> touching;
     bool operator==(const State&) const = default;
 };
 

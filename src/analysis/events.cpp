@@ -91,23 +91,23 @@ void EventFinder::add(const servo::Frame& frame) {
     }
     const size_t bodies = head_.bodies.size();
     const size_t all = bodies + head_.fingers.size();
-    std::vector<char> touching(touching_.size(), 0);
+    now_touching_.assign(touching_.size(), 0);
     bool on_support = false;
     for (const servo::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0) continue;
         const auto a = static_cast<size_t>(contact.a);
         const auto b = static_cast<size_t>(contact.b);
-        if (a >= bodies) touching[(a - bodies) * all + b] = 1;
-        if (b >= bodies) touching[(b - bodies) * all + a] = 1;
+        if (a >= bodies) now_touching_[(a - bodies) * all + b] = 1;
+        if (b >= bodies) now_touching_[(b - bodies) * all + a] = 1;
         const bool of_object = contact.a == object_ || contact.b == object_;
         if (of_object && a < bodies && b < bodies) on_support = true;
     }
-    for (size_t i = 0; i < touching.size(); ++i) {
-        if (touching[i] == touching_[i]) continue;
-        say(touching[i] ? "touch" : "release",
+    for (size_t i = 0; i < touching_.size(); ++i) {
+        if (now_touching_[i] == touching_[i]) continue;
+        say(now_touching_[i] ? "touch" : "release",
             head_.fingers[i / all] + " " + name(static_cast<int>(i % all)));
     }
-    touching_ = std::move(touching);
+    std::swap(touching_, now_touching_);
     // an object asleep on its support has no contacts in the frame, and has not moved either
     const bool asleep = object_ >= 0 && !frame.bodies[static_cast<size_t>(object_)].awake;
     if (object_ >= 0 && !asleep) {
@@ -131,11 +131,10 @@ void EventFinder::add(const servo::Frame& frame) {
     seen_ = true;
     if ((frame.status & servo::kPaused) != 0) say("paused", "force off");
     if ((frame.status & servo::kResumed) != 0) say("went on", "after a pause");
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        const auto flag = static_cast<servo::Status>(1u << bit);
-        if (flag == servo::kPaused || flag == servo::kResumed) continue;
-        if ((frame.status & flag) != 0 && (status_ & flag) == 0)
-            say("limit", servo::describe(flag).what);
+    uint32_t begun_limits = frame.status & ~status_ & ~(servo::kPaused | servo::kResumed);
+    for (; begun_limits != 0; begun_limits &= begun_limits - 1) {
+        const uint32_t lowest = begun_limits & ~(begun_limits - 1);
+        say("limit", servo::describe(static_cast<servo::Status>(lowest)).what);
     }
     status_ = frame.status;
 }

@@ -33,9 +33,10 @@ class EventFinder {
     recording::LogHead head_;
     int object_;
     std::vector<std::string> phases_;
-    std::vector<char> touching_;  // by finger, by body
-    bool seen_ = false;           // a frame before this one
-    bool supported_ = false;      // in it, the object pressed on something that is no finger
+    std::vector<char> touching_;      // in the last frame: by finger, by body
+    std::vector<char> now_touching_;  // in this one
+    bool seen_ = false;               // a frame before this one
+    bool supported_ = false;          // in it, the object pressed on something that is no finger
     int trial_ = 0;
     int attempt_ = 0;
     int message_ = -1;

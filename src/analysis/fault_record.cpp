@@ -25,14 +25,21 @@ std::string words(uint32_t status) {
 
 void FaultRecord::add(const servo::Frame& frame) {
     if (ended_) return;
-    servo::Frame& kept = last_.emplace_back();
+    const auto old = [&] { return last_.front().time < frame.time - kBefore; };
+    if (!last_.empty() &&
+        old()) {  // its memory serves again: this is done for each tick of a session
+        last_.splice(last_.end(), last_, last_.begin());
+    } else {
+        last_.emplace_back();
+    }
+    servo::Frame& kept = last_.back();
     kept.time = frame.time;
     kept.status = frame.status;
     kept.lateness = frame.lateness;
     kept.tick_duration = frame.tick_duration;
     kept.fingers = frame.fingers;
     kept.turns = frame.turns;
-    while (last_.front().time < frame.time - kBefore) last_.pop_front();
+    while (old()) last_.pop_front();
     if ((frame.status & servo::kForceOff) == 0) return;
     ended_ = true;
     faulted_ = (frame.status & servo::kStopped) == 0;

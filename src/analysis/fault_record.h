@@ -2,7 +2,7 @@
 // read. All of it is in raw.log too.
 #pragma once
 
-#include <deque>
+#include <list>
 #include <string>
 #include <vector>
 
@@ -28,7 +28,7 @@ class FaultRecord {
   private:
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
-    std::deque<servo::Frame> last_;  // without bodies and contacts
+    std::list<servo::Frame> last_;  // without bodies and contacts
     bool ended_ = false;
     bool faulted_ = false;
 };

@@ -8,7 +8,13 @@
 
 namespace dihaptic::analysis {
 
-using model::grasp_axis;
+namespace {
+
+Vec3 axis_of(const GraspTrace::Sample& sample) {
+    return model::grasp_axis({sample.p_WP.data(), sample.p_WP.size()});
+}
+
+}  // namespace
 
 void GraspTrace::add(const servo::Frame& frame) {
     const size_t n = frame.fingers.size();
@@ -159,7 +165,7 @@ double GraspTrace::sag(Range range) const {
 
 double GraspTrace::axis_tilt_rms(Range range) const {
     if (range.size() == 0 || fingers() < 2) return 0;
-    const auto axis = [&](size_t i) { return grasp_axis(samples_[i].p_WP); };
+    const auto axis = [&](size_t i) { return axis_of(samples_[i]); };
     Vec3 mean = Vec3::Zero();
     for (size_t i = range.first; i < range.last; ++i) mean += axis(i);
     mean.normalize();
@@ -174,7 +180,7 @@ double GraspTrace::turn_at(size_t reference, size_t sample) const {
     // the twist about the grasp axis (swing-twist decomposition)
     const Sample& a = samples_[reference];
     const Sample& b = samples_[sample];
-    const Vec3 axis = grasp_axis(a.p_WP);
+    const Vec3 axis = axis_of(a);
     const Quat turned = b.X_WB.R * a.X_WB.R.conjugate();
     return 2 * std::atan2(turned.vec().dot(axis), turned.w());
 }

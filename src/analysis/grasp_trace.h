@@ -2,6 +2,7 @@
 // sessions and benchmarks use the same ones.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <vector>
 
 #include "servo/frame.h"
@@ -15,6 +16,10 @@ struct Range {
     size_t size() const { return last > first ? last - first : 0; }
 };
 
+/// One of each finger; of up to three without memory of its own, for there is one a tick.
+template <class T>
+using PerFinger = boost::container::small_vector<T, 3>;
+
 /// Keeps of each Frame what the figures need.
 class GraspTrace {
   public:
@@ -22,6 +27,8 @@ class GraspTrace {
     GraspTrace(int object, double tick) : object_(object), tick_(tick) {}
 
     void add(const servo::Frame& frame);
+    /// Forgets the samples, and keeps their memory for the next trial's.
+    void restart() noexcept { samples_.clear(); }
 
     struct Sample {
         double time;
@@ -35,16 +42,16 @@ class GraspTrace {
         bool awake;       ///< the object is
         Pose X_WB;        ///< object
         Vec3 v_WB;
-        std::vector<Vec3> p_WP;
-        std::vector<Vec3> v_WH;
-        std::vector<Vec3> f_sent_W;  ///< on the handle
-        double torque;               ///< largest on any handle; NaN without orientation [N*m]
-        std::vector<char> touching;  ///< presses the object
+        PerFinger<Vec3> p_WP;
+        PerFinger<Vec3> v_WH;
+        PerFinger<Vec3> f_sent_W;  ///< on the handle
+        double torque;             ///< largest on any handle; NaN without orientation [N*m]
+        PerFinger<char> touching;  ///< presses the object
         // of what each finger and the object do to each other
-        std::vector<double> normal_force;  ///< [N]
-        std::vector<Vec3> f_tangential_W;  ///< on the finger [N]
-        double friction_scale = 1;         ///< of the object's coefficients, over the scene's
-        bool resumed = false;              ///< the session went on after a pause
+        PerFinger<double> normal_force;  ///< [N]
+        PerFinger<Vec3> f_tangential_W;  ///< on the finger [N]
+        double friction_scale = 1;       ///< of the object's coefficients, over the scene's
+        bool resumed = false;            ///< the session went on after a pause
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }

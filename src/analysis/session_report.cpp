@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -137,7 +138,7 @@ struct SessionReader::Pass {
                 reading.lifts.push_back(std::move(lift));
             }
         }
-        trace = GraspTrace(object, tick);
+        trace.restart();
     }
 
     void close_phase() {
@@ -169,9 +170,8 @@ struct SessionReader::Pass {
         ++figures.frames;
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
-        for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-            figures.status_ticks[static_cast<size_t>(bit)] += (frame.status >> bit) & 1u;
-        }
+        for (uint32_t left = frame.status; left != 0; left &= left - 1)
+            ++figures.status_ticks[static_cast<size_t>(std::countr_zero(left))];
     }
 
     void end(const recording::LogHealth& log) {

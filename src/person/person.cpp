@@ -17,7 +17,7 @@ using experiment::When;
 
 constexpr double kUsualDensity = 1000;  // of what one has not lifted yet [kg/m^3]
 constexpr double kReach = 0.03;         // a movement that teaches about rotations [m]
-constexpr double kGlance = 0.15;        // share of a reach after which it is mended ...
+constexpr double kGlance = 0.08;        // share of a reach after which it is mended ...
 constexpr double kJudged = 0.4;         // ... and its error taken as the one to learn from
 constexpr double kShortest = 0.2;       // stroke [s]
 constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]

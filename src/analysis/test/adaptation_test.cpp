@@ -6,7 +6,7 @@
 
 #include "testing/files.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::adaptation_test {
 namespace {
 
 TEST(AdaptationCurves, CountTheLastAttemptOfATrial) {
@@ -29,4 +29,4 @@ TEST(AdaptationCurves, CountTheLastAttemptOfATrial) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::adaptation_test

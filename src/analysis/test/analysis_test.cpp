@@ -6,7 +6,7 @@
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::analysis_test {
 namespace {
 
 /// A second of frames in which body 1 is held by two fingers, 4 cm apart along x.
@@ -237,4 +237,4 @@ TEST(Events, TellsWhatWasTunedOnceItHasArrived) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::analysis_test

@@ -12,7 +12,7 @@
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::bids_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,4 +160,4 @@ TEST(Bids, ASessionThatRunsIsNotExported) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::bids_test

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::episodes_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -210,4 +210,4 @@ TEST(Episodes, WithoutTheScenesFactsFiguresThatNeedThemAreNone) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::episodes_test

@@ -10,7 +10,7 @@
 #include "analysis/savitzky_golay.h"
 #include "base/random.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::lifts_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -219,4 +219,4 @@ TEST(Lifts, SurviveNoise) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::lifts_test

@@ -14,7 +14,7 @@
 #include "base/text_file.h"
 #include "testing/files.h"
 
-namespace dihaptic {
+namespace dihaptic::base_test {
 namespace {
 
 TEST(Pose, ProductsAndInverses) {
@@ -184,4 +184,4 @@ TEST(TextFile, SaysThatThePermissionIsMissing) {
 }
 
 }  // namespace
-}  // namespace dihaptic
+}  // namespace dihaptic::base_test

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <thread>
 
-namespace dihaptic {
+namespace dihaptic::companion_test {
 namespace {
 
 CompanionTask task(const std::string& script) {
@@ -106,4 +106,4 @@ TEST(Companion, SeveralRunAtOnce) {
 }
 
 }  // namespace
-}  // namespace dihaptic
+}  // namespace dihaptic::companion_test

@@ -6,7 +6,7 @@
 #include "base/field_table.h"
 #include "base/field_writer.h"
 
-namespace dihaptic {
+namespace dihaptic::field_reader_test {
 namespace {
 
 enum class Fruit { apple, pear };
@@ -225,4 +225,4 @@ TEST(Node, SaysWhyAFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace dihaptic
+}  // namespace dihaptic::field_reader_test

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-namespace dihaptic {
+namespace dihaptic::latest_test {
 namespace {
 
 TEST(Latest, IsTheLastThatWasPublished) {
@@ -41,4 +41,4 @@ TEST(Latest, StaysWhileItIsReadAndIsNeverHalfWritten) {
 }
 
 }  // namespace
-}  // namespace dihaptic
+}  // namespace dihaptic::latest_test

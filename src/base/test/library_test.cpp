@@ -6,7 +6,7 @@
 #include "base/temporary_folder.h"
 #include "base/text_file.h"
 
-namespace dihaptic {
+namespace dihaptic::library_test {
 namespace {
 
 Library::Spec spec() {
@@ -69,4 +69,4 @@ TEST(Library, OfAnotherVersionIsToldWithTheSymbolThatItLacks) {
 }
 
 }  // namespace
-}  // namespace dihaptic
+}  // namespace dihaptic::library_test

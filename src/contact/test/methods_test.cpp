@@ -9,7 +9,7 @@
 #include "contact/stewart_trinkle.h"
 #include "problems.h"
 
-namespace dihaptic::contact {
+namespace dihaptic::contact::methods_test {
 namespace {
 
 TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
@@ -309,4 +309,4 @@ TEST(StewartTrinkleTest, LemkeAloneSolvesGrasps) {
 }
 
 }  // namespace
-}  // namespace dihaptic::contact
+}  // namespace dihaptic::contact::methods_test

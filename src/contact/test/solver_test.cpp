@@ -7,7 +7,7 @@
 #include "problems.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::contact {
+namespace dihaptic::contact::solver_test {
 namespace {
 
 using testing::answer;
@@ -475,4 +475,4 @@ TEST(Polygon, HasADirectionBeforeAnything) {
 }
 
 }  // namespace
-}  // namespace dihaptic::contact
+}  // namespace dihaptic::contact::solver_test

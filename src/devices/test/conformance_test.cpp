@@ -8,7 +8,7 @@
 #include "fakes.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::devices {
+namespace dihaptic::devices::conformance_test {
 namespace {
 
 class StillDriver final : public hand::Driver {
@@ -202,4 +202,4 @@ TEST(Replay, NeedsARecording) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices
+}  // namespace dihaptic::devices::conformance_test

@@ -6,7 +6,7 @@
 #include "scene/solid.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::dynamics::concave_test {
 namespace {
 
 constexpr int kSeconds = 1000;  // steps
@@ -164,4 +164,4 @@ TEST(Concave, StepsAllocateNothingAndRepeatToTheBit) {
 }
 
 }  // namespace
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::dynamics::concave_test

@@ -7,7 +7,7 @@
 #include "dynamics/test/blocks.h"
 #include "testing/overlap.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::dynamics::entered_test {
 namespace {
 
 constexpr double kDeep = 2e-4;  // what a step looks for, and as much again [m]
@@ -132,4 +132,4 @@ TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::dynamics::entered_test

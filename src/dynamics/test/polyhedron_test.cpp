@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::dynamics::polyhedron_test {
 namespace {
 
 const Polyhedron kCube = Polyhedron::box({0.04, 0.04, 0.04});
@@ -132,4 +132,4 @@ TEST(Collide, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::dynamics::polyhedron_test

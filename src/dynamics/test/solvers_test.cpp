@@ -8,7 +8,7 @@
 #include "dynamics/test/energy_scenes.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::dynamics::solvers_test {
 namespace {
 
 class EachSolver : public ::testing::TestWithParam<Solver> {
@@ -156,4 +156,4 @@ TEST(SoftFinger, HoldsARodByItsEndAndLetsItSwingWhenItEases) {
 }
 
 }  // namespace
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::dynamics::solvers_test

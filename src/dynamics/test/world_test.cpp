@@ -7,7 +7,7 @@
 #include "dynamics/test/blocks.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::dynamics::world_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -406,4 +406,4 @@ TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
 }
 
 }  // namespace
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::dynamics::world_test

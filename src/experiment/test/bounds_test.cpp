@@ -11,7 +11,7 @@
 #include "servo/settings.h"
 #include "testing/bounds.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::bounds_test {
 namespace {
 
 template <class Struct>
@@ -69,4 +69,4 @@ TEST(Bounds, HoldAfterTheConversionOfUnits) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::bounds_test

@@ -1,6 +1,6 @@
 #include "experiment/test/damaged_session.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::damaged_session_test {
 namespace {
 
 TEST(DamagedSession, RecoverReplayReportAndExportTellOfEveryMischief) {
@@ -48,4 +48,4 @@ TEST(DamagedSession, TwoOfTheSameSetupOnTheRealClockAreTwo) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::damaged_session_test

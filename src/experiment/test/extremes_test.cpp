@@ -1,7 +1,7 @@
 // Settings and files at their worst: they are refused in words, or all ends in order.
 #include "extremes.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::extremes_test {
 namespace {
 
 constexpr Time kFirst = std::chrono::milliseconds(1500);  // the hand has grasped by then
@@ -61,4 +61,4 @@ TEST(MutatedFiles, AreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::extremes_test

@@ -8,7 +8,7 @@
 #include "experiment/test/reaches.h"
 #include "recording/raw_log.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::feedback_test {
 namespace {
 
 /// What was shown, and from when to when [s].
@@ -126,4 +126,4 @@ TEST(Feedback, WhatIsPressedMeanwhileAnswersNoLaterTrial) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::feedback_test

@@ -11,7 +11,7 @@
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::lift_times_test {
 namespace {
 
 using analysis::EventRule;
@@ -194,4 +194,4 @@ TEST(LiftTimes, AreThoseOfTheContactsFrom40gTo1kg) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::lift_times_test

@@ -13,7 +13,7 @@
 #include "outlets/test/fallible.h"
 #include "recording/raw_log.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::live_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -394,4 +394,4 @@ TEST(Live, EndsInAPause) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::live_test

@@ -8,7 +8,7 @@
 #include "experiment/check.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::plan_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -532,4 +532,4 @@ TEST(CheckFile, SaysWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::plan_test

@@ -12,7 +12,7 @@
 #include "experiment/session_run.h"
 #include "recording/raw_log.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::power_loss_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST(PowerLoss, AStateThatSaysCompleteHasAllFilesWheneverPowerFails) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::power_loss_test

@@ -11,7 +11,7 @@
 #include "experiment/test/reaches.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::procedures_in_tasks_test {
 namespace {
 
 /// Is what is shown turned? y, n: two tracks of different kinds.
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(
                 "kind: perturbed, procedures: [left, right], perturb: left", "by themselves"}));
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::procedures_in_tasks_test

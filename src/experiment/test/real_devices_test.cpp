@@ -11,7 +11,7 @@
 #include "experiment/session_run.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::real_devices_test {
 namespace {
 
 std::string rig_text(const std::string& backend) {
@@ -155,4 +155,4 @@ TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::real_devices_test

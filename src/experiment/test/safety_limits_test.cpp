@@ -5,7 +5,7 @@
 #include "experiment/safety_limits.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::safety_limits_test {
 namespace {
 
 constexpr const char* kScene = R"(
@@ -148,4 +148,4 @@ TEST(SafetyLimits, AreListedWithWhoSetThem) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::safety_limits_test

@@ -11,7 +11,7 @@
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::session_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -503,4 +503,4 @@ TEST(Movement, ALineInMetresIsReportedAndBridged) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::session_run_test

@@ -8,7 +8,7 @@
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::skills_test {
 namespace {
 
 using analysis::Episode;
@@ -152,4 +152,4 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::skills_test

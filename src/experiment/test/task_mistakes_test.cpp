@@ -3,7 +3,7 @@
 
 #include "experiment/test/reaches.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::task_mistakes_test {
 namespace {
 
 class BrokenFile : public ::testing::TestWithParam<Mistake> {};
@@ -98,4 +98,4 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"  blocks:\n", "  block:\n", "blocks"}));
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::task_mistakes_test

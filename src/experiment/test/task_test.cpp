@@ -14,7 +14,7 @@
 #include "recording/raw_log.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::task_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -480,4 +480,4 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::task_test

@@ -8,7 +8,7 @@
 
 #include "experiment/test/reaches.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::trials_test {
 namespace {
 
 TEST(Order, ALatinSquarePutsEachItemInEachPlaceAndAfterEachOtherEquallyOften) {
@@ -104,4 +104,4 @@ TEST(TrialQueue, DoesTrialsAgainWhereThePolicySays) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::trials_test

@@ -4,7 +4,7 @@
 
 #include "base/diagnostics.h"
 
-namespace dihaptic::hand {
+namespace dihaptic::hand::mouse_test {
 namespace {
 
 const std::vector<std::string> kPair{"thumb", "index"};
@@ -112,4 +112,4 @@ TEST(MouseDriver, RefusesFingersThatThereAreNot) {
 }
 
 }  // namespace
-}  // namespace dihaptic::hand
+}  // namespace dihaptic::hand::mouse_test

@@ -6,7 +6,7 @@
 
 #include "hand/test/reach.h"
 
-namespace dihaptic::hand {
+namespace dihaptic::hand::movement_test {
 namespace {
 
 std::string errors_of(const std::string& text) {
@@ -281,4 +281,4 @@ TEST(Movement, GivesTheFingersThatAreAskedForInTheirOrder) {
 }
 
 }  // namespace
-}  // namespace dihaptic::hand
+}  // namespace dihaptic::hand::movement_test

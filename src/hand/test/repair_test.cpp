@@ -9,7 +9,7 @@
 #include "hand/recorded.h"
 #include "hand/test/reach.h"
 
-namespace dihaptic::hand {
+namespace dihaptic::hand::repair_test {
 namespace {
 
 Path repaired(const std::vector<std::string>& lines) {
@@ -242,4 +242,4 @@ TEST(RecordedData, EveryMovementIsReadRepairedAndHasAGrasp) {
 }
 
 }  // namespace
-}  // namespace dihaptic::hand
+}  // namespace dihaptic::hand::repair_test

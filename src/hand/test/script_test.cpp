@@ -5,7 +5,7 @@
 #include "hand/finger.h"
 #include "model/minimum_jerk.h"
 
-namespace dihaptic::hand {
+namespace dihaptic::hand::script_test {
 namespace {
 
 HandSpec spec() {
@@ -155,4 +155,4 @@ TEST(Finger, StiffensWithTheForceThatItFeels) {
 }
 
 }  // namespace
-}  // namespace dihaptic::hand
+}  // namespace dihaptic::hand::script_test

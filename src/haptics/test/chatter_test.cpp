@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::chatter_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -48,4 +48,4 @@ TEST(Chatter, IsNeitherABlowNorAVibrationNorASlope) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::chatter_test

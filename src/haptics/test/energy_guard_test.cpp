@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::energy_guard_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -195,4 +195,4 @@ TEST(EnergyGuard, CanBeOff) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::energy_guard_test

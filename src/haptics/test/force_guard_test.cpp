@@ -7,7 +7,7 @@
 
 #include "haptics/soft_start.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::force_guard_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -146,4 +146,4 @@ TEST(ForceGuard, CutsToWhatTheMotorsBear) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::force_guard_test

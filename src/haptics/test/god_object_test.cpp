@@ -9,7 +9,7 @@
 #include "haptics/test/shapes.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::god_object_test {
 namespace {
 
 /// Fixed or moved by the test, with one point among them.
@@ -498,4 +498,4 @@ TEST(Move, LeavesAPointWhereAStepPinchesIt) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::god_object_test

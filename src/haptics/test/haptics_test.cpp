@@ -8,7 +8,7 @@
 #include "haptics/finger.h"
 #include "haptics/limiter.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::haptics_test {
 namespace {
 
 constexpr double kStep = 1e-3;
@@ -315,4 +315,4 @@ TEST(Coupling, DefaultDampingCancelsTheHoldOfOneSample) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::haptics_test

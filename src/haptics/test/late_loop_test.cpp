@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::late_loop_test {
 namespace {
 
 /// Whether a handle of 75 g in a hand of k_h and b_h that presses a wall of stiffness k with 1.5 N
@@ -120,4 +120,4 @@ TEST(BoundRise, IsForTheWayInWhichTheForceActs) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::late_loop_test

@@ -8,7 +8,7 @@
 #include "haptics/finger.h"
 #include "haptics/test/stops.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::rotational_coupling_test {
 namespace {
 
 constexpr double kStep = 1e-3;
@@ -258,4 +258,4 @@ TEST(RotationalCoupling, OfASoftPointFeelsTheTorsionThatItsGripHolds) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::rotational_coupling_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::safety_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -126,4 +126,4 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::safety_test

@@ -11,7 +11,7 @@
 #include "haptics/test/shapes.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::haptics::solved_point_test {
 namespace {
 
 constexpr double kTick = 1e-3;
@@ -323,4 +323,4 @@ TEST(SolvedPoint, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::haptics::solved_point_test

@@ -14,7 +14,7 @@
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::keeper::keeper_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -227,4 +227,4 @@ TEST(ForceOff, IsDoneWhereNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::keeper::keeper_test

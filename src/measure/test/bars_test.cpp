@@ -1,7 +1,7 @@
 // The bars of the default solver and of Bullet's; the others' are a soak.
 #include "measure/test/bars.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::bars_test {
 namespace {
 
 class GraspBars : public ::testing::TestWithParam<dynamics::Solver> {};
@@ -50,4 +50,4 @@ TEST(BenchGrasp, SeesWhatIsNotHeld) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::bars_test

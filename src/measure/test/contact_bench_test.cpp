@@ -9,7 +9,7 @@
 #include "recording/hdf5.h"
 #include "testing/files.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::contact_bench_test {
 namespace {
 
 using testing::TemporaryFolder;
@@ -257,4 +257,4 @@ TEST(BenchContact, AFolderWithoutProblemsIsAnError) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::contact_bench_test

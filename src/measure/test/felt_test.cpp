@@ -3,7 +3,7 @@
 
 #include "measure/grasp.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::felt_test {
 namespace {
 
 constexpr double kGravity = 9.81;
@@ -264,4 +264,4 @@ TEST(PointsTogether, ReachTheBarsOfAGrasp) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::felt_test

@@ -8,7 +8,7 @@
 #include "measure/grasp.h"
 #include "through_haply.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::haply_grasp_test {
 namespace {
 
 void expect_near(double a, double b) {
@@ -52,4 +52,4 @@ TEST(HaplyKick, MeetsAWallAsTheSimulatedDeviceDoes) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::haply_grasp_test

@@ -2,7 +2,7 @@
 // simulated devices themselves.
 #include "measure/test/makers.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::makers_test {
 namespace {
 
 class Makers : public ::testing::TestWithParam<std::string> {
@@ -70,4 +70,4 @@ TEST_P(Makers, RunsAreTheSameToTheBit) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::makers_test

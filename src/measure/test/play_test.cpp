@@ -3,7 +3,7 @@
 
 #include "measure/test/bars.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::play_test {
 namespace {
 
 TEST(Overlap, OfShapesWhoseDepthIsKnown) {
@@ -55,4 +55,4 @@ TEST_P(PlayTest, TripsTheEnergyGuardWhenTheCouplingHasNegativeDamping) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::play_test

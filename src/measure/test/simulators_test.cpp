@@ -3,7 +3,7 @@
 
 #include "measure/friction.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::simulators_test {
 namespace {
 
 std::vector<Simulator> all() {
@@ -67,4 +67,4 @@ TEST(Simulators, EndWhenTheWatcherHasSeenEnough) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::simulators_test

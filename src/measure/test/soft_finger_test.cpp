@@ -5,7 +5,7 @@
 
 #include "measure/grasp.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::soft_finger_test {
 namespace {
 
 constexpr double kGravity = 9.81;
@@ -95,4 +95,4 @@ TEST_P(SoftFinger, AnOffCentreHoldStaysLevelOrSwingsDownAsFarAsStaticsSays) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::soft_finger_test

@@ -5,7 +5,7 @@
 #include "measure/solver_problems.h"
 #include "measure/solvers.h"
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::solvers_bench_test {
 namespace {
 
 TEST(BulletProblem, IsTheSameProblem) {
@@ -48,4 +48,4 @@ TEST(BulletProblem, IsTheSameProblem) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::solvers_bench_test

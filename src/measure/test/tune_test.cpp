@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dihaptic::measure {
+namespace dihaptic::measure::tune_test {
 namespace {
 
 const std::vector<std::string> kFingers{"thumb", "index"};
@@ -119,4 +119,4 @@ TEST(Tune, TheMapShowsEverySettingAndTheProposal) {
 }
 
 }  // namespace
-}  // namespace dihaptic::measure
+}  // namespace dihaptic::measure::tune_test

@@ -7,7 +7,7 @@
 
 #include "model/learning_curve.h"
 
-namespace dihaptic::model {
+namespace dihaptic::model::adaptation_test {
 namespace {
 
 using Trials = std::vector<AdaptationTrial>;
@@ -132,4 +132,4 @@ TEST(LearningCurve, IsThatOfASingleRate) {
 }
 
 }  // namespace
-}  // namespace dihaptic::model
+}  // namespace dihaptic::model::adaptation_test

@@ -7,7 +7,7 @@
 #include "model/grasp.h"
 #include "model/minimum_jerk.h"
 
-namespace dihaptic::model {
+namespace dihaptic::model::model_test {
 namespace {
 
 TEST(MinimumJerk, StartsAndEndsAtRestWithItsPeakInTheMiddle) {
@@ -120,4 +120,4 @@ TEST(Grasp, SafetyMargin) {
 }
 
 }  // namespace
-}  // namespace dihaptic::model
+}  // namespace dihaptic::model::model_test

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 
-namespace dihaptic::model {
+namespace dihaptic::model::phantom_arm_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -135,4 +135,4 @@ TEST(PhantomArm, GravityIsTheSlopeOfPotentialEnergy) {
 }
 
 }  // namespace
-}  // namespace dihaptic::model
+}  // namespace dihaptic::model::phantom_arm_test

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace dihaptic::model {
+namespace dihaptic::model::psychometric_test {
 namespace {
 
 const std::vector<Psychometric> kFunctions = {
@@ -70,4 +70,4 @@ TEST(Psychometric, StandardDeviationIsThatOfItsDistribution) {
 }
 
 }  // namespace
-}  // namespace dihaptic::model
+}  // namespace dihaptic::model::psychometric_test

@@ -7,7 +7,7 @@
 #include "fallible.h"
 #include "outlets/station.h"
 
-namespace dihaptic::outlets {
+namespace dihaptic::outlets::conformance_test {
 namespace {
 
 const About kAbout{"2026-01-01_lift", 1000, {{"thumb_x", "m"}}};
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Conformance, ::testing::ValuesIn(names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace dihaptic::outlets
+}  // namespace dihaptic::outlets::conformance_test

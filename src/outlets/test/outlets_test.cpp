@@ -11,7 +11,7 @@
 #include "testing/allocation_guard.h"
 #include "testing/far_end.h"
 
-namespace dihaptic::outlets {
+namespace dihaptic::outlets::outlets_test {
 namespace {
 
 using testing::FarEnd;
@@ -212,4 +212,4 @@ TEST(Kinds, RefuseWhatTheyDoNotKnow) {
 }
 
 }  // namespace
-}  // namespace dihaptic::outlets
+}  // namespace dihaptic::outlets::outlets_test

@@ -79,8 +79,8 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-TEST(Population, OfEightyAdaptsAndDiffersAsPeopleDo) {
-    const People people = population(80, true);
+TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
+    const People people = population(200, true);
     for (size_t f = 0; f < kFigures.size(); ++f) {
         const double m = mean(people.figures[f]);
         const double sd = deviation(people.figures[f]);

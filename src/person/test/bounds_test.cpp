@@ -3,7 +3,7 @@
 #include "person/traits.h"
 #include "testing/bounds.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::bounds_test {
 namespace {
 
 TEST(Bounds, AreOfEveryTrait) {
@@ -15,4 +15,4 @@ TEST(Bounds, AreOfEveryTrait) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::bounds_test

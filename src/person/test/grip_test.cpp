@@ -10,7 +10,7 @@
 #include "model/grasp.h"
 #include "person/test/sitting.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::grip_test {
 namespace {
 
 /// An object of 2 N that is held, as the fingers feel it.
@@ -285,4 +285,4 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::grip_test

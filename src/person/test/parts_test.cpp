@@ -9,7 +9,7 @@
 #include "person/rotation_memory.h"
 #include "person/strokes.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::parts_test {
 namespace {
 
 TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
@@ -129,4 +129,4 @@ TEST(GripMemory, LearnsAMassAlongTheAxisThatItWasCarried) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::parts_test

@@ -7,7 +7,7 @@
 
 #include "testing/files.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::population_test {
 namespace {
 
 /// A file over the shipped one.
@@ -138,4 +138,4 @@ TEST(Population, IsNotBasedOnItselfByAWayAround) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::population_test

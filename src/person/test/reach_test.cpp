@@ -6,7 +6,7 @@
 #include "analysis/session_report.h"
 #include "person/test/reaches.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::reach_test {
 namespace {
 
 TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndTheClamp) {
@@ -212,4 +212,4 @@ TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScale
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::reach_test

@@ -15,7 +15,7 @@
 #include "person/test/sitting.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::session_test {
 namespace {
 
 constexpr const char* kShort = R"(  blocks:
@@ -225,4 +225,4 @@ TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::session_test

@@ -8,7 +8,7 @@
 #include "base/field_reader.h"
 #include "base/field_writer.h"
 
-namespace dihaptic::person {
+namespace dihaptic::person::traits_test {
 namespace {
 
 TEST(Traits, OfAPersonAreTheSameWhoeverElseIsDrawn) {
@@ -58,4 +58,4 @@ TEST(Traits, GripHarderAndLearnWeightsMoreSlowlyThroughADevice) {
 }
 
 }  // namespace
-}  // namespace dihaptic::person
+}  // namespace dihaptic::person::traits_test

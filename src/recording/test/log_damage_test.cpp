@@ -1,6 +1,6 @@
 #include "recording/test/log_damage.h"
 
-namespace dihaptic::recording {
+namespace dihaptic::recording::log_damage_test {
 namespace {
 
 TEST(DamagedLog, WhateverIsNotWhereItWasWrittenIsTold) {
@@ -152,4 +152,4 @@ TEST(OldLog, TellsOfWhatIsDoubledGoneElsewhereOrBehindItsEnd) {
 }
 
 }  // namespace
-}  // namespace dihaptic::recording
+}  // namespace dihaptic::recording::log_damage_test

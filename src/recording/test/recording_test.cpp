@@ -7,7 +7,7 @@
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 
-namespace dihaptic::recording {
+namespace dihaptic::recording::recording_test {
 namespace {
 
 LogHead head() {
@@ -385,4 +385,4 @@ TEST(Recorder, InAThreadCountsWhatItHadToDrop) {
 }
 
 }  // namespace
-}  // namespace dihaptic::recording
+}  // namespace dihaptic::recording::recording_test

@@ -7,7 +7,7 @@
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
-namespace dihaptic::recording {
+namespace dihaptic::recording::session_test {
 namespace {
 
 TEST(SessionFolder, NamesAreUniqueAndTidy) {
@@ -143,4 +143,4 @@ TEST(Session, TimesCarryTheirOffset) {
 }
 
 }  // namespace
-}  // namespace dihaptic::recording
+}  // namespace dihaptic::recording::session_test

@@ -7,7 +7,7 @@
 
 #include "testing/files.h"
 
-namespace dihaptic::recording {
+namespace dihaptic::recording::showings_test {
 namespace {
 
 TEST(Showings, AChangeWasSeenFromTheFirstPictureOnThatIsOfItsTickOrALaterOne) {
@@ -43,4 +43,4 @@ TEST(Showings, ALineThatAKillCutIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace dihaptic::recording
+}  // namespace dihaptic::recording::showings_test

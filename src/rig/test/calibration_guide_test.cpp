@@ -10,7 +10,7 @@
 #include "devices/test/fakes.h"
 #include "testing/files.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::calibration_guide_test {
 namespace {
 
 constexpr double kLink = 0.05;       // [m]
@@ -224,4 +224,4 @@ TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::calibration_guide_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::calibration_run_test {
 namespace {
 
 const auto kGoOn = [](double) { return true; };
@@ -101,4 +101,4 @@ TEST(CalibrationRun, NeedsSimulatedDevicesForASimulatedHand) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::calibration_run_test

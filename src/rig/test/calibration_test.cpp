@@ -9,7 +9,7 @@
 #include "base/field_writer.h"
 #include "base/random.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::calibration_test {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -361,4 +361,4 @@ TEST(Correction, SlopeIsThatOfItsPositions) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::calibration_test

@@ -6,7 +6,7 @@
 
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::corrected_devices_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -133,4 +133,4 @@ TEST(CorrectedDevices, AllocateNothingInTheCycle) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::corrected_devices_test

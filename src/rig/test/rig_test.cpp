@@ -5,7 +5,7 @@
 #include "base/field_writer.h"
 #include "testing/files.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::rig_test {
 namespace {
 
 std::string problems_of(const std::string& yaml) {
@@ -186,4 +186,4 @@ TEST(RigFile, SaysWhichFingerHasNoDevice) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::rig_test

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::rig::workspace_test {
 namespace {
 
 const auto kGoOn = [](double) { return true; };
@@ -153,4 +153,4 @@ TEST(WorkspacePicture, NamesWhatItShows) {
 }
 
 }  // namespace
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::rig::workspace_test

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "testing/files.h"
 
-namespace dihaptic::scene {
+namespace dihaptic::scene::concave_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ TEST(Compound, PartsThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace dihaptic::scene
+}  // namespace dihaptic::scene::concave_test

@@ -6,7 +6,7 @@
 
 #include "scene/test/mutated_mesh.h"
 
-namespace dihaptic::scene {
+namespace dihaptic::scene::mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ TEST(MeshReading, CanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace dihaptic::scene
+}  // namespace dihaptic::scene::mesh_test

@@ -8,7 +8,7 @@
 #include "scene/mesh.h"
 #include "testing/files.h"
 
-namespace dihaptic::scene {
+namespace dihaptic::scene::scene_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -327,4 +327,4 @@ TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
 }
 
 }  // namespace
-}  // namespace dihaptic::scene
+}  // namespace dihaptic::scene::scene_test

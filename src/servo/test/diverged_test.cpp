@@ -7,7 +7,7 @@
 #include "planted.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::diverged_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -248,4 +248,4 @@ TEST(ADivergedWorld, IsMendedWhenTheSessionGoesOn) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::diverged_test

@@ -8,7 +8,7 @@
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::faults_test {
 namespace {
 
 enum class Injected { nan, gone, jump, late };
@@ -139,4 +139,4 @@ TEST(FaultsInRealTime, ACallThatBlocksLeavesNoForceInTheNextTick) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::faults_test

@@ -6,7 +6,7 @@
 #include "lift.h"
 #include "servo/run.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::haply_faults_test {
 namespace {
 
 using devices::haply::FakeService;
@@ -115,4 +115,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{Mischief::closes, haptics::FaultKind::not_answering}));
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::haply_faults_test

@@ -15,7 +15,7 @@
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::late_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -321,4 +321,4 @@ TEST(Late, ASessionThatGoesOnAfterItBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::late_test

@@ -10,7 +10,7 @@
 #include "lift.h"
 #include "servo/run.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::makers_faults_test {
 namespace {
 
 using devices::forcedimension::FakeDhd;
@@ -272,4 +272,4 @@ TEST_P(LateStopped, ACallThatBlocksIsNotWaitedFor) {
 INSTANTIATE_TEST_SUITE_P(Servo, LateStopped, ::testing::Values("forcedimension"));
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::makers_faults_test

@@ -6,7 +6,7 @@
 #include "servo/run.h"
 #include "turning_bar.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::makers_torque_test {
 namespace {
 
 struct Turned {
@@ -67,4 +67,4 @@ TEST_P(MakersTorque, IsThatOfASimulatedDeviceWhereverItStands) {
 INSTANTIATE_TEST_SUITE_P(Servo, MakersTorque, ::testing::Values("openhaptics", "forcedimension"));
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::makers_torque_test

@@ -8,7 +8,7 @@
 #include "testing/allocation_guard.h"
 #include "turning_bar.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::orientation_test {
 namespace {
 
 /// turning_bar() by simulated devices.
@@ -204,4 +204,4 @@ TEST(Orientation, IsWatchedByTheEnergyGuard) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::orientation_test

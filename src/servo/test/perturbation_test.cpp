@@ -9,7 +9,7 @@
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::perturbation_test {
 namespace {
 
 constexpr double kMass = 0.2;
@@ -337,4 +337,4 @@ TEST(Perturbation, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::perturbation_test

@@ -9,7 +9,7 @@
 #include "planted.h"
 #include "testing/quiet_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::quiet_test {
 namespace {
 
 using testing::QuietGuard;
@@ -94,4 +94,4 @@ TEST(QuietGuard, SeesALockAnExceptionAndACall) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::quiet_test

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <optional>
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::real_time_test {
 namespace {
 
 TEST(Pace, KeepsPhaseAndLeavesOutWhatALateTickMissed) {
@@ -120,4 +120,4 @@ TEST(RealTime, GivesBackWhatItWasGranted) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::real_time_test

@@ -4,7 +4,7 @@
 #include "planted.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::resume_test {
 namespace {
 
 /// What ends force, and what is planted for it.
@@ -142,4 +142,4 @@ TEST(ForceAfterAFault, StaysOffWhileDevicesRefuse) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::resume_test

@@ -8,7 +8,7 @@
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::safety_test {
 namespace {
 
 struct Session {
@@ -370,4 +370,4 @@ TEST(EnergyGuard, TamesACouplingThatWouldShakeTheHand) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::safety_test

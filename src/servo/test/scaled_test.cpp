@@ -5,7 +5,7 @@
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::scaled_test {
 namespace {
 
 constexpr double kStiffness = 800;  // of the coupling, and so of a wall [N/m]
@@ -103,4 +103,4 @@ TEST(ScaledRig, LimitsAreThoseOfTheHandsForce) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::scaled_test

@@ -10,7 +10,7 @@
 #include "servo/run.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::servo_test {
 namespace {
 
 /// Two fingers that close on a block on a table, and lift it.
@@ -466,4 +466,4 @@ TEST(Run, IsPacedByDevicesThatDoAndTimeIsThatOfTheirTicks) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::servo_test

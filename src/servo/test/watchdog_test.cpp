@@ -9,7 +9,7 @@
 #include "lift.h"
 #include "servo/run.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::watchdog_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -183,4 +183,4 @@ TEST(WatchdogInRealTime, SaysWhenTheLoopIsStuckForGood) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::watchdog_test

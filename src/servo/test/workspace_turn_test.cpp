@@ -10,7 +10,7 @@
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::servo::workspace_turn_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -325,4 +325,4 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::servo::workspace_turn_test

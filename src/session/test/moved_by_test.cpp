@@ -7,7 +7,7 @@
 #include "analysis/report/report.h"
 #include "session/test/sessions.h"
 
-namespace dihaptic::session {
+namespace dihaptic::session::moved_by_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ TEST(SimulatedId, CannotBeTakenForAPersons) {
 }
 
 }  // namespace
-}  // namespace dihaptic::session
+}  // namespace dihaptic::session::moved_by_test

@@ -3,7 +3,7 @@
 
 #include "session/test/sessions.h"
 
-namespace dihaptic::session {
+namespace dihaptic::session::resume_test {
 namespace {
 
 using experiment::Seat;
@@ -97,4 +97,4 @@ TEST(Unfinished, SessionsOfTheParticipantAreFoundUntilOneGoesOnWithThem) {
 }
 
 }  // namespace
-}  // namespace dihaptic::session
+}  // namespace dihaptic::session::resume_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dihaptic::view {
+namespace dihaptic::view::camera_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -102,4 +102,4 @@ TEST(Camera, EverySceneHasFrontAboveAndSideAndAFileMayReplaceThem) {
 }
 
 }  // namespace
-}  // namespace dihaptic::view
+}  // namespace dihaptic::view::camera_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace dihaptic::view {
+namespace dihaptic::view::colours_test {
 namespace {
 
 /// Colours as persons without red (protanopia) or green cones (deuteranopia) see them: Machado,
@@ -57,4 +57,4 @@ TEST(Colours, BodiesWithoutOneGetOneEach) {
 }
 
 }  // namespace
-}  // namespace dihaptic::view
+}  // namespace dihaptic::view::colours_test

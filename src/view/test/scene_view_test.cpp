@@ -8,7 +8,7 @@
 
 #include "software_renderer.h"
 
-namespace dihaptic::view {
+namespace dihaptic::view::scene_view_test {
 namespace {
 
 scene::Body box(const char* name, const Vec3& size, const Vec3& position) {
@@ -379,4 +379,4 @@ TEST(Image, IsWrittenWholeOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace dihaptic::view
+}  // namespace dihaptic::view::scene_view_test

@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-namespace dihaptic::view {
+namespace dihaptic::view::triangles_test {
 namespace {
 
 scene::VolumeIntegrals solid(const Triangles& t) {
@@ -92,4 +92,4 @@ TEST(Triangles, ATubeFollowsItsPathThroughTurnsAndBack) {
 }
 
 }  // namespace
-}  // namespace dihaptic::view
+}  // namespace dihaptic::view::triangles_test

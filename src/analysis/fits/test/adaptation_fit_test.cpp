@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/random.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::adaptation_fit_test {
 namespace {
 
 using model::AdaptationTrial;
@@ -172,4 +172,4 @@ TEST(AdaptationFit, RefusesTooLittle) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::adaptation_fit_test

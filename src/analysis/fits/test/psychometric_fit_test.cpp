@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/random.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::psychometric_fit_test {
 namespace {
 
 using model::Psychometric;
@@ -220,4 +220,4 @@ TEST(PsychometricFit, RefusesWhatCannotBeFitted) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::psychometric_fit_test

@@ -10,7 +10,7 @@
 #include "base/table.h"
 #include "testing/files.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::two_rate_fit_test {
 namespace {
 
 TEST(TwoRateFit, IsTheLeastOfAllStarts) {
@@ -51,4 +51,4 @@ TEST(TwoRateFit, ReproducesOrBettersThePublishedFitsOf32People) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::two_rate_fit_test

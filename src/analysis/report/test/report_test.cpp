@@ -16,7 +16,7 @@
 #include "base/random.h"
 #include "testing/files.h"
 
-namespace dihaptic::analysis {
+namespace dihaptic::analysis::report_test {
 namespace {
 
 TEST(Statistics, OfAKnownSample) {
@@ -390,4 +390,4 @@ TEST(Report, OfNothingSaysSo) {
 }
 
 }  // namespace
-}  // namespace dihaptic::analysis
+}  // namespace dihaptic::analysis::report_test

@@ -6,7 +6,7 @@
 #include "devices/test/making.h"
 #include "fake_dhd.h"
 
-namespace dihaptic::devices::forcedimension {
+namespace dihaptic::devices::forcedimension::forcedimension_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -364,4 +364,4 @@ TEST(ForceDimension, SurveysWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::forcedimension
+}  // namespace dihaptic::devices::forcedimension::forcedimension_test

@@ -9,7 +9,7 @@
 #include "devices/haply/test/numbered_run.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::devices::haply {
+namespace dihaptic::devices::haply::haply_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -453,4 +453,4 @@ TEST_F(Haply, CanBeStoppedWhileItWaits) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::haply
+}  // namespace dihaptic::devices::haply::haply_test

@@ -6,7 +6,7 @@
 #include "devices/test/making.h"
 #include "fake_hd.h"
 
-namespace dihaptic::devices::openhaptics {
+namespace dihaptic::devices::openhaptics::openhaptics_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -444,4 +444,4 @@ TEST(FakeHd, RefusesFramesThatAreMixedUp) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::openhaptics
+}  // namespace dihaptic::devices::openhaptics::openhaptics_test

@@ -8,7 +8,7 @@
 #include "devices/device_group.h"
 #include "testing/allocation_guard.h"
 
-namespace dihaptic::devices::simulated {
+namespace dihaptic::devices::simulated::arm_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -180,4 +180,4 @@ TEST(SimulatedArm, SaysThatAPointHasNoJoints) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::simulated
+}  // namespace dihaptic::devices::simulated::arm_test

@@ -6,7 +6,7 @@
 
 #include "devices/device_group.h"
 
-namespace dihaptic::devices::simulated {
+namespace dihaptic::devices::simulated::plant_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -242,4 +242,4 @@ TEST(SimulatedGroup, ReadsOrientationAndWritesTorqueInTheDevicesFrame) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::simulated
+}  // namespace dihaptic::devices::simulated::plant_test

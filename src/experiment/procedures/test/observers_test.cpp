@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "experiment/procedures/procedure.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::observers_test {
 namespace {
 
 constexpr int kObservers = 200;
@@ -124,4 +124,4 @@ TEST(Observers, Quest) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::observers_test

@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/random.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::procedure_test {
 namespace {
 
 const model::Psychometric kObserver{model::Sigmoid::weibull_log10, -0.9, 3.5, 0.5, 0.005};
@@ -134,4 +134,4 @@ TEST_P(AnyProcedure, RefusesWhatIsNoAnswer) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::procedure_test

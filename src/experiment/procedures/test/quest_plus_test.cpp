@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/random.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::quest_plus_test {
 namespace {
 
 std::vector<double> range(double first, double last, double step = 1) {
@@ -193,4 +193,4 @@ TEST(QuestPlus, RefusesSettingsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::quest_plus_test

@@ -8,7 +8,7 @@
 
 #include "base/diagnostics.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::quest_test {
 namespace {
 
 TEST(Quest, RepeatsTheRunOfTheReferenceImplementation) {
@@ -66,4 +66,4 @@ TEST(Quest, RefusesSettingsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::quest_test

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "model/psychometric.h"
 
-namespace dihaptic::experiment {
+namespace dihaptic::experiment::staircase_test {
 namespace {
 
 /// Levels of the trials that these answers ('1' for "yes") lead to, and the one after them.
@@ -123,4 +123,4 @@ TEST(Staircase, RefusesSettingsThatMeanNothing) {
 }
 
 }  // namespace
-}  // namespace dihaptic::experiment
+}  // namespace dihaptic::experiment::staircase_test
