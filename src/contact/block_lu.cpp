@@ -10,6 +10,14 @@ namespace {
 constexpr size_t kBlocksPerNode = 24;
 constexpr size_t kWordBits = 64;
 
+/// Of a bit set of nodes.
+size_t word_of(int node) noexcept {
+    return static_cast<size_t>(node) / kWordBits;
+}
+uint64_t bit_of(int node) noexcept {
+    return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
+}
+
 /// In place, by Gauss-Jordan elimination on columns, which lie together in memory, with pivoting.
 void invert(BlockLu::Block& A) noexcept {
     BlockLu::Block inverse = BlockLu::Block::Identity();
@@ -61,7 +69,20 @@ bool BlockLu::same_pattern(int nodes, std::span<const std::pair<int, int>> edges
 
 bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept {
     if (same_pattern(nodes, edges)) return true;
-    for (size_t k = 0; k < order_.size(); ++k) {  // forget the last pattern
+    forget_pattern();
+    if (nodes > capacity_ || edges.size() > edges_.capacity()) return false;
+    connect(nodes, edges);
+    later_begin_.push_back(0);
+    for (int k = 0; k < nodes; ++k) {
+        if (!eliminate(least_connected(nodes))) return false;
+    }
+    nodes_ = nodes;
+    edges_.assign(edges.begin(), edges.end());
+    return true;
+}
+
+void BlockLu::forget_pattern() noexcept {
+    for (size_t k = 0; k < order_.size(); ++k) {
         const int i = order_[k];
         slot_of(i, i) = -1;
         for (size_t l = later_begin_[k]; l < later_begin_[k + 1]; ++l) {
@@ -73,68 +94,69 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges) noe
     later_begin_.clear();
     nodes_ = 0;
     used_ = 0;
-    if (nodes > capacity_ || edges.size() > edges_.capacity()) return false;
+}
 
-    const size_t words = (static_cast<size_t>(nodes) + kWordBits - 1) / kWordBits;
-    const auto bit = [](int node) {
-        return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
-    };
-    const auto word = [](int node) { return static_cast<size_t>(node) / kWordBits; };
+void BlockLu::connect(int nodes, std::span<const std::pair<int, int>> edges) noexcept {
+    used_words_ = (static_cast<size_t>(nodes) + kWordBits - 1) / kWordBits;
     for (int i = 0; i < nodes; ++i) {
-        std::fill_n(neighbours(i), words, 0);
+        std::fill_n(neighbours(i), used_words_, 0);
         eliminated_[static_cast<size_t>(i)] = 0;
     }
     for (const auto& [a, b] : edges) {
-        neighbours(a)[word(b)] |= bit(b);
-        neighbours(b)[word(a)] |= bit(a);
+        neighbours(a)[word_of(b)] |= bit_of(b);
+        neighbours(b)[word_of(a)] |= bit_of(a);
     }
-    const auto count = [&](int node) {
-        int degree = 0;
-        for (size_t w = 0; w < words; ++w) degree += std::popcount(neighbours(node)[w]);
-        return degree;
-    };
-    for (int i = 0; i < nodes; ++i) degree_[static_cast<size_t>(i)] = count(i);
+    for (int i = 0; i < nodes; ++i) degree_[static_cast<size_t>(i)] = degree_of(i);
+}
 
-    later_begin_.push_back(0);
-    for (int k = 0; k < nodes; ++k) {
-        int least = -1;
-        for (int i = 0; i < nodes; ++i) {
-            const auto at = static_cast<size_t>(i);
-            if (eliminated_[at] == 0 &&
-                (least < 0 || degree_[at] < degree_[static_cast<size_t>(least)])) {
-                least = i;
-            }
-        }
-        eliminated_[static_cast<size_t>(least)] = 1;
-        order_.push_back(least);
-        const size_t begin = later_.size();
-        for (size_t w = 0; w < words; ++w) {
-            for (uint64_t rest = neighbours(least)[w]; rest != 0; rest &= rest - 1) {
-                if (later_.size() == later_.capacity()) {
-                    order_.pop_back();
-                    return false;
-                }
-                later_.push_back(static_cast<int>(w * kWordBits) + std::countr_zero(rest));
-            }
-        }
-        later_begin_.push_back(later_.size());
-        const size_t needed = 1 + 2 * (later_.size() - begin);
-        if (static_cast<size_t>(used_) + needed > blocks_.size()) return false;
-        slot_of(least, least) = used_++;
-        for (size_t l = begin; l < later_.size(); ++l) {
-            const int j = later_[l];
-            slot_of(least, j) = used_++;
-            slot_of(j, least) = used_++;
-            // its neighbours now touch each other
-            uint64_t* of_j = neighbours(j);
-            for (size_t w = 0; w < words; ++w) of_j[w] |= neighbours(least)[w];
-            of_j[word(j)] &= ~bit(j);
-            of_j[word(least)] &= ~bit(least);
-            degree_[static_cast<size_t>(j)] = count(j);
+int BlockLu::degree_of(int node) noexcept {
+    int degree = 0;
+    for (size_t w = 0; w < used_words_; ++w) degree += std::popcount(neighbours(node)[w]);
+    return degree;
+}
+
+/// Of those left, the first with the fewest neighbours (minimum degree).
+int BlockLu::least_connected(int nodes) const noexcept {
+    int least = -1;
+    for (int i = 0; i < nodes; ++i) {
+        const auto at = static_cast<size_t>(i);
+        if (eliminated_[at] == 0 &&
+            (least < 0 || degree_[at] < degree_[static_cast<size_t>(least)])) {
+            least = i;
         }
     }
-    nodes_ = nodes;
-    edges_.assign(edges.begin(), edges.end());
+    return least;
+}
+
+/// Its neighbours now touch each other: where that fills in, blocks are given. False: there is no
+/// more memory.
+bool BlockLu::eliminate(int node) noexcept {
+    eliminated_[static_cast<size_t>(node)] = 1;
+    order_.push_back(node);
+    const size_t begin = later_.size();
+    for (size_t w = 0; w < used_words_; ++w) {
+        for (uint64_t rest = neighbours(node)[w]; rest != 0; rest &= rest - 1) {
+            if (later_.size() == later_.capacity()) {
+                order_.pop_back();
+                return false;
+            }
+            later_.push_back(static_cast<int>(w * kWordBits) + std::countr_zero(rest));
+        }
+    }
+    later_begin_.push_back(later_.size());
+    const size_t needed = 1 + 2 * (later_.size() - begin);
+    if (static_cast<size_t>(used_) + needed > blocks_.size()) return false;
+    slot_of(node, node) = used_++;
+    for (size_t l = begin; l < later_.size(); ++l) {
+        const int j = later_[l];
+        slot_of(node, j) = used_++;
+        slot_of(j, node) = used_++;
+        uint64_t* of_j = neighbours(j);
+        for (size_t w = 0; w < used_words_; ++w) of_j[w] |= neighbours(node)[w];
+        of_j[word_of(j)] &= ~bit_of(j);
+        of_j[word_of(node)] &= ~bit_of(node);
+        degree_[static_cast<size_t>(j)] = degree_of(j);
+    }
     return true;
 }
 

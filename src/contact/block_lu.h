@@ -39,6 +39,11 @@ class BlockLu {
 
   private:
     bool same_pattern(int nodes, std::span<const std::pair<int, int>> edges) const noexcept;
+    void forget_pattern() noexcept;
+    void connect(int nodes, std::span<const std::pair<int, int>> edges) noexcept;
+    int degree_of(int node) noexcept;
+    int least_connected(int nodes) const noexcept;
+    bool eliminate(int node) noexcept;
     int& slot_of(int row, int column) noexcept {
         return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
                      static_cast<size_t>(column)];
@@ -48,7 +53,8 @@ class BlockLu {
     }
 
     int capacity_ = 0;
-    size_t words_ = 0;  // of a row of adjacency_
+    size_t words_ = 0;       // of a row of adjacency_
+    size_t used_words_ = 0;  // of those, what the pattern's nodes need
     int nodes_ = 0;
     int used_ = 0;
     std::vector<std::pair<int, int>> edges_;  // the pattern analysed

@@ -55,59 +55,67 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
     }
     for (size_t j = 0; j < contacts; ++j) {
         const ProblemContact& contact = problem.contacts[j];
-        ContactRows& row = rows_[j];
-        row.a = contact.a;
-        row.b = contact.b;
-        Vec diagonal = Vec::Zero();
-        row.q.setZero();
-        const auto fill = [&](Ht& H_t, int index, const Vec3& arm, double sign) {
-            if (index == kFixed) {
-                H_t.setZero();
-                return;
-            }
-            const ProblemBody& body = problem.bodies[static_cast<size_t>(index)];
-            const auto& L = root_[static_cast<size_t>(index)];
-            const Row<D> J = sign * contact_row<D>(contact, arm);
-            H_t.template topRows<3>().noalias() =
-                L.template topLeftCorner<3, 3>().transpose() * J.template leftCols<3>().transpose();
-            H_t.template bottomRows<3>().noalias() =
-                L.template bottomRightCorner<3, 3>().transpose() *
-                J.template rightCols<3>().transpose();
-            diagonal += H_t.colwise().squaredNorm().transpose();
-            row.q.noalias() += J.template leftCols<3>() * body.v_W;
-            row.q.noalias() += J.template rightCols<3>() * body.w_W;
-        };
-        fill(row.Ht_a, contact.a, contact.p_AC_W, -1);
-        fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
-        row.q[0] += contact.bias;
-        const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
-        const double mean = diagonal.sum() / rows;
-        row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
-        row.Ht_a *= row.unit;
-        row.Ht_b *= row.unit;
-        row.q *= row.unit;
-        row.law.mu = contact.friction;
-        // one sum has what is no number, or would overflow, in any of its parts
-        finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
-        const double normal = diagonal[0] * row.unit * row.unit;
-        const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
-        row.law.a_n = normal > 0 ? 1 / normal : 1;
-        row.law.a_t = tangent > 0 ? 1 / tangent : 1;
+        assemble_row(problem, contact, rows_[j]);
         if (contact.a != kFixed && contact.b != kFixed) {
             const std::pair<int, int> edge = std::minmax(contact.a, contact.b);
             if (edges_.empty() || edges_.back() != edge) edges_.push_back(edge);
         }
     }
     if (!lu_.analyse(static_cast<int>(bodies), edges_)) return false;
-    for (ContactRows& row : rows_) {
-        if (row.a != kFixed) row.aa = lu_.slot(row.a, row.a);
-        if (row.b != kFixed) row.bb = lu_.slot(row.b, row.b);
-        if (row.a != kFixed && row.b != kFixed) {
-            row.ab = lu_.slot(row.a, row.b);
-            row.ba = lu_.slot(row.b, row.a);
-        }
-    }
+    for (ContactRows& row : rows_) find_blocks(row);
     return true;
+}
+
+template <int Dim>
+void BodySystem<Dim>::find_blocks(ContactRows& row) const noexcept {
+    if (row.a != kFixed) row.aa = lu_.slot(row.a, row.a);
+    if (row.b != kFixed) row.bb = lu_.slot(row.b, row.b);
+    if (row.a != kFixed && row.b != kFixed) {
+        row.ab = lu_.slot(row.a, row.b);
+        row.ba = lu_.slot(row.b, row.a);
+    }
+}
+
+/// A contact's rows, scaled so that their mean diagonal is 1.
+template <int Dim>
+void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemContact& contact,
+                                   ContactRows& row) noexcept {
+    row.a = contact.a;
+    row.b = contact.b;
+    Vec diagonal = Vec::Zero();
+    row.q.setZero();
+    const auto fill = [&](Ht& H_t, int index, const Vec3& arm, double sign) {
+        if (index == kFixed) {
+            H_t.setZero();
+            return;
+        }
+        const ProblemBody& body = problem.bodies[static_cast<size_t>(index)];
+        const auto& L = root_[static_cast<size_t>(index)];
+        const Row<D> J = sign * contact_row<D>(contact, arm);
+        H_t.template topRows<3>().noalias() =
+            L.template topLeftCorner<3, 3>().transpose() * J.template leftCols<3>().transpose();
+        H_t.template bottomRows<3>().noalias() = L.template bottomRightCorner<3, 3>().transpose() *
+                                                 J.template rightCols<3>().transpose();
+        diagonal += H_t.colwise().squaredNorm().transpose();
+        row.q.noalias() += J.template leftCols<3>() * body.v_W;
+        row.q.noalias() += J.template rightCols<3>() * body.w_W;
+    };
+    fill(row.Ht_a, contact.a, contact.p_AC_W, -1);
+    fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
+    row.q[0] += contact.bias;
+    const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
+    const double mean = diagonal.sum() / rows;
+    row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
+    row.Ht_a *= row.unit;
+    row.Ht_b *= row.unit;
+    row.q *= row.unit;
+    row.law.mu = contact.friction;
+    // one sum has what is no number, or would overflow, in any of its parts
+    finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
+    const double normal = diagonal[0] * row.unit * row.unit;
+    const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
+    row.law.a_n = normal > 0 ? 1 / normal : 1;
+    row.law.a_t = tangent > 0 ? 1 / tangent : 1;
 }
 
 template <int Dim>

@@ -75,6 +75,9 @@ class BodySystem {
         int aa = -1, bb = -1, ab = -1, ba = -1;  // blocks of the matrix of bodies
     };
 
+    void assemble_row(const ContactProblem& problem, const ProblemContact& contact,
+                      ContactRows& row) noexcept;
+    void find_blocks(ContactRows& row) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
     /// y += H' r of one contact.
     void apply(const ContactRows& row, const Vec& r) noexcept {

@@ -154,8 +154,32 @@ void Lemke::read_solution() noexcept {
 
 bool Lemke::try_last_basis() noexcept {
     const auto m = static_cast<int>(last_basis_.size());
-    if (m == 0) return false;
-    // Gaussian elimination in memory of our own: Eigen's factorisations would allocate
+    if (m == 0 || !solve_last_basis(m)) return false;
+    double size = 0;
+    for (int i = 0; i < n_; ++i) size = std::max(size, std::abs(q(i)));
+    const double small = 1e-12 * size;
+    for (int i = 0; i < m; ++i) {
+        if (right_[static_cast<size_t>(i)] < -small) return false;
+    }
+    for (int i = 0; i < n_; ++i) {
+        double sum = q(i);
+        for (int j = 0; j < m; ++j)
+            sum += M(i, last_basis_[static_cast<size_t>(j)]) * right_[static_cast<size_t>(j)];
+        if (sum < -small) return false;
+        w_[static_cast<size_t>(i)] = sum;
+    }
+    std::fill_n(z_.begin(), static_cast<size_t>(n_), 0.0);
+    for (int i = 0; i < m; ++i) {
+        const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
+        z_[variable] = std::max(0.0, right_[static_cast<size_t>(i)]);
+        w_[variable] = 0;
+    }
+    return true;
+}
+
+/// Leaves the values of the last basis in right_. By Gaussian elimination in memory of our own:
+/// Eigen's factorisations would allocate. False: the basis is singular.
+bool Lemke::solve_last_basis(int m) noexcept {
     const auto at = [&](int i, int j) -> double& {
         return tableau_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];
     };
@@ -185,25 +209,6 @@ bool Lemke::try_last_basis() noexcept {
         double sum = right_[static_cast<size_t>(k)];
         for (int j = k + 1; j < m; ++j) sum -= at(k, j) * right_[static_cast<size_t>(j)];
         right_[static_cast<size_t>(k)] = sum / at(k, k);
-    }
-    double size = 0;
-    for (int i = 0; i < n_; ++i) size = std::max(size, std::abs(q(i)));
-    const double small = 1e-12 * size;
-    for (int i = 0; i < m; ++i) {
-        if (right_[static_cast<size_t>(i)] < -small) return false;
-    }
-    for (int i = 0; i < n_; ++i) {
-        double sum = q(i);
-        for (int j = 0; j < m; ++j)
-            sum += M(i, last_basis_[static_cast<size_t>(j)]) * right_[static_cast<size_t>(j)];
-        if (sum < -small) return false;
-        w_[static_cast<size_t>(i)] = sum;
-    }
-    std::fill_n(z_.begin(), static_cast<size_t>(n_), 0.0);
-    for (int i = 0; i < m; ++i) {
-        const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
-        z_[variable] = std::max(0.0, right_[static_cast<size_t>(i)]);
-        w_[variable] = 0;
     }
     return true;
 }

@@ -32,6 +32,7 @@ class Lemke {
     /// Tries the set of variables that were positive in the last solution, whatever M and q are
     /// now. False: it is none of this problem.
     bool try_last_basis() noexcept;
+    bool solve_last_basis(int m) noexcept;
 
     int pivots() const noexcept { return pivots_; }
 

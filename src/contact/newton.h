@@ -109,6 +109,179 @@ constexpr auto kNewtonStarts = [] {
     return out;
 }();
 
+/// proximal_newton() at work: r is where it is, memory.r_k where the proximal step began.
+template <class System, class Law, class Measure>
+class ProximalNewton {
+  public:
+    using Vec = typename System::Vec;
+
+    ProximalNewton(System& system, const Law& law, std::span<Vec> r, double tolerance,
+                   NewtonMemory<System>& memory, const Measure& measure)
+        : system_(system),
+          law_(law),
+          r_(r),
+          tolerance_(tolerance),
+          memory_(memory),
+          measure_(measure),
+          most_iterations_(static_cast<int>(kMostWork / std::max<size_t>(system.size(), 1))) {
+        memory.resize(system.size());
+    }
+
+    Outcome solve(std::span<const NewtonStart> starts) {
+        std::copy(r_.begin(), r_.end(), memory_.best.begin());
+        judge();
+        for (const NewtonStart& start : starts) {
+            if (out_.converged || out_.iterations >= most_iterations_ || begin(start)) break;
+            take_steps(start);
+            out_.converged = out_.converged || out_.residual <= kSafe * tolerance_;
+        }
+        out_.converged = out_.converged || out_.residual <= tolerance_;
+        if (!is_best_) {
+            std::copy(memory_.best.begin(), memory_.best.end(), r_.begin());
+            system_.velocity(r_, memory_.u);
+        }
+        return out_;
+    }
+
+  private:
+    static constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
+    static constexpr double kLeastRho = 1e-7;
+    static constexpr double kMostRho = 1.0;
+    static constexpr double kRhoOfResidual = 0.3;
+    static constexpr double kReduced = 0.05;  // of the squared error
+    static constexpr double kReducedMuch = 1e-4;
+    static constexpr double kGrown = 4;
+    static constexpr int kFewSteps = 4;
+    static constexpr int kRescueSweeps = 5;
+    static constexpr double kScatter = 0.3;  // of |q|
+    // contacts times steps, of all starts: a heap that jams must not stop the tick for long
+    static constexpr size_t kMostWork = 32000;
+
+    /// Keeps r when it is the best so far. True: it is good enough.
+    bool judge() {
+        system_.velocity(r_, memory_.u);
+        residual_ = measure_(std::span<const Vec>(r_), std::span<const Vec>(memory_.u));
+        if (out_.residual <= tolerance_ && residual_ > kStalledShare * out_.residual) ++stalled_;
+        is_best_ = residual_ < out_.residual;
+        if (is_best_) {
+            out_.residual = residual_;
+            std::copy(r_.begin(), r_.end(), memory_.best.begin());
+        }
+        out_.converged = out_.residual <= kTarget * tolerance_ || stalled_ >= kStalledIterations;
+        return out_.converged;
+    }
+
+    /// Goes to where a start begins. True: that is good enough.
+    bool begin(const NewtonStart& start) {
+        if (start.from == NewtonStart::From::zero) {
+            for (Vec& impulse : r_) impulse.setZero();
+        } else if (start.from == NewtonStart::From::scattered) {
+            const double size = kScatter * load(system_).scaled;
+            for (Vec& impulse : r_) {
+                for (double& value : impulse)
+                    value = size * (2.0 * static_cast<double>(random_()) / random_.max() - 1);
+            }
+        }
+        if (start.from == NewtonStart::From::given && start.sweeps <= 0) return false;
+        system_.sweep(law_, r_, start.sweeps);
+        return judge();
+    }
+
+    /// Newton steps from proximal step to proximal step, until r is good enough or all are taken.
+    void take_steps(const NewtonStart& start) {
+        rho_ = start.rho;
+        begin_proximal_step();
+        for (int step = 0; step < start.most_steps && out_.iterations < most_iterations_; ++step) {
+            system_.newton_step(memory_.linearised, memory_.d);
+            ++inner_;
+            if (move(1) || shorten(start.halvings)) return;
+            if (error_ <= (start.rho_follows ? kReduced : kReducedMuch) * first_) {
+                lower_rho(start);
+                begin_proximal_step();
+            } else if (is_lost(start)) {
+                if (undo()) return;
+                begin_proximal_step();
+            }
+        }
+    }
+
+    void begin_proximal_step() {
+        std::copy(r_.begin(), r_.end(), memory_.r_k.begin());
+        error_ = first_ = linearise();
+        inner_ = 0;
+    }
+
+    /// Returns the squared error of the proximal step's equation.
+    double linearise() {
+        double error = 0;
+        for (size_t j = 0; j < r_.size(); ++j) {
+            const Vec u = memory_.u[j] + rho_ * (r_[j] - memory_.r_k[j]);
+            error += law_.template linearise<System::D>(system_.scale(j), r_[j], u, rho_,
+                                                        memory_.linearised[j], j);
+        }
+        return error;
+    }
+
+    /// By a share of the Newton step. True: r is good enough.
+    bool move(double share) {
+        for (size_t j = 0; j < r_.size(); ++j) r_[j] += share * memory_.d[j];
+        ++out_.iterations;
+        return judge();
+    }
+
+    /// Halves a step that made the error grow. True: r is good enough.
+    bool shorten(int halvings) {
+        const double before = error_;
+        error_ = linearise();
+        double share = 1;
+        for (int h = 0; h < halvings && !(error_ <= kGrown * before); ++h) {
+            share /= 2;
+            if (move(-share)) return true;
+            error_ = linearise();
+        }
+        return false;
+    }
+
+    void lower_rho(const NewtonStart& start) {
+        if (start.rho_follows) {
+            rho_ = std::clamp(kRhoOfResidual * residual_, kLeastRho, rho_);
+        } else if (inner_ <= kFewSteps) {
+            rho_ = std::max(rho_ / 10, kLeastRho);
+        }
+    }
+
+    bool is_lost(const NewtonStart& start) const {
+        return inner_ >= start.most_inner ||
+               (inner_ >= start.trial_steps && error_ > kGrown * first_) || !std::isfinite(error_);
+    }
+
+    /// The proximal step; sweeps move on. True: r is good enough.
+    bool undo() {
+        std::copy(memory_.r_k.begin(), memory_.r_k.end(), r_.begin());
+        system_.sweep(law_, r_, kRescueSweeps);
+        rho_ = std::min(rho_ * 10, kMostRho);
+        return judge();
+    }
+
+    System& system_;
+    const Law& law_;
+    std::span<Vec> r_;
+    double tolerance_;
+    NewtonMemory<System>& memory_;
+    const Measure& measure_;
+    int most_iterations_;
+    std::minstd_rand random_;  // the same numbers in every solve: replay repeats it
+
+    Outcome out_;
+    double residual_ = 0;   // of r
+    bool is_best_ = false;  // r, and memory.u is its velocity
+    int stalled_ = 0;
+    double rho_ = 0;
+    double first_ = 0;  // squared error that the proximal step began with
+    double error_ = 0;  // that it has now
+    int inner_ = 0;     // Newton steps in it
+};
+
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
 /// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
 /// memory.u.
@@ -116,120 +289,8 @@ template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
                         std::span<const NewtonStart> starts = kNewtonStarts) {
-    using Vec = typename System::Vec;
-    constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
-    constexpr double kLeastRho = 1e-7;
-    constexpr double kMostRho = 1.0;
-    constexpr double kRhoOfResidual = 0.3;
-    constexpr double kReduced = 0.05;  // of the squared error
-    constexpr double kReducedMuch = 1e-4;
-    constexpr double kGrown = 4;
-    constexpr int kFewSteps = 4;
-    constexpr int kRescueSweeps = 5;
-    constexpr double kScatter = 0.3;  // of |q|
-    // contacts times steps, of all starts: a heap that jams must not stop the tick for long
-    constexpr size_t kMostWork = 32000;
-
-    const size_t n = system.size();
-    std::minstd_rand random;  // the same numbers in every solve: replay repeats it
-    const auto most_steps = static_cast<int>(kMostWork / std::max<size_t>(n, 1));
-    memory.resize(n);
-    Outcome out;
-    double residual = 0;
-    bool is_best = false;  // r, and memory.u is its velocity
-    int stalled = 0;
-    const auto judge = [&] {
-        system.velocity(r, memory.u);
-        residual = measure(std::span<const Vec>(r), std::span<const Vec>(memory.u));
-        if (out.residual <= tolerance && residual > kStalledShare * out.residual) ++stalled;
-        is_best = residual < out.residual;
-        if (is_best) {
-            out.residual = residual;
-            std::copy(r.begin(), r.end(), memory.best.begin());
-        }
-        out.converged = out.residual <= kTarget * tolerance || stalled >= kStalledIterations;
-        return out.converged;
-    };
-    const auto linearise = [&](double rho) {
-        double error = 0;
-        for (size_t j = 0; j < n; ++j) {
-            const Vec u = memory.u[j] + rho * (r[j] - memory.r_k[j]);
-            error += law.template linearise<System::D>(system.scale(j), r[j], u, rho,
-                                                       memory.linearised[j], j);
-        }
-        return error;
-    };
-    const auto restart_proximal = [&](double rho) {
-        std::copy(r.begin(), r.end(), memory.r_k.begin());
-        return linearise(rho);
-    };
-    const auto step_by = [&](double share) {
-        for (size_t j = 0; j < n; ++j) r[j] += share * memory.d[j];
-        ++out.iterations;
-        return judge();
-    };
-
-    std::copy(r.begin(), r.end(), memory.best.begin());
-    judge();
-    for (const NewtonStart& start : starts) {
-        if (out.converged || out.iterations >= most_steps) break;
-        if (start.from == NewtonStart::From::zero) {
-            for (Vec& impulse : r) impulse.setZero();
-        } else if (start.from == NewtonStart::From::scattered) {
-            const double size = kScatter * load(system).scaled;
-            for (Vec& impulse : r) {
-                for (double& value : impulse)
-                    value = size * (2.0 * static_cast<double>(random()) / random.max() - 1);
-            }
-        }
-        if (start.from != NewtonStart::From::given || start.sweeps > 0) {
-            system.sweep(law, r, start.sweeps);
-            if (judge()) break;
-        }
-        double rho = start.rho;
-        double first = restart_proximal(rho);
-        double error = first;
-        int inner = 0;
-        for (int step = 0; step < start.most_steps && out.iterations < most_steps; ++step) {
-            system.newton_step(memory.linearised, memory.d);
-            ++inner;
-            if (step_by(1)) break;
-            const double before = error;
-            error = linearise(rho);
-            double share = 1;
-            for (int h = 0; h < start.halvings && !(error <= kGrown * before); ++h) {
-                share /= 2;
-                if (step_by(-share)) break;
-                error = linearise(rho);
-            }
-            if (out.converged) break;
-            if (error <= (start.rho_follows ? kReduced : kReducedMuch) * first) {
-                if (start.rho_follows) {
-                    rho = std::clamp(kRhoOfResidual * residual, kLeastRho, rho);
-                } else if (inner <= kFewSteps) {
-                    rho = std::max(rho / 10, kLeastRho);
-                }
-                error = first = restart_proximal(rho);
-                inner = 0;
-            } else if (inner >= start.most_inner ||
-                       (inner >= start.trial_steps && error > kGrown * first) ||
-                       !std::isfinite(error)) {
-                std::copy(memory.r_k.begin(), memory.r_k.end(), r.begin());
-                system.sweep(law, r, kRescueSweeps);
-                rho = std::min(rho * 10, kMostRho);
-                if (judge()) break;
-                error = first = restart_proximal(rho);
-                inner = 0;
-            }
-        }
-        out.converged = out.converged || out.residual <= kSafe * tolerance;
-    }
-    out.converged = out.converged || out.residual <= tolerance;
-    if (!is_best) {
-        std::copy(memory.best.begin(), memory.best.end(), r.begin());
-        system.velocity(r, memory.u);
-    }
-    return out;
+    return ProximalNewton<System, Law, Measure>(system, law, r, tolerance, memory, measure)
+        .solve(starts);
 }
 
 /// Residual of Coulomb's law. When it is above `enough` as given, that says all, and the scaled one

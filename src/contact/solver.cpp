@@ -4,6 +4,7 @@
 #include "contact/delassus_system.h"
 #include "contact/newton.h"
 #include "contact/staggered_projections.h"
+#include "contact/stewart_trinkle.h"
 
 namespace dihaptic::contact {
 namespace {
@@ -27,98 +28,135 @@ struct SolverMemory {
     }
 };
 
-/// Leaves the answer in memory.r.
+/// One solve: by the solver that was asked for, then by others until one answers. Leaves the answer
+/// in memory.r.
 template <class System>
-void solve_system(Solver solver, const PolygonSettings& polygon, System& system,
-                  SolverMemory<System>& memory, SolveStats& stats, SolveDetail* detail) {
+class Solve {
+  public:
     using Vec = typename System::Vec;
-    const std::span<Vec> r(memory.r);
-    NewtonMemory<System>& newton_memory = memory.staggered.newton;
-    const Load size = load(system);
-    const size_t n = std::max<size_t>(r.size(), 1);
-    newton_memory.resize(r.size());
-    const auto cone_residual = [&] {
-        system.velocity(r, newton_memory.u);
-        return coulomb_residual(system, std::span<const Vec>(r),
-                                std::span<const Vec>(newton_memory.u), size);
-    };
-    const auto project = [&] {
-        for (size_t j = 0; j < r.size(); ++j)
-            law::Coulomb::project<System::D>(system.scale(j), r[j], j);
-    };
-    project();
 
-    Outcome outcome;
-    stats.route = Route::newton;
-    if (solver == Solver::staggered_projections) {
-        stats.route = Route::staggered_projections;
-        outcome = staggered_projections(system, r, kTolerance, kMostStaggeredIterations,
-                                        memory.staggered);
-    } else if (solver == Solver::stewart_trinkle) {
-        StewartTrinkle<System> method(system, polygon, kTolerance, memory.stewart_trinkle);
-        const StewartTrinkleOutcome answer = method.solve(r);
-        outcome = answer;
-        stats.route = answer.route;
-        if (detail != nullptr) *detail = {answer.lcp_residual};
-    } else {
-        outcome = newton(system, r, kTolerance, newton_memory);
+    Solve(System& system, SolverMemory<System>& memory, SolveStats& stats)
+        : system_(system),
+          memory_(memory),
+          newton_memory_(memory.staggered.newton),
+          r_(memory.r),
+          size_(load(system)),
+          contacts_(std::max<size_t>(r_.size(), 1)),
+          stats_(stats) {
+        newton_memory_.resize(r_.size());
     }
-    if (outcome.iterations == 0) stats.route = r.empty() ? Route::none : Route::start;
-    stats.iterations = outcome.iterations;
-    stats.fallback = !outcome.converged;
-    const auto hand_over = [&](Route route, const auto& solve) {
-        if (outcome.converged) return;
-        outcome = solve();
-        stats.iterations += outcome.iterations;
-        stats.route = route;
-    };
-    if (solver != Solver::newton)
-        hand_over(Route::newton, [&] { return newton(system, r, kTolerance, newton_memory); });
-    if (solver != Solver::stewart_trinkle && System::D == 3) {
-        // where no start leads to an answer on the cone, an answer on a coarse polygon, turned with
-        // sliding, is found, and is near one
-        hand_over(Route::coarse_polygon, [&] {
-            constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
-            StewartTrinkle<System> method(system, kCoarse, kTolerance, memory.stewart_trinkle);
-            const int steps = method.solve_by_newton(r).iterations;
-            Outcome near =
-                newton(system, r, kTolerance, newton_memory, std::span(kNewtonStarts).first(1));
-            near.iterations += steps;
-            return near;
-        });
+
+    void run(Solver solver, const PolygonSettings& polygon, SolveDetail* detail) {
+        project();
+        ask(solver, polygon, detail);
+        if (outcome_.iterations == 0) stats_.route = r_.empty() ? Route::none : Route::start;
+        stats_.iterations = outcome_.iterations;
+        stats_.fallback = !outcome_.converged;
+        hand_over(solver);
+        const Residual residual = end_inside_cone();
+        stats_.residual = residual.given;
+        // an answer of Stewart and Trinkle's own is one of another problem
+        const bool own = solver == Solver::stewart_trinkle && !stats_.fallback;
+        stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
-    if (solver != Solver::staggered_projections) {
-        hand_over(Route::staggered_projections, [&] {
-            const auto pairs = static_cast<int>(kMostStaggeredWork / (n * n));
-            return staggered_projections(
-                system, r, kTolerance, std::min(pairs, kMostStaggeredIterations), memory.staggered);
-        });
+
+  private:
+    void ask(Solver solver, const PolygonSettings& polygon, SolveDetail* detail) {
+        stats_.route = Route::newton;
+        if (solver == Solver::staggered_projections) {
+            stats_.route = Route::staggered_projections;
+            outcome_ = staggered_projections(system_, r_, kTolerance, kMostStaggeredIterations,
+                                             memory_.staggered);
+        } else if (solver == Solver::stewart_trinkle) {
+            StewartTrinkle<System> method(system_, polygon, kTolerance, memory_.stewart_trinkle);
+            const StewartTrinkleOutcome answer = method.solve(r_);
+            outcome_ = answer;
+            stats_.route = answer.route;
+            if (detail != nullptr) *detail = {answer.lcp_residual};
+        } else {
+            outcome_ = by_newton();
+        }
     }
-    hand_over(Route::sweeps, [&] {
-        const int sweeps = std::min(kLastSweeps, static_cast<int>(kMostSweepWork / n));
-        system.sweep(law::Coulomb{}, r, sweeps);
-        Outcome last = newton(system, r, kTolerance, newton_memory);
+
+    void hand_over(Solver asked) {
+        const auto unless_answered = [&](Route route, const auto& solve) {
+            if (outcome_.converged) return;
+            outcome_ = solve();
+            stats_.iterations += outcome_.iterations;
+            stats_.route = route;
+        };
+        if (asked != Solver::newton) unless_answered(Route::newton, [&] { return by_newton(); });
+        if (asked != Solver::stewart_trinkle && System::D == 3)
+            unless_answered(Route::coarse_polygon, [&] { return by_coarse_polygon(); });
+        if (asked != Solver::staggered_projections) {
+            unless_answered(Route::staggered_projections, [&] {
+                const auto pairs = static_cast<int>(kMostStaggeredWork / (contacts_ * contacts_));
+                return staggered_projections(system_, r_, kTolerance,
+                                             std::min(pairs, kMostStaggeredIterations),
+                                             memory_.staggered);
+            });
+        }
+        unless_answered(Route::sweeps, [&] { return by_sweeps(); });
+    }
+
+    Outcome by_newton(std::span<const NewtonStart> starts = kNewtonStarts) {
+        return newton(system_, r_, kTolerance, newton_memory_, starts);
+    }
+
+    /// Where no start leads to an answer on the cone, an answer on a coarse polygon, turned with
+    /// sliding, is found, and is near one.
+    Outcome by_coarse_polygon() {
+        constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
+        StewartTrinkle<System> method(system_, kCoarse, kTolerance, memory_.stewart_trinkle);
+        const int steps = method.solve_by_newton(r_).iterations;
+        Outcome near = by_newton(std::span(kNewtonStarts).first(1));
+        near.iterations += steps;
+        return near;
+    }
+
+    Outcome by_sweeps() {
+        const int sweeps = std::min(kLastSweeps, static_cast<int>(kMostSweepWork / contacts_));
+        system_.sweep(law::Coulomb{}, r_, sweeps);
+        Outcome last = by_newton();
         last.iterations += sweeps;
         return last;
-    });
-    // what is left of an error shall not pull: impulses end inside the cone, unless that small
-    // change is too much for a problem so delicate
-    std::copy(r.begin(), r.end(), newton_memory.best.begin());
-    project();
-    Residual residual = cone_residual();
-    if (!(residual.judged() <= kTolerance)) {
+    }
+
+    /// What is left of an error shall not pull: impulses end inside the cone, unless that small
+    /// change is too much for a problem so delicate.
+    Residual end_inside_cone() {
+        std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
+        project();
+        const Residual projected = cone_residual();
+        if (projected.judged() <= kTolerance) return projected;
         const auto swap = [&] {
-            std::swap_ranges(r.begin(), r.end(), newton_memory.best.begin());
+            std::swap_ranges(r_.begin(), r_.end(), newton_memory_.best.begin());
             return cone_residual();
         };
         const Residual unprojected = swap();
-        residual = unprojected.judged() <= kTolerance ? unprojected : swap();
+        return unprojected.judged() <= kTolerance ? unprojected : swap();
     }
-    stats.residual = residual.given;
-    // an answer of Stewart and Trinkle's own is one of another problem
-    stats.missed =
-        (solver != Solver::stewart_trinkle || stats.fallback) && !(residual.judged() <= kTolerance);
-}
+
+    void project() {
+        for (size_t j = 0; j < r_.size(); ++j)
+            law::Coulomb::project<System::D>(system_.scale(j), r_[j], j);
+    }
+
+    Residual cone_residual() {
+        system_.velocity(r_, newton_memory_.u);
+        return coulomb_residual(system_, std::span<const Vec>(r_),
+                                std::span<const Vec>(newton_memory_.u), size_);
+    }
+
+    System& system_;
+    SolverMemory<System>& memory_;
+    NewtonMemory<System>& newton_memory_;
+    std::span<Vec> r_;
+    Load size_;
+    size_t contacts_;  // at least 1
+    SolveStats& stats_;
+    Outcome outcome_;
+};
 
 template <int D>
 struct BodyMemory {
@@ -150,7 +188,7 @@ struct BodyMemory {
                 solver.r[j][3] = spin_unit(j) > 0 ? r[j][3] / (spin_unit(j) * system.unit(j)) : 0;
             }
         }
-        solve_system(kind, polygon, system, solver, stats, detail);
+        Solve<BodySystem<D>>(system, solver, stats).run(kind, polygon, detail);
         for (size_t j = 0; j < r.size(); ++j) {
             r[j].setZero();
             r[j].head<3>() = solver.r[j].template head<3>() * system.unit(j);
@@ -208,7 +246,7 @@ Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const Delas
         stats.missed = stats.refused = true;
         return Eigen::VectorXd::Zero(problem.q.size());
     }
-    solve_system(solver, polygon, system, memory, stats, detail);
+    Solve<DelassusSystem>(system, memory, stats).run(solver, polygon, detail);
     Eigen::VectorXd out(problem.q.size());
     for (size_t j = 0; j < system.size(); ++j)
         out.segment<3>(3 * static_cast<Eigen::Index>(j)) = memory.r[j] * system.unit(j);

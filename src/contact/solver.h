@@ -8,21 +8,16 @@
 // reads a clock, so that replay repeats every solve bit for bit.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "contact/problem.h"
 #include "contact/route.h"
-#include "contact/stewart_trinkle.h"
+#include "contact/solver_settings.h"
 
 namespace dihaptic::contact {
-
-enum class Solver { sequential_impulse, stewart_trinkle, staggered_projections, newton };
-constexpr auto enum_names(Solver) {
-    return std::array{"sequential_impulse", "stewart_trinkle", "staggered_projections", "newton"};
-}
-constexpr int kSolvers = 4;
 
 /// Success is a residual up to this: Residual::judged() of Coulomb's law; for Stewart-Trinkle of
 /// its own complementarity problem.

@@ -34,101 +34,145 @@ struct StaggeredMemory {
     }
 };
 
+/// staggered_projections() at work.
+template <class System>
+class StaggeredProjections {
+  public:
+    using Vec = typename System::Vec;
+
+    StaggeredProjections(System& system, std::span<Vec> r, double tolerance,
+                         StaggeredMemory<System>& memory)
+        : system_(system), r_(r), tolerance_(tolerance), memory_(memory), size_(load(system)) {
+        memory.best.resize(r.size());
+        memory.normal.resize(r.size());
+        memory.image.resize(r.size());
+        memory.anderson.start(r.size());
+        memory.newton.resize(r.size());
+    }
+
+    Outcome solve(int most_iterations) {
+        system_.velocity(r_, memory_.newton.u);
+        std::copy(r_.begin(), r_.end(), memory_.best.begin());
+        judge();
+        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = std::max(0.0, r_[j][0]);
+        if (out_.residual > kTarget * tolerance_) {
+            solve_for(law::NormalOnly{});  // a first guess of the loads, with the start's friction
+            for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = r_[j][0];
+        }
+        while (out_.residual > kTarget * tolerance_ && out_.iterations < most_iterations) {
+            ++out_.iterations;
+            solve_pair();
+            const double residual = judge();
+            if (residual <= kTarget * tolerance_ || is_stalled(residual)) break;
+            if (residual > 2 * last_) memory_.anderson.forget();
+            last_ = residual;
+            if (out_.iterations % kPatience == 0) {
+                sweep_on();
+            } else {
+                accelerate();
+            }
+        }
+        std::copy(memory_.best.begin(), memory_.best.end(), r_.begin());
+        system_.velocity(r_, memory_.newton.u);
+        return out_;
+    }
+
+  private:
+    // Of |q|; kTarget of it is aimed at. No need to be far more exact than the loop has become.
+    static constexpr double kInnerTolerance = 1e-10;
+    static constexpr double kInnerOfLast = 1e-3;
+    // Loads that nothing determines must not wander from pair to pair: a large rho that falls
+    // slowly keeps the inner answer near its start.
+    static constexpr NewtonStart kInnerStart[] = {
+        {NewtonStart::From::given, 1e-3, 40, 6, 12, false, 0, 0}};
+    static constexpr int kPlainIterations = 3;
+    static constexpr int kPatience = 15;  // iterations before sweeps move on
+    static constexpr int kSweeps = 200;
+
+    /// One of the two convex problems, exactly.
+    template <class Law>
+    void solve_for(const Law& law) {
+        const double enough = std::isfinite(last_) ? kInnerOfLast * last_ : 0;
+        proximal_newton(
+            system_, law, r_, std::max(kInnerTolerance, enough) * size_.scaled, memory_.newton,
+            [&](std::span<const Vec> impulse, std::span<const Vec> u) {
+                double error = 0;
+                for (size_t j = 0; j < impulse.size(); ++j)
+                    error +=
+                        law.template residual<System::D>(system_.scale(j), impulse[j], u[j], j);
+                return std::sqrt(error);
+            },
+            kInnerStart);
+    }
+
+    /// Friction under the loads of memory.normal, then contact with that friction.
+    void solve_pair() {
+        const law::FrictionOnly friction{memory_.normal};
+        for (size_t j = 0; j < r_.size(); ++j) {
+            r_[j][0] = memory_.normal[j];
+            friction.template project<System::D>(system_.scale(j), r_[j], j);
+        }
+        solve_for(friction);
+        solve_for(law::NormalOnly{});
+    }
+
+    /// Keeps the pair when it is the best so far. Returns its residual.
+    double judge() {
+        const double residual =
+            coulomb_residual(system_, std::span<const Vec>(r_),
+                             std::span<const Vec>(memory_.newton.u), size_, tolerance_)
+                .judged();
+        if (residual < out_.residual) {
+            out_.residual = residual;
+            std::copy(r_.begin(), r_.end(), memory_.best.begin());
+        }
+        out_.converged = out_.residual <= tolerance_;
+        return residual;
+    }
+
+    /// Within tolerance, and rounding allows no more.
+    bool is_stalled(double residual) {
+        return residual <= tolerance_ && residual > kStalledShare * last_ &&
+               ++stalled_ >= kStalledIterations;
+    }
+
+    void sweep_on() {
+        system_.sweep(law::Coulomb{}, r_, kSweeps);
+        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = r_[j][0];
+        memory_.anderson.forget();
+        plain_ = kPlainIterations;
+    }
+
+    /// The loads that the next pair begins with.
+    void accelerate() {
+        for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = r_[j][0];
+        if (plain_ > 0) {
+            --plain_;
+            // Coulomb's law may have several solutions: begin gently, to find the one nearest
+            memory_.normal.swap(memory_.image);
+            return;
+        }
+        memory_.anderson.advance(memory_.normal, memory_.image);
+        for (double& value : memory_.normal) value = std::max(0.0, value);
+    }
+
+    System& system_;
+    std::span<Vec> r_;
+    double tolerance_;
+    StaggeredMemory<System>& memory_;
+    Load size_;
+
+    Outcome out_;
+    double last_ = std::numeric_limits<double>::infinity();  // residual of the pair before
+    int stalled_ = 0;
+    int plain_ = kPlainIterations;  // iterations without acceleration, still
+};
+
 /// Starts from r; leaves the best pair in r and its velocity in memory.newton.u.
 template <class System>
 Outcome staggered_projections(System& system, std::span<typename System::Vec> r, double tolerance,
                               int most_iterations, StaggeredMemory<System>& memory) {
-    using Vec = typename System::Vec;
-    // Of |q|; kTarget of it is aimed at. No need to be far more exact than the loop has become.
-    constexpr double kInnerTolerance = 1e-10;
-    constexpr double kInnerOfLast = 1e-3;
-    // Loads that nothing determines must not wander from pair to pair: a large rho that falls
-    // slowly keeps the inner answer near its start.
-    constexpr NewtonStart kInnerStart[] = {
-        {NewtonStart::From::given, 1e-3, 40, 6, 12, false, 0, 0}};
-    constexpr int kPlainIterations = 3;
-    constexpr int kPatience = 15;  // iterations before sweeps move on
-    constexpr int kSweeps = 200;
-    const size_t n = system.size();
-    const Load size = load(system);
-    memory.best.resize(n);
-    memory.normal.resize(n);
-    memory.image.resize(n);
-    memory.anderson.start(n);
-    Outcome out;
-    double last = std::numeric_limits<double>::infinity();
-    const auto solve = [&](const auto& law) {
-        const double enough = std::isfinite(last) ? kInnerOfLast * last : 0;
-        proximal_newton(
-            system, law, r, std::max(kInnerTolerance, enough) * size.scaled, memory.newton,
-            [&](std::span<const Vec> impulse, std::span<const Vec> u) {
-                double error = 0;
-                for (size_t j = 0; j < n; ++j)
-                    error += law.template residual<System::D>(system.scale(j), impulse[j], u[j], j);
-                return std::sqrt(error);
-            },
-            kInnerStart);
-    };
-
-    int stalled = 0;
-    int plain = kPlainIterations;
-    memory.newton.resize(n);
-    const auto judge = [&] {
-        const double residual =
-            coulomb_residual(system, std::span<const Vec>(r), std::span<const Vec>(memory.newton.u),
-                             size, tolerance)
-                .judged();
-        if (residual < out.residual) {
-            out.residual = residual;
-            std::copy(r.begin(), r.end(), memory.best.begin());
-        }
-        out.converged = out.residual <= tolerance;
-        return residual;
-    };
-    system.velocity(r, memory.newton.u);
-    std::copy(r.begin(), r.end(), memory.best.begin());
-    judge();
-    for (size_t j = 0; j < n; ++j) memory.normal[j] = std::max(0.0, r[j][0]);
-    if (out.residual > kTarget * tolerance) {
-        solve(law::NormalOnly{});  // a first guess of the loads, with the friction of the start
-        for (size_t j = 0; j < n; ++j) memory.normal[j] = r[j][0];
-    }
-    while (out.residual > kTarget * tolerance && out.iterations < most_iterations) {
-        ++out.iterations;
-        const law::FrictionOnly friction{memory.normal};
-        for (size_t j = 0; j < n; ++j) {
-            r[j][0] = memory.normal[j];
-            friction.project<System::D>(system.scale(j), r[j], j);
-        }
-        solve(friction);
-        solve(law::NormalOnly{});
-        const double residual = judge();
-        if (residual <= kTarget * tolerance) break;
-        if (residual <= tolerance && residual > kStalledShare * last &&
-            ++stalled >= kStalledIterations)
-            break;
-        if (residual > 2 * last) memory.anderson.forget();
-        last = residual;
-        if (out.iterations % kPatience == 0) {
-            system.sweep(law::Coulomb{}, r, kSweeps);
-            for (size_t j = 0; j < n; ++j) memory.normal[j] = r[j][0];
-            memory.anderson.forget();
-            plain = kPlainIterations;
-            continue;
-        }
-        for (size_t j = 0; j < n; ++j) memory.image[j] = r[j][0];
-        if (plain > 0) {
-            --plain;
-            // Coulomb's law may have several solutions: begin gently, to find the one nearest
-            memory.normal.swap(memory.image);
-            continue;
-        }
-        memory.anderson.advance(memory.normal, memory.image);
-        for (double& value : memory.normal) value = std::max(0.0, value);
-    }
-    std::copy(memory.best.begin(), memory.best.end(), r.begin());
-    system.velocity(r, memory.newton.u);
-    return out;
+    return StaggeredProjections<System>(system, r, tolerance, memory).solve(most_iterations);
 }
 
 }  // namespace dihaptic::contact

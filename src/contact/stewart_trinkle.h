@@ -21,25 +21,14 @@
 #include "contact/lemke.h"
 #include "contact/newton.h"
 #include "contact/route.h"
+#include "contact/solver_settings.h"
 
 namespace dihaptic::contact {
-
-enum class DirectionFrame { fixed, sliding };
-constexpr auto enum_names(DirectionFrame) {
-    return std::array{"fixed", "sliding"};
-}
-
-struct PolygonSettings {
-    int directions = 8;
-    DirectionFrame frame = DirectionFrame::sliding;
-};
 
 struct StewartTrinkleOutcome : Outcome {
     Route route = Route::none;
     double lcp_residual = 0;  ///< norm of min(z, w) over 1 + |q|, of the problem as given
 };
-
-constexpr int kMostDirections = 32;
 
 template <class System>
 struct StewartTrinkleMemory {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/field.h"
-#include "contact/solver.h"
+#include "contact/solver_settings.h"
 
 namespace dihaptic::dynamics {
 

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "contact/contact.h"
+#include "contact/solver.h"
 #include "dynamics/settings.h"
 #include "scene/scene.h"
 

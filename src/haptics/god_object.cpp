@@ -291,58 +291,67 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
             way *= 1 - sliding_ratio_ * grip / size;
         }
         way = straightened(way);
-
-        // to the first body in the way, or to the first edge of a face that the way lies in
-        double share = 1;
-        std::optional<PointContact> meets;
-        std::optional<PointContact> crosses;
-        for (const size_t i : near_) {
-            const auto rests = contacts();
-            if (std::any_of(rests.begin(), rests.end(),
-                            [&](const PointContact& c) { return c.surface == i; }))
-                continue;
-            const auto entry =
-                parts_[i].surface.enter(in_surface(i, p_), X_WS_[i].R.conjugate() * way);
-            if (!entry || (meets && entry->share >= share)) continue;
-            share = entry->share;
-            meets = PointContact{parts_[i].body, i, entry->face, Vec3::UnitZ(), 0};
-        }
-        for (size_t i = 0; i < count_; ++i) {
-            const PointContact& c = contacts_[i];
-            if (c.depth <= 0) continue;  // it does not guide the way
-            const auto crossing = parts_[c.surface].surface.cross(
-                c.face, in_surface(c.surface, p_), X_WS_[c.surface].R.conjugate() * way);
-            if (crossing.face < 0 || crossing.share > share) continue;
-            share = crossing.share;
-            crosses = PointContact{c.body, c.surface, crossing.face, Vec3::UnitZ(), 0};
-            meets.reset();
-        }
-        p_ += share * way;
-        if (share > 0) {
-            for (size_t i = count_; i-- > 0;) {
-                const PointContact& c = contacts_[i];
-                const bool crossed = crosses && crosses->surface == c.surface;
-                const double apart =
-                    parts_[c.surface].surface.separation(in_surface(c.surface, p_));
-                if (!crossed && (c.depth <= 0 || apart > kOnSurface)) untouch(i);
-            }
-        }
-        if (crosses) {
-            // past the edge: over the next face, unless the handle is outside of it
-            const auto c = std::find_if(
-                contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),
-                [&](const PointContact& x) { return x.surface == crosses->surface; });
-            c->face = crosses->face;
-            const Vec3 n_W = X_WS_[c->surface].R *
-                             parts_[c->surface].surface.normal(c->face, in_surface(c->surface, p_));
-            if (n_W.dot(p_WH - p_) >= 0) untouch(static_cast<size_t>(c - contacts_.begin()));
-        }
-        if (meets && !touch(*meets)) break;
+        const Event event = first_event(way);
+        p_ += event.share * way;
+        if (event.share > 0) leave_behind(event);
+        if (event.crosses) go_past_edge(*event.crosses, p_WH);
+        if (event.meets && !touch(*event.meets)) break;
     }
     if (!slides) sliding_ = false;
+    leave_unpressed();
+}
+
+void GodObject::leave_unpressed() noexcept {
     for (size_t i = count_; i-- > 0;) {
         if (contacts_[i].depth <= 0) untouch(i);
     }
+}
+
+/// The first body in the way, or the first edge of a face that the way lies in.
+GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
+    Event out;
+    for (const size_t i : near_) {
+        const auto rests = contacts();
+        if (std::any_of(rests.begin(), rests.end(),
+                        [&](const PointContact& c) { return c.surface == i; }))
+            continue;
+        const auto entry = parts_[i].surface.enter(in_surface(i, p_), X_WS_[i].R.conjugate() * way);
+        if (!entry || (out.meets && entry->share >= out.share)) continue;
+        out.share = entry->share;
+        out.meets = PointContact{parts_[i].body, i, entry->face, Vec3::UnitZ(), 0};
+    }
+    for (size_t i = 0; i < count_; ++i) {
+        const PointContact& c = contacts_[i];
+        if (c.depth <= 0) continue;  // it does not guide the way
+        const auto crossing = parts_[c.surface].surface.cross(c.face, in_surface(c.surface, p_),
+                                                              X_WS_[c.surface].R.conjugate() * way);
+        if (crossing.face < 0 || crossing.share > out.share) continue;
+        out.share = crossing.share;
+        out.crosses = PointContact{c.body, c.surface, crossing.face, Vec3::UnitZ(), 0};
+        out.meets.reset();
+    }
+    return out;
+}
+
+/// What does not hold it, or lies behind it after the move.
+void GodObject::leave_behind(const Event& event) noexcept {
+    for (size_t i = count_; i-- > 0;) {
+        const PointContact& c = contacts_[i];
+        const bool crossed = event.crosses && event.crosses->surface == c.surface;
+        const double apart = parts_[c.surface].surface.separation(in_surface(c.surface, p_));
+        if (!crossed && (c.depth <= 0 || apart > kOnSurface)) untouch(i);
+    }
+}
+
+/// Over the next face, unless the handle is outside of it.
+void GodObject::go_past_edge(const PointContact& next, const Vec3& p_WH) noexcept {
+    const auto c =
+        std::find_if(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [&](const PointContact& x) { return x.surface == next.surface; });
+    c->face = next.face;
+    const Vec3 n_W = X_WS_[c->surface].R *
+                     parts_[c->surface].surface.normal(c->face, in_surface(c->surface, p_));
+    if (n_W.dot(p_WH - p_) >= 0) untouch(static_cast<size_t>(c - contacts_.begin()));
 }
 
 }  // namespace dihaptic::haptics

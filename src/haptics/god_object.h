@@ -22,6 +22,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "dynamics/world.h"
@@ -96,6 +97,16 @@ class GodObject {
     Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
     double push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
     void pull(const Vec3& p_WH, bool rubs) noexcept;
+    /// What ends a straight way: at most one of the two.
+    struct Event {
+        double share = 1;                     ///< of the way, until then
+        std::optional<PointContact> meets;    ///< a body
+        std::optional<PointContact> crosses;  ///< an edge, onto this face
+    };
+    Event first_event(const Vec3& way) const noexcept;
+    void leave_behind(const Event& event) noexcept;
+    void go_past_edge(const PointContact& next, const Vec3& p_WH) noexcept;
+    void leave_unpressed() noexcept;
     void leave_insides() noexcept;
     void gather(const Vec3& p_WH) noexcept;
     bool touch(const PointContact& contact) noexcept;

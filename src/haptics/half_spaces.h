@@ -17,6 +17,29 @@ namespace dihaptic::haptics {
 
 constexpr size_t kMostHalfSpaces = 6;
 
+/// Up to three of the half-spaces, in rising order.
+struct HalfSpaceSet {
+    std::array<size_t, 3> index{};
+    size_t size = 0;
+
+    /// All of them are among the first `count`.
+    constexpr bool within(size_t count) const noexcept {
+        return size == 0 || index[size - 1] < count;
+    }
+};
+/// All such sets, the smallest first.
+constexpr auto kHalfSpaceSets = [] {
+    std::array<HalfSpaceSet, 42> out{};
+    size_t at = 1;  // the first is empty
+    for (size_t i = 0; i < kMostHalfSpaces; ++i) out[at++] = {{i}, 1};
+    for (size_t i = 0; i < kMostHalfSpaces; ++i)
+        for (size_t j = i + 1; j < kMostHalfSpaces; ++j) out[at++] = {{i, j}, 2};
+    for (size_t i = 0; i < kMostHalfSpaces; ++i)
+        for (size_t j = i + 1; j < kMostHalfSpaces; ++j)
+            for (size_t k = j + 1; k < kMostHalfSpaces; ++k) out[at++] = {{i, j, k}, 3};
+    return out;
+}();
+
 struct HalfSpaces {
     std::array<Vec3, kMostHalfSpaces> n;  // unit
     std::array<double, kMostHalfSpaces> b{};
@@ -33,55 +56,44 @@ struct HalfSpaces {
         const double slack = 1e-13 + 1e-12 * v.norm();
         double least_miss = std::numeric_limits<double>::infinity();
         Vec3 best = v;
-        std::array<double, kMostHalfSpaces> best_l{};
-        const auto attempt = [&](std::array<size_t, 3> set, size_t size) {
-            // Gram matrix of the set's normals, padded by ones
-            Mat3 gram = Mat3::Identity();
-            Vec3 rhs = Vec3::Zero();
-            for (size_t i = 0; i < size; ++i) {
-                for (size_t j = 0; j < size; ++j)
-                    gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                        n[set[i]].dot(n[set[j]]);
-                rhs[static_cast<Eigen::Index>(i)] = b[set[i]] - n[set[i]].dot(v);
-            }
-            // normals that are as good as dependent: a smaller set has the answer
-            if (gram.determinant() < 1e-12) return false;
-            const Vec3 l = gram.inverse() * rhs;
+        multiplier.fill(0);
+        for (const HalfSpaceSet& set : kHalfSpaceSets) {
+            Vec3 l;
             Vec3 x = v;
-            for (size_t i = 0; i < size; ++i) {
-                if (l[static_cast<Eigen::Index>(i)] < 0) return false;
-                x += l[static_cast<Eigen::Index>(i)] * n[set[i]];
-            }
+            if (!set.within(count) || !meet(set, x, l)) continue;
             double miss = 0;
             for (size_t i = 0; i < count; ++i) miss = std::max(miss, b[i] - n[i].dot(x));
-            if (miss >= least_miss) return false;
+            if (miss >= least_miss) continue;
             least_miss = miss;
             best = x;
-            best_l.fill(0);
-            for (size_t i = 0; i < size; ++i) best_l[set[i]] = l[static_cast<Eigen::Index>(i)];
-            return miss <= slack;
-        };
-        const auto search = [&] {
-            if (attempt({}, 0)) return;
-            for (size_t i = 0; i < count; ++i) {
-                if (attempt({i}, 1)) return;
-            }
-            for (size_t i = 0; i < count; ++i) {
-                for (size_t j = i + 1; j < count; ++j) {
-                    if (attempt({i, j}, 2)) return;
-                }
-            }
-            for (size_t i = 0; i < count; ++i) {
-                for (size_t j = i + 1; j < count; ++j) {
-                    for (size_t k = j + 1; k < count; ++k) {
-                        if (attempt({i, j, k}, 3)) return;
-                    }
-                }
-            }
-        };
-        search();
-        multiplier = best_l;
+            multiplier.fill(0);
+            for (size_t i = 0; i < set.size; ++i)
+                multiplier[set.index[i]] = l[static_cast<Eigen::Index>(i)];
+            if (miss <= slack) break;
+        }
         return best;
+    }
+
+  private:
+    /// Moves x to the nearest place on all of a set's boundaries, by the multipliers l. False: they
+    /// pull, or the normals are as good as dependent, so that a smaller set has the answer.
+    bool meet(const HalfSpaceSet& set, Vec3& x, Vec3& l) const noexcept {
+        // Gram matrix of the set's normals, padded by ones
+        Mat3 gram = Mat3::Identity();
+        Vec3 rhs = Vec3::Zero();
+        for (size_t i = 0; i < set.size; ++i) {
+            for (size_t j = 0; j < set.size; ++j)
+                gram(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+                    n[set.index[i]].dot(n[set.index[j]]);
+            rhs[static_cast<Eigen::Index>(i)] = b[set.index[i]] - n[set.index[i]].dot(x);
+        }
+        if (gram.determinant() < 1e-12) return false;
+        l = gram.inverse() * rhs;
+        for (size_t i = 0; i < set.size; ++i) {
+            if (l[static_cast<Eigen::Index>(i)] < 0) return false;
+            x += l[static_cast<Eigen::Index>(i)] * n[set.index[i]];
+        }
+        return true;
     }
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "contact/solver.h"
 #include "measure/contact_file.h"
 #include "measure/siconos.h"
 

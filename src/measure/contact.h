@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/solver.h"
+#include "contact/solver_settings.h"
 #include "measure/grasp.h"
 
 namespace dihaptic::measure {

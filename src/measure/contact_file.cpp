@@ -51,13 +51,11 @@ std::vector<T> read(hid_t file, const std::string& path, hid_t type, const std::
     return out;
 }
 
-}  // namespace
-
-contact::DelassusProblem read_contact_file(const std::string& name) {
+Id open_file(const std::string& name) {
     if (!std::filesystem::is_regular_file(name))
         throw Error({name, 0}, "", "there is no such file", "Check the name and the folder.");
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // we say what is wrong ourselves
-    const Id file = own(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    Id file = own(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file) {
         const bool signed_as_one = H5Fis_hdf5(name.c_str()) > 0;
         throw Error(
@@ -65,57 +63,96 @@ contact::DelassusProblem read_contact_file(const std::string& name) {
             signed_as_one ? "is an HDF5 file, but damaged or cut short" : "is not an HDF5 file",
             kRemedy);
     }
+    return file;
+}
+
+/// What a file says, word by word; W in compressed columns or rows.
+struct Fclib {
+    static constexpr int kColumns = -1;
+    static constexpr int kRows = -2;
+    std::vector<double> q;
+    std::vector<double> mu;
+    int layout = 0;  ///< kColumns or kRows
+    std::vector<int> p;
+    std::vector<int> i;
+    std::vector<double> x;
+};
+
+Fclib read_fclib(const std::string& name) {
+    const Id file = open_file(name);
     const auto integers = [&](const char* path) {
         return read<int>(*file, path, H5T_NATIVE_INT, name);
     };
     const auto numbers = [&](const char* path) {
         return read<double>(*file, path, H5T_NATIVE_DOUBLE, name);
     };
-    const std::vector<double> q = numbers("fclib_local/vectors/q");
-    const std::vector<double> mu = numbers("fclib_local/vectors/mu");
-    const int layout = integers("fclib_local/W/nz").front();
-    const std::vector<int> p = integers("fclib_local/W/p");
-    const std::vector<int> index = integers("fclib_local/W/i");
-    const std::vector<double> x = numbers("fclib_local/W/x");
+    Fclib out;
+    out.q = numbers("fclib_local/vectors/q");
+    out.mu = numbers("fclib_local/vectors/mu");
+    out.layout = integers("fclib_local/W/nz").front();
+    out.p = integers("fclib_local/W/p");
+    out.i = integers("fclib_local/W/i");
+    out.x = numbers("fclib_local/W/x");
+    return out;
+}
 
+void require(bool holds, const std::string& name, const char* key, const char* otherwise) {
+    if (!holds) throw Error({name, 0}, key, otherwise, kRemedy);
+}
+
+/// Throws Error where values or sizes cannot be.
+void check_fclib(const Fclib& in, const std::string& name) {
     const auto want = [&](bool holds, const char* key, const char* otherwise) {
-        if (!holds) throw Error({name, 0}, key, otherwise, kRemedy);
+        require(holds, name, key, otherwise);
     };
     const auto finite = [](const std::vector<double>& values) {
         return std::all_of(values.begin(), values.end(),
                            [](double value) { return std::isfinite(value); });
     };
-    want(finite(q), "fclib_local/vectors/q", "has values that are not finite");
-    want(finite(mu), "fclib_local/vectors/mu", "has values that are not finite");
-    want(std::all_of(mu.begin(), mu.end(), [](double value) { return value >= 0; }),
+    want(finite(in.q), "fclib_local/vectors/q", "has values that are not finite");
+    want(finite(in.mu), "fclib_local/vectors/mu", "has values that are not finite");
+    want(std::all_of(in.mu.begin(), in.mu.end(), [](double value) { return value >= 0; }),
          "fclib_local/vectors/mu", "has values below zero");
-    want(finite(x), "fclib_local/W/x", "has values that are not finite");
-
-    const size_t n = q.size();
-    want(mu.size() <= kMostContacts, "fclib_local/vectors/mu", "has more than 2000 contacts");
-    want(n == 3 * mu.size(), "fclib_local/vectors", "q has not three rows for each mu");
-    constexpr int kColumns = -1;
-    constexpr int kRows = -2;
-    want(layout == kColumns || layout == kRows, "fclib_local/W/nz",
+    want(finite(in.x), "fclib_local/W/x", "has values that are not finite");
+    const size_t n = in.q.size();
+    want(in.mu.size() <= kMostContacts, "fclib_local/vectors/mu", "has more than 2000 contacts");
+    want(n == 3 * in.mu.size(), "fclib_local/vectors", "q has not three rows for each mu");
+    want(in.layout == Fclib::kColumns || in.layout == Fclib::kRows, "fclib_local/W/nz",
          "is neither -1 (columns) nor -2 (rows)");
-    want(p.size() == n + 1, "fclib_local/W/p", "does not fit q");
+    want(in.p.size() == n + 1, "fclib_local/W/p", "does not fit q");
+}
 
-    contact::DelassusProblem out;
+Eigen::MatrixXd matrix_of(const Fclib& in, const std::string& name) {
+    const size_t n = in.q.size();
     const auto size = static_cast<Eigen::Index>(n);
-    out.W = Eigen::MatrixXd::Zero(size, size);
-    out.q = Eigen::Map<const Eigen::VectorXd>(q.data(), size);
-    out.mu = Eigen::Map<const Eigen::VectorXd>(mu.data(), static_cast<Eigen::Index>(mu.size()));
+    Eigen::MatrixXd W = Eigen::MatrixXd::Zero(size, size);
     for (size_t major = 0; major < n; ++major) {
-        for (int k = p[major]; k < p[major + 1]; ++k) {
+        for (int k = in.p[major]; k < in.p[major + 1]; ++k) {
             const auto at = static_cast<size_t>(k);
-            want(k >= 0 && at < x.size() && at < index.size(), "fclib_local/W/p",
-                 "points outside x or i");
-            want(index[at] >= 0 && index[at] < size, "fclib_local/W/i", "points outside W");
-            const auto minor = static_cast<Eigen::Index>(index[at]);
+            require(k >= 0 && at < in.x.size() && at < in.i.size(), name, "fclib_local/W/p",
+                    "points outside x or i");
+            require(in.i[at] >= 0 && in.i[at] < size, name, "fclib_local/W/i", "points outside W");
+            const auto minor = static_cast<Eigen::Index>(in.i[at]);
             const auto other = static_cast<Eigen::Index>(major);
-            (layout == kColumns ? out.W(minor, other) : out.W(other, minor)) = x[at];
+            (in.layout == Fclib::kColumns ? W(minor, other) : W(other, minor)) = in.x[at];
         }
     }
+    return W;
+}
+
+}  // namespace
+
+contact::DelassusProblem read_contact_file(const std::string& name) {
+    const Fclib in = read_fclib(name);
+    check_fclib(in, name);
+    const auto vector_of = [](const std::vector<double>& values) {
+        return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                 static_cast<Eigen::Index>(values.size()));
+    };
+    contact::DelassusProblem out;
+    out.W = matrix_of(in, name);
+    out.q = vector_of(in.q);
+    out.mu = vector_of(in.mu);
     return out;
 }
 

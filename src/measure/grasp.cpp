@@ -355,18 +355,18 @@ std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
     return out.dump(2) + "\n";
 }
 
-std::string to_table(const std::vector<GraspResult>& results) {
-    const auto coupling = [](const GraspResult& result) {
-        const servo::Settings& settings = result.setup.settings;
-        return settings.proxy.kind == haptics::ProxyKind::point ? enum_name(settings.proxy.friction)
-                                                                : enum_name(settings.coupling.kind);
-    };
-    const BenchSetup& setup = results.front().setup;
-    std::string out = fmt::format(
-        "solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n\n",
-        enum_name(setup.settings.dynamics.solver), results.front().figures.damping_per_k,
-        setup.mass * 1e3, setup.friction, setup.settings.rate);
-    out +=
+namespace {
+
+using Results = std::vector<GraspResult>;
+
+std::string_view coupling_name(const GraspResult& result) {
+    const servo::Settings& settings = result.setup.settings;
+    return settings.proxy.kind == haptics::ProxyKind::point ? enum_name(settings.proxy.friction)
+                                                            : enum_name(settings.coupling.kind);
+}
+
+std::string hold_table(const Results& results) {
+    std::string out =
         "coupling          K  fingering   held  lift slip      slip     z RMS     z p-p  tilt RMS  "
         "   turn   >5 Hz  weight    grip\n"
         "                N/m                          mm        mm        um        um       deg   "
@@ -376,42 +376,59 @@ std::string to_table(const std::vector<GraspResult>& results) {
             out += fmt::format(
                 "{:12s} {:6.0f}  {:10s}  {:4s}  {:9.5f} {:9.5f} {:9.3f} {:9.3f}  {:8.5f} {:8.4f} "
                 "{:7.4f} {:7.4f} {:7.4f}\n",
-                coupling(result), h.k, enum_name(h.fingering), h.held ? "yes" : "NO",
+                coupling_name(result), h.k, enum_name(h.fingering), h.held ? "yes" : "NO",
                 h.lift_slip_mm, h.slip_mm, h.z_rms_um, h.z_pp_um, h.tilt_rms_deg, h.turn_deg,
                 h.hf_force_n, h.weight_ratio, h.grip_ratio);
         }
     }
-    out += "\ndynamics every 10 ticks\ncoupling          K  held    slip mm   >5 Hz N\n";
+    return out;
+}
+
+std::string slow_table(const Results& results) {
+    std::string out = "dynamics every 10 ticks\ncoupling          K  held    slip mm   >5 Hz N\n";
     for (const GraspResult& result : results) {
         for (const SlowFigures& s : result.figures.slow_dynamics) {
-            out += fmt::format("{:12s} {:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", coupling(result), s.k,
-                               s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
+            out += fmt::format("{:12s} {:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", coupling_name(result),
+                               s.k, s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
         }
     }
-    out +=
-        "\nhighest calm K, N/m    held block                  fixed wall\n"
+    return out;
+}
+
+std::string calm_table(const Results& results) {
+    std::string out =
+        "highest calm K, N/m    held block                  fixed wall\n"
         "coupling          ideal   delay  premium     ideal   delay  premium\n";
     for (const GraspResult& result : results) {
         const GraspFigures& f = result.figures;
         out += fmt::format("{:12s}    {:7.0f} {:7.0f}  {:7.0f}   {:7.0f} {:7.0f}  {:7.0f}\n",
-                           coupling(result), f.calm_k, f.calm_k_delay, f.calm_k_premium, f.wall_k,
-                           f.wall_k_delay, f.wall_k_premium);
+                           coupling_name(result), f.calm_k, f.calm_k_delay, f.calm_k_premium,
+                           f.wall_k, f.wall_k_delay, f.wall_k_premium);
     }
-    out +=
-        "\ntouching and leaving a wall\ncoupling          K   speed  kick ratio  touch step N  "
+    return out;
+}
+
+std::string kick_table(const Results& results) {
+    std::string out =
+        "touching and leaving a wall\ncoupling          K   speed  kick ratio  touch step N  "
         "leave pull N\n";
     for (const GraspResult& result : results) {
         for (const KickFigures& kick : result.figures.kick) {
             out += fmt::format("{:12s} {:6.0f} {:7.1f} {:11.4f} {:13.5f} {:13.5f}\n",
-                               coupling(result), kick.k, kick.speed, kick.kick_ratio,
+                               coupling_name(result), kick.k, kick.speed, kick.kick_ratio,
                                kick.touch_step_n, kick.leave_pull_n);
         }
     }
-    out += "\ncoupling     drag in free motion N   turn by 0.02 N*m for 0.2 s, deg   1 s later\n";
+    return out;
+}
+
+std::string drag_and_turn_table(const Results& results) {
+    std::string out =
+        "coupling     drag in free motion N   turn by 0.02 N*m for 0.2 s, deg   1 s later\n";
     for (const GraspResult& result : results) {
         const GraspFigures& f = result.figures;
-        out += fmt::format("{:12s} {:21.5f}   {:31.5f}   {:9.5f}\n", coupling(result), f.drag_n,
-                           f.torque_turn_deg, f.torque_turn_after_deg);
+        out += fmt::format("{:12s} {:21.5f}   {:31.5f}   {:9.5f}\n", coupling_name(result),
+                           f.drag_n, f.torque_turn_deg, f.torque_turn_after_deg);
         if (f.torsion_limit_ratio) {
             out += fmt::format(
                 "\nsoft fingers of {:g} mm let go at the closed form's torque times {:.4f}\n",
@@ -419,6 +436,18 @@ std::string to_table(const std::vector<GraspResult>& results) {
         }
     }
     return out;
+}
+
+}  // namespace
+
+std::string to_table(const std::vector<GraspResult>& results) {
+    const BenchSetup& setup = results.front().setup;
+    const std::string head = fmt::format(
+        "solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n",
+        enum_name(setup.settings.dynamics.solver), results.front().figures.damping_per_k,
+        setup.mass * 1e3, setup.friction, setup.settings.rate);
+    return head + "\n" + hold_table(results) + "\n" + slow_table(results) + "\n" +
+           calm_table(results) + "\n" + kick_table(results) + "\n" + drag_and_turn_table(results);
 }
 
 }  // namespace dihaptic::measure

@@ -28,6 +28,51 @@ Time lift(Bench& bench) {
     return reached;
 }
 
+/// A block that is held on the machine's clock, turn by turn, and recorded.
+class HeldBlock {
+  public:
+    explicit HeldBlock(const BenchSetup& setup)
+        : scene_(grasp_scene(setup)),
+          bench_(scene_, grasp_hand(setup), setup),
+          log_(scene_, setup.settings),
+          reached_(lift(bench_)) {
+        for (servo::Frame& frame : newest_.values()) bench_.servo().reserve(frame);
+    }
+
+    /// For so long [s]; `published`: for a view to draw.
+    void hold(servo::Timing& timing, double turn, bool published, const std::atomic<bool>& stop) {
+        recording::Recorder recorder = log_.record(recording::Writing::in_thread);
+        const Time period = bench_.servo().period();
+        const Time first = reached_ + period;
+        servo::run_real(
+            bench_.servo(), {},
+            [&](const servo::Frame& frame) {
+                recorder.record(frame);
+                if (published) newest_.publish(frame);
+                height_ = frame.bodies[1].X_WB.p.z();
+            },
+            first, first + from_seconds(turn) - period, stop, timing);
+        reached_ = timing.reached;
+        recorder.finish();
+        dropped_ += recorder.dropped();
+    }
+
+    const scene::Scene& scene() const { return scene_; }
+    const BenchLog& log() const { return log_; }
+    Latest<servo::Frame>& newest() { return newest_; }
+    bool held() const { return height_ - kBlockSize / 2 >= 0.09; }
+    int64_t dropped() const { return dropped_; }
+
+  private:
+    scene::Scene scene_;
+    Bench bench_;
+    BenchLog log_;
+    Latest<servo::Frame> newest_;
+    Time reached_;
+    double height_ = 0;    // [m]
+    int64_t dropped_ = 0;  // frames that were not recorded
+};
+
 Spread spread(const auto& times) {
     return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.quantile(1)};
 }
@@ -51,34 +96,12 @@ JitterFigures bench_jitter(const BenchSetup& base, double whole, bool view,
     BenchSetup setup = base;
     setup.settings.dynamics.sleeping = setup.extra_blocks == 0;
     setup.hold_time = (view ? 2 : 1) * whole + kTurn;
-    const scene::Scene scene = grasp_scene(setup);
-    Bench bench(scene, grasp_hand(setup), setup);
-    const BenchLog log(scene, setup.settings);
+    HeldBlock block(setup);
     JitterFigures figures;
     figures.rate = setup.settings.rate;
     figures.extra = setup.extra_blocks;
-    const Time period = bench.servo().period();
     servo::Timing timing;
     timing.reserve(static_cast<size_t>(whole * setup.settings.rate) + 2);
-    Time reached = lift(bench);
-    double height = 0;
-    Latest<servo::Frame> newest;
-    for (servo::Frame& frame : newest.values()) bench.servo().reserve(frame);
-    const auto run_servo = [&](servo::Timing& into, double turn) {
-        recording::Recorder recorder = log.record(recording::Writing::in_thread);
-        const Time first = reached + period;
-        servo::run_real(
-            bench.servo(), {},
-            [&](const servo::Frame& frame) {
-                recorder.record(frame);
-                if (view) newest.publish(frame);
-                height = frame.bodies[1].X_WB.p.z();
-            },
-            first, first + from_seconds(turn) - period, stop, into);
-        reached = into.reached;
-        recorder.finish();
-        figures.dropped += recorder.dropped();
-    };
     int64_t pictures = 0;
     while (figures.seconds < whole - 1e-9 && !stop) {
         const double turn = std::min(kTurn, whole - figures.seconds);
@@ -89,16 +112,16 @@ JitterFigures bench_jitter(const BenchSetup& base, double whole, bool view,
         if (view) {
             say("servo without a view", 0);
             servo::Timing quiet;
-            run_servo(quiet, turn);
+            block.hold(quiet, turn, view, stop);
             figures.quiet_overruns += quiet.overruns;
-            drawing.emplace(scene, newest);
+            drawing.emplace(block.scene(), block.newest());
         }
         say("servo", view ? 0.33 : 0);
-        run_servo(timing, turn);
+        block.hold(timing, turn, view, stop);
         if (figures.no_cyclictest.empty() && !stop) {
             say("cyclictest", view ? 0.67 : 0.5);
             const Cyclictest peer{setup.settings, timing.refusals.priority == 0,
-                                  timing.refusals.memory == 0, log.file("cyclictest.json")};
+                                  timing.refusals.memory == 0, block.log().file("cyclictest.json")};
             figures.no_cyclictest = run_cyclictest(peer, turn, figures.cyclictest);
         }
         if (drawing) pictures += drawing->pictures();
@@ -111,7 +134,8 @@ JitterFigures bench_jitter(const BenchSetup& base, double whole, bool view,
     figures.lateness = spread(timing.lateness);
     figures.tick = spread(timing.ticks);
     figures.overruns = timing.overruns;
-    figures.held = height - kBlockSize / 2 >= 0.09;
+    figures.dropped = block.dropped();
+    figures.held = block.held();
     figures.refused = servo::describe(timing.refusals, setup.settings.real_time_priority);
     for (const float us : timing.lateness.us()) figures.wakeups.add(static_cast<int>(us));
     return figures;

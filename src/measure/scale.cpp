@@ -34,70 +34,98 @@ Cost measure_ticks(const BenchSetup& setup, HandleTrace* trace) {
     return {times.quantile(0.5), times.quantile(0.99), times.quantile(1)};
 }
 
-/// Median step of a plain Bullet world with the same bodies, settings and finger movements.
-double measure_bullet(const BenchSetup& setup, const HandleTrace& trace) {
-    const scene::Scene scene = grasp_scene(setup);
-    btDefaultCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher(&configuration);
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
-    const auto vector = [](const Vec3& v) { return btVector3(v.x(), v.y(), v.z()); };
-    world.setGravity(vector(scene.gravity));
-    gContactBreakingThreshold = kBulletBreakingThreshold;
-    btContactSolverInfo& info = world.getSolverInfo();
-    const dynamics::Settings& settings = setup.settings.dynamics;
-    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
-    info.m_warmstartingFactor = 1;
-    info.m_numIterations = settings.iterations;
-    info.m_leastSquaresResidualThreshold = settings.tolerance * settings.tolerance;
+btVector3 vector(const Vec3& v) {
+    return btVector3(v.x(), v.y(), v.z());
+}
 
-    std::vector<std::unique_ptr<btBoxShape>> shapes;
-    std::vector<std::unique_ptr<btRigidBody>> bodies;
-    const auto add = [&](const Vec3& size, const Vec3& position, double mass,
-                         double friction) -> btRigidBody& {
-        shapes.push_back(std::make_unique<btBoxShape>(vector(size / 2)));
+/// A plain Bullet world with the bodies, settings and fingers of a bench.
+class BareWorld {
+  public:
+    BareWorld(const BenchSetup& setup, const std::vector<haptics::Handle>& start)
+        : scene_(grasp_scene(setup)),
+          h_(setup.settings.step()),
+          k_(setup.settings.coupling.stiffness),
+          c_(haptics::damping(setup.settings.coupling, h_)) {
+        world_.setGravity(vector(scene_.gravity));
+        gContactBreakingThreshold = kBulletBreakingThreshold;
+        btContactSolverInfo& info = world_.getSolverInfo();
+        const dynamics::Settings& settings = setup.settings.dynamics;
+        info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
+        info.m_warmstartingFactor = 1;
+        info.m_numIterations = settings.iterations;
+        info.m_leastSquaresResidualThreshold = settings.tolerance * settings.tolerance;
+        for (const scene::Body& body : scene_.bodies)
+            add(body.shape.size, body.position, body.fixed ? 0 : scene::mass(body), body.friction);
+        for (size_t i = 0; i < scene_.fingers.size(); ++i)
+            add_proxy(scene_.fingers[i], start[i].p_WH);
+    }
+    ~BareWorld() {
+        for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+    }
+    BareWorld(const BareWorld&) = delete;
+    BareWorld& operator=(const BareWorld&) = delete;
+
+    /// Couples the proxies to the handles.
+    void drive(const std::vector<haptics::Handle>& handles) {
+        for (size_t i = 0; i < proxies_.size(); ++i) {
+            btRigidBody& proxy = *proxies_[i];
+            const btVector3 stretch =
+                vector(handles[i].p_WH) - proxy.getWorldTransform().getOrigin();
+            proxy.setLinearVelocity((proxy.getLinearVelocity() * scene_.fingers[i].mass +
+                                     stretch * h_ * k_ + vector(handles[i].v_WH) * h_ * c_) *
+                                    proxy.getInvMass());
+        }
+    }
+
+    void step() { world_.stepSimulation(h_, 0, h_); }
+
+  private:
+    btRigidBody& add(const Vec3& size, const Vec3& position, double mass, double friction) {
+        shapes_.push_back(std::make_unique<btBoxShape>(vector(size / 2)));
         btVector3 inertia(0, 0, 0);
-        if (mass > 0) shapes.back()->calculateLocalInertia(mass, inertia);
-        btRigidBody::btRigidBodyConstructionInfo body(mass, nullptr, shapes.back().get(), inertia);
+        if (mass > 0) shapes_.back()->calculateLocalInertia(mass, inertia);
+        btRigidBody::btRigidBodyConstructionInfo body(mass, nullptr, shapes_.back().get(), inertia);
         body.m_startWorldTransform = btTransform(btQuaternion::getIdentity(), vector(position));
         body.m_friction = std::sqrt(friction);  // Bullet multiplies the two
-        bodies.push_back(std::make_unique<btRigidBody>(body));
-        bodies.back()->setActivationState(DISABLE_DEACTIVATION);
-        world.addRigidBody(bodies.back().get());
-        return *bodies.back();
-    };
-    for (const scene::Body& body : scene.bodies)
-        add(body.shape.size, body.position, body.fixed ? 0 : scene::mass(body), body.friction);
-    std::vector<btRigidBody*> proxies;
-    const double h = setup.settings.step();
-    const double k = setup.settings.coupling.stiffness;
-    const double c = haptics::damping(setup.settings.coupling, h);
-    for (size_t i = 0; i < scene.fingers.size(); ++i) {
-        const scene::Finger& finger = scene.fingers[i];
-        btRigidBody& proxy =
-            add(finger.shape.size, trace.front()[i].p_WH, finger.mass, finger.friction);
+        bodies_.push_back(std::make_unique<btRigidBody>(body));
+        bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
+        world_.addRigidBody(bodies_.back().get());
+        return *bodies_.back();
+    }
+
+    void add_proxy(const scene::Finger& finger, const Vec3& p_W) {
+        btRigidBody& proxy = add(finger.shape.size, p_W, finger.mass, finger.friction);
         proxy.setGravity({0, 0, 0});
         proxy.setAngularFactor(0);
-        proxy.setMassProps(finger.mass + h * c + h * h * k, {0, 0, 0});
-        proxies.push_back(&proxy);
+        proxy.setMassProps(finger.mass + h_ * c_ + h_ * h_ * k_, {0, 0, 0});
+        proxies_.push_back(&proxy);
     }
+
+    scene::Scene scene_;
+    double h_;
+    double k_;
+    double c_;
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_{&configuration_};
+    btDbvtBroadphase broadphase_;
+    btSequentialImpulseConstraintSolver solver_;
+    btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+    std::vector<std::unique_ptr<btBoxShape>> shapes_;
+    std::vector<std::unique_ptr<btRigidBody>> bodies_;
+    std::vector<btRigidBody*> proxies_;
+};
+
+/// Median step of a plain Bullet world with the same bodies, settings and finger movements.
+double measure_bullet(const BenchSetup& setup, const HandleTrace& trace) {
+    BareWorld world(setup, trace.front());
     servo::TickTimes times;
     times.reserve(trace.size());
     for (const auto& handles : trace) {
-        for (size_t i = 0; i < proxies.size(); ++i) {
-            btRigidBody& proxy = *proxies[i];
-            const btVector3 stretch =
-                vector(handles[i].p_WH) - proxy.getWorldTransform().getOrigin();
-            proxy.setLinearVelocity((proxy.getLinearVelocity() * scene.fingers[i].mass +
-                                     stretch * h * k + vector(handles[i].v_WH) * h * c) *
-                                    proxy.getInvMass());
-        }
+        world.drive(handles);
         const auto begin = std::chrono::steady_clock::now();
-        world.stepSimulation(h, 0, h);
+        world.step();
         times.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
-    for (const auto& body : bodies) world.removeRigidBody(body.get());
     return times.quantile(0.5);
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "contact/solver.h"
 #include "measure/bullet_problem.h"
 #include "measure/solver_problems.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/solver.h"
+#include "contact/solver_settings.h"
 #include "measure/grasp.h"
 
 namespace dihaptic::measure {

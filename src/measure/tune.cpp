@@ -139,6 +139,60 @@ std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result)
     return rows;
 }
 
+/// Passes a part's share on as one of the whole, between `from` and `to`.
+std::function<void(double)> part_of(const Progress& progress, const char* what, double from,
+                                    double to) {
+    return [&progress, what, from, to](double share) {
+        if (progress) progress(what, from + share * (to - from));
+    };
+}
+
+/// Brings each row's last good and first bad stiffness closer to each other.
+void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomic<bool>& stop,
+            const Progress& progress) {
+    for (int i = 0; i < kBisections && !stop; ++i) {
+        std::vector<TunePoint> middle;
+        for (const Bracket& row : rows) {
+            if (row.bad > row.good)
+                middle.push_back({std::sqrt(row.good * row.bad), row.c, row.smoothing, {}});
+        }
+        judge_all(setup, middle, stop,
+                  part_of(progress, "the proposal", 0.85 + 0.03 * i, 0.88 + 0.03 * i));
+        auto judged = middle.begin();
+        for (Bracket& row : rows) {
+            if (row.bad <= row.good) continue;
+            (judged->calm_with_margin() ? row.good : row.bad) = judged->k;
+            ++judged;
+        }
+    }
+}
+
+/// The least damped (rows rise) of those that are as stiff as any within what bisection resolves: a
+/// damper is felt on every touch.
+const Bracket& least_damped(const std::vector<Bracket>& rows) {
+    const double stiffest =
+        std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
+            return a.good < b.good;
+        })->good;
+    return *std::find_if(rows.begin(), rows.end(),
+                         [&](const Bracket& row) { return row.good >= kAsStiff * stiffest; });
+}
+
+/// In steps of the second digit: where calm and shaking alternate, down to what the map found calm.
+TunePoint stiffest_calm(const TuneSetup& setup, const Bracket& row, const std::atomic<bool>& stop,
+                        const Progress& progress) {
+    const auto judged = [&](double k) {
+        std::vector<TunePoint> point{{k, row.c, row.smoothing, {}}};
+        judge_all(setup, point, stop, part_of(progress, "the proposal", 0.94, 0.97));
+        return point.front();
+    };
+    for (double k = rounded_down(row.good); k > row.of_map && !stop; k = one_digit_less(k)) {
+        const TunePoint point = judged(k);
+        if (point.calm_with_margin()) return point;
+    }
+    return judged(row.of_map);
+}
+
 }  // namespace
 
 bool TunePoint::calm_with_margin() const {
@@ -219,56 +273,17 @@ TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Pro
             for (const double k : setup.stiffness) out.map.push_back({k, c, smoothing, {}});
         }
     }
-    const auto say = [&](const char* what, double from, double to) {
-        return [&progress, what, from, to](double share) {
-            if (progress) progress(what, from + share * (to - from));
-        };
-    };
-    judge_all(setup, out.map, stop, say("the map", 0, 0.85));
+    judge_all(setup, out.map, stop, part_of(progress, "the map", 0, 0.85));
 
     std::vector<Bracket> rows = best_rows(setup, out);
-    for (int i = 0; i < kBisections && !stop; ++i) {
-        std::vector<TunePoint> middle;
-        for (const Bracket& row : rows) {
-            if (row.bad > row.good)
-                middle.push_back({std::sqrt(row.good * row.bad), row.c, row.smoothing, {}});
-        }
-        judge_all(setup, middle, stop, say("the proposal", 0.85 + 0.03 * i, 0.88 + 0.03 * i));
-        auto judged = middle.begin();
-        for (Bracket& row : rows) {
-            if (row.bad <= row.good) continue;
-            (judged->calm_with_margin() ? row.good : row.bad) = judged->k;
-            ++judged;
-        }
-    }
+    bisect(setup, rows, stop, progress);
     out.interrupted = stop;
     if (rows.empty() || stop) return out;
 
-    // the least damped (rows rise) of those that are as stiff as any within what bisection
-    // resolves: a damper is felt on every touch
-    const double stiffest =
-        std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
-            return a.good < b.good;
-        })->good;
-    const Bracket& best = *std::find_if(rows.begin(), rows.end(), [&](const Bracket& row) {
-        return row.good >= kAsStiff * stiffest;
-    });
-    // in steps of the second digit: where calm and shaking alternate, down to what the map found
-    // calm
-    std::vector<TunePoint> found;
-    for (double k = rounded_down(best.good); k > best.of_map && !stop; k = one_digit_less(k)) {
-        found = {{k, best.c, best.smoothing, {}}};
-        judge_all(setup, found, stop, say("the proposal", 0.94, 0.97));
-        if (found.front().calm_with_margin()) break;
-        found.clear();
-    }
-    if (found.empty()) {
-        found = {{best.of_map, best.c, best.smoothing, {}}};
-        judge_all(setup, found, stop, say("the proposal", 0.94, 0.97));
-    }
-    out.proposal = found.front();
+    const Bracket& best = least_damped(rows);
+    out.proposal = stiffest_calm(setup, best, stop, progress);
     std::vector<TunePoint> stiffer{{kNotMargin * out.proposal->k, best.c, best.smoothing, {}}};
-    judge_all(setup, stiffer, stop, say("the proposal", 0.97, 1));
+    judge_all(setup, stiffer, stop, part_of(progress, "the proposal", 0.97, 1));
     out.stiffer = stiffer.front();
     out.interrupted = stop;
     return out;

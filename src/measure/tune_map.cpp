@@ -79,22 +79,27 @@ double logarithm(double value) {
     return std::log(value);
 }
 
-}  // namespace
+/// A cell for each setting that was tried.
+class Grid {
+  public:
+    explicit Grid(const TuneSetup& setup) : setup_(setup) {}
+    double width() const { return static_cast<double>(setup_.stiffness.size()) * kCell; }
+    double height() const { return static_cast<double>(setup_.damping.size()) * kCell; }
+    double right() const { return kLeft + width(); }
+    double bottom() const { return kTop + height(); }
+    double x(double k) const {
+        return kLeft + kCell * (0.5 + index_of(setup_.stiffness, k, logarithm));
+    }
+    double y(double c) const {
+        return bottom() - kCell * (0.5 + index_of(setup_.damping, c, same));
+    }
 
-std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title) {
-    const double columns = static_cast<double>(setup.stiffness.size());
-    const double rows = static_cast<double>(setup.damping.size());
-    const double width = std::max(kLeft + columns * kCell + 30, 830.0);
-    const double bottom = kTop + rows * kCell;
-    Picture picture(width, bottom + 216);
-    const auto x_of = [&](double k) {
-        return kLeft + kCell * (0.5 + index_of(setup.stiffness, k, logarithm));
-    };
-    const auto y_of = [&](double c) {
-        return bottom - kCell * (0.5 + index_of(setup.damping, c, same));
-    };
-    const double smoothing = result.proposal ? result.proposal->smoothing : setup.smoothing.back();
+  private:
+    const TuneSetup& setup_;
+};
 
+void draw_title(Picture& picture, const TuneSetup& setup, const std::string& title,
+                double smoothing) {
     picture.text(20, 30, "Calm and shaking settings: " + title, "start",
                  "font-size=\"18\" font-weight=\"bold\"");
     std::string how = fmt::format(
@@ -104,50 +109,53 @@ std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std
         setup.settings.rate, setup.hand.stiffness, setup.hand.damping, setup.grip);
     if (setup.smoothing.size() > 1) how += fmt::format("; smoothing {:g}", smoothing);
     picture.text(20, 54, how);
+}
 
-    for (const TunePoint& point : result.map) {
-        if (point.smoothing == smoothing) draw_point(picture, x_of(point.k), y_of(point.c), point);
-    }
+void draw_axes(Picture& picture, const Grid& grid, const TuneSetup& setup) {
     for (const double k : setup.stiffness)
-        picture.text(x_of(k), bottom + 18, fmt::format("{:g}", k), "middle", "font-size=\"11\"");
+        picture.text(grid.x(k), grid.bottom() + 18, fmt::format("{:g}", k), "middle",
+                     "font-size=\"11\"");
     for (const double c : setup.damping)
-        picture.text(kLeft - 10, y_of(c) + 4, fmt::format("{:g}", c), "end");
-    picture.text(kLeft + columns * kCell / 2, bottom + 42, "stiffness of the coupling, N/m",
+        picture.text(kLeft - 10, grid.y(c) + 4, fmt::format("{:g}", c), "end");
+    picture.text(kLeft + grid.width() / 2, grid.bottom() + 42, "stiffness of the coupling, N/m",
                  "middle");
-    const double middle = kTop + rows * kCell / 2;
+    const double middle = kTop + grid.height() / 2;
     picture.text(36, middle, "damping of the coupling, N·s/m", "middle",
                  fmt::format("transform=\"rotate(-90 36 {:g})\"", middle));
+}
 
-    // the damping that the program takes when none is given
+/// The damping that the program takes when none is given.
+void draw_default_damping(Picture& picture, const Grid& grid, const TuneSetup& setup) {
     std::string line;
     const double per_k = setup.settings.step() / 2;
     for (const double k : setup.stiffness) {
         if (k * per_k > setup.damping.back()) break;
-        line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x_of(k), y_of(k * per_k));
+        line +=
+            fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", grid.x(k), grid.y(k * per_k));
     }
-    if (!line.empty()) {
-        picture.path(line, "#ffffff", 4);
-        picture.path(line, "#000000", 1.5);
-    }
+    if (line.empty()) return;
+    picture.path(line, "#ffffff", 4);
+    picture.path(line, "#000000", 1.5);
+}
 
-    if (result.proposal) {
-        const double x = x_of(result.proposal->k);
-        const double y = y_of(result.proposal->c);
-        std::string star;
-        for (int i = 0; i < 10; ++i) {
-            const double angle = std::acos(-1.0) * i / 5;
-            const double radius = i % 2 == 0 ? 17 : 7;
-            star += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x + radius * std::sin(angle),
-                                y - radius * std::cos(angle));
-        }
-        picture.path(star + "Z", "#000000", 2, "#ffe14d");
-        picture.text(kLeft + columns * kCell, 76,
-                     fmt::format("★ proposal: {:.6g} N/m, {:.6g} N·s/m", result.proposal->k,
-                                 result.proposal->c),
-                     "end", "font-weight=\"bold\"");
+void draw_proposal(Picture& picture, const Grid& grid, const TunePoint& proposal) {
+    const double x = grid.x(proposal.k);
+    const double y = grid.y(proposal.c);
+    std::string star;
+    for (int i = 0; i < 10; ++i) {
+        const double angle = std::acos(-1.0) * i / 5;
+        const double radius = i % 2 == 0 ? 17 : 7;
+        star += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x + radius * std::sin(angle),
+                            y - radius * std::cos(angle));
     }
+    picture.path(star + "Z", "#000000", 2, "#ffe14d");
+    picture.text(grid.right(), 76,
+                 fmt::format("★ proposal: {:.6g} N/m, {:.6g} N·s/m", proposal.k, proposal.c), "end",
+                 "font-weight=\"bold\"");
+}
 
-    double y = bottom + 80;
+/// What the marks mean, from `y` down.
+void draw_key(Picture& picture, double y) {
     const double key = kLeft;
     picture.cell(key, y, "#0a5ea8");
     dot(picture, key, y);
@@ -166,6 +174,23 @@ std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std
     picture.text(key + 620, y + 5, "dropped");
     picture.text(key - 22, y + 52,
                  "black line: the damping that is taken when none is given, k h / 2");
+}
+
+}  // namespace
+
+std::string tune_map(const TuneResult& result, const TuneSetup& setup, const std::string& title) {
+    const Grid grid(setup);
+    Picture picture(std::max(grid.right() + 30, 830.0), grid.bottom() + 216);
+    const double smoothing = result.proposal ? result.proposal->smoothing : setup.smoothing.back();
+    draw_title(picture, setup, title, smoothing);
+    for (const TunePoint& point : result.map) {
+        if (point.smoothing == smoothing)
+            draw_point(picture, grid.x(point.k), grid.y(point.c), point);
+    }
+    draw_axes(picture, grid, setup);
+    draw_default_damping(picture, grid, setup);
+    if (result.proposal) draw_proposal(picture, grid, *result.proposal);
+    draw_key(picture, grid.bottom() + 80);
     return picture.take();
 }
 

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "contact/solver.h"
+#include <string_view>
+#include <utility>
+
+#include "contact/route.h"
+#include "contact/solver_settings.h"
 #include "haptics/settings.h"
 #include "servo/frame.h"
 
@@ -33,29 +37,47 @@ std::string bits() {
     return out;
 }
 
+std::string listed_or_none(const std::vector<std::string>& names) {
+    return std::string("-1: none") + (names.empty() ? "" : ", ") + listed(names);
+}
+
+std::string phase_codes(const LogHead& head) {
+    std::vector<std::string> names;
+    for (const PhaseInfo& phase : head.phases) names.push_back(phase.name);
+    return listed(names);
+}
+
+struct Coded {
+    std::string_view name;
+    std::string (*codes)(const LogHead& head);
+};
+constexpr Coded kCoded[] = {
+    {"phase", phase_codes},
+    {"outcome", [](const LogHead& head) { return listed_or_none(head.outcomes); }},
+    {"message", [](const LogHead& head) { return listed_or_none(head.messages); }},
+    {"status", [](const LogHead&) { return bits(); }},
+    {"solver", [](const LogHead&) { return listed<contact::Solver>(); }},
+    {"coupling", [](const LogHead&) { return listed<haptics::CouplingKind>(); }},
+    {"proxy", [](const LogHead&) { return listed<haptics::ProxyKind>(); }},
+    {"solver_route", [](const LogHead&) { return listed<contact::Route>(); }},
+};
+constexpr std::pair<std::string_view, const char*> kAlwaysCoded[] = {
+    {"solver_fallback", "0: the solver answered, 1: another one did"},
+    {"marker", "0: none"},
+    {"trial", "0: none"},
+    {"awake", "0: the body sleeps, 1: it does not"},
+    {"buttons", "a sum of: 1, 2, 4, ... a button that is pressed"},
+};
+
 }  // namespace
 
 std::string codes_of(const std::string& name, const LogHead& head) {
-    if (name == "phase") {
-        std::vector<std::string> names;
-        for (const PhaseInfo& phase : head.phases) names.push_back(phase.name);
-        return listed(names);
+    for (const Coded& coded : kCoded) {
+        if (coded.name == name) return coded.codes(head);
     }
-    const std::string none = "-1: none";
-    if (name == "outcome" || name == "message") {
-        const auto& names = name == "outcome" ? head.outcomes : head.messages;
-        return none + (names.empty() ? "" : ", ") + listed(names);
+    for (const auto& [coded, codes] : kAlwaysCoded) {
+        if (coded == name) return codes;
     }
-    if (name == "status") return bits();
-    if (name == "solver") return listed<contact::Solver>();
-    if (name == "coupling") return listed<haptics::CouplingKind>();
-    if (name == "proxy") return listed<haptics::ProxyKind>();
-    if (name == "solver_route") return listed<contact::Route>();
-    if (name == "solver_fallback") return "0: the solver answered, 1: another one did";
-    if (name == "marker") return "0: none";
-    if (name == "trial") return "0: none";
-    if (name == "awake") return "0: the body sleeps, 1: it does not";
-    if (name == "buttons") return "a sum of: 1, 2, 4, ... a button that is pressed";
     return "";
 }
 

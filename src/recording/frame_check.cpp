@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "contact/solver.h"
+#include "contact/route.h"
+#include "contact/solver_settings.h"
 #include "haptics/settings.h"
 
 namespace dihaptic::recording {
@@ -16,6 +17,12 @@ bool is_index(int32_t i, size_t count) noexcept {
 template <class Enum>
 bool names(int32_t value) noexcept {
     return value >= 0 && static_cast<size_t>(value) < enum_names(Enum{}).size();
+}
+
+bool is_possible(const servo::ContactFrame& contact, size_t all) noexcept {
+    const bool both = contact.a >= 0 && contact.b >= 0;
+    return (both || contact.normal_force == 0) && is_index(contact.a, all) &&
+           is_index(contact.b, all);
 }
 
 bool is_possible(const servo::TaskFrame& task, size_t bodies, size_t all) noexcept {
@@ -40,12 +47,9 @@ bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
            names<haptics::CouplingKind>(frame.coupling) && names<haptics::ProxyKind>(frame.proxy) &&
            names<contact::Solver>(frame.solver) && names<contact::Route>(frame.solver_route) &&
            is_possible(frame.task, layout.bodies, all) &&
-           std::all_of(frame.contacts.begin(), frame.contacts.end(),
-                       [&](const servo::ContactFrame& contact) {
-                           const bool both = contact.a >= 0 && contact.b >= 0;
-                           return (both || contact.normal_force == 0) && is_index(contact.a, all) &&
-                                  is_index(contact.b, all);
-                       });
+           std::all_of(
+               frame.contacts.begin(), frame.contacts.end(),
+               [&](const servo::ContactFrame& contact) { return is_possible(contact, all); });
 }
 
 }  // namespace dihaptic::recording
