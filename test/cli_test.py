@@ -997,6 +997,18 @@ class Rehearsals(unittest.TestCase):
         with open(folder + "/" + name) as file:
             return list(csv.DictReader(file))
 
+    def test_a_session_that_a_fault_ended_is_in_no_mean(self):
+        out = self.folder + "/out"
+        run = lambda *arguments: dihaptic("run", self.experiment, "--simulate", "--out", out, *arguments)
+        self.assertEqual(run("--participant", "sim-001").returncode, 0)
+        self.assertEqual(run("--participant", "sim-002", "--set", "safety.max_speed_m_s=0.1").returncode, 1)
+        (ended,) = glob.glob(out + "/*sim-002/")
+        self.assertIn("state: interrupted", pathlib.Path(ended + "session.yaml").read_text())
+        report = dihaptic("report", out)
+        self.assertEqual(report.returncode, 0, report.stderr)
+        self.assertRegex(report.stdout, r"left out: .*sim-002: it ended before its trials were done; dihaptic resume goes on with it")
+        self.assertEqual([row["ppid"] for row in self.rows(out, "population-people.csv")], ["sim-001"])
+
     def test_jobs_and_shards_give_the_same_tables_to_the_byte(self):
         whole = self.folder + "/whole"
         result = self.rehearse(whole)
@@ -1083,6 +1095,7 @@ class Rehearsals(unittest.TestCase):
             rows = self.rows(both, name)
             self.assertEqual({(row["seed"], row["id"]) for row in rows},
                              {(seed, person) for seed in "19" for person in self.PEOPLE[:2]}, name)
+            self.assertEqual({(row["simulated"], row["moved_by"]) for row in rows}, {("yes", "simulated_person")}, name)
         pathlib.Path(self.experiment).write_text(
             pathlib.Path(self.experiment).read_text().replace("angle_deg: 30", "angle_deg: 60"))
         other = self.folder + "/other"

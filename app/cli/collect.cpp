@@ -10,6 +10,7 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "command.h"
+#include "recording/moved_by.h"
 #include "rehearsal.h"
 
 namespace dihaptic::cli {
@@ -82,21 +83,25 @@ std::map<Key, std::string> find_people(const CollectOptions& options) {
     return out;
 }
 
-/// The tables that are collected, each with a seed, a group and an id in front.
+/// The tables that are collected, each with a seed, a group and an id in front, and at its end
+/// who moved the hand.
 class Collection {
   public:
     void add(const Key& key, const std::string& session) {
         const Node person = read_yaml(session + "/person.yaml");
         const Node* group = person.find("group");
         front_ = {key.seed, group == nullptr ? "" : group->scalar, key.id};
-        add_person(person);
         append("trials.csv", read_csv(session + "/trials.csv"));
         if (is_there(session + "/lifts.csv")) append("lifts.csv", read_csv(session + "/lifts.csv"));
-        const auto page =
-            analysis::session_page(analysis::SessionData::read(session), "", [](double) {});
-        append("adaptation.csv", text_of(page.adaptation));
-        append("fits.csv", text_of(page.fits));
-        append("thresholds.csv", text_of(page.thresholds));
+        const auto data = analysis::SessionData::read(session);
+        const auto page = analysis::session_page(data, "", [](double) {});
+        const auto add_table = [&](const std::string& name, const Table& table) {
+            append(name, text_of(recording::marked(table, data.info.moved_by)));
+        };
+        add_table("people.csv", person_table(person));
+        add_table("adaptation.csv", page.adaptation);
+        add_table("fits.csv", page.fits);
+        add_table("thresholds.csv", page.thresholds);
     }
 
     /// Returns the names of what it wrote.
@@ -117,14 +122,15 @@ class Collection {
     size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
 
   private:
-    void add_person(const Node& person) {
-        Rows rows(2);
+    static Table person_table(const Node& person) {
+        Table out;
+        out.rows.resize(1);
         for (const auto& entry : person.entries) {
             if (entry.key == "id" || entry.key == "group") continue;
-            rows[0].push_back(entry.key);
-            rows[1].push_back(entry.value.scalar);
+            out.columns.push_back({entry.key, ""});
+            out.rows[0].push_back(entry.value.scalar);
         }
-        append("people.csv", rows);
+        return out;
     }
 
     static Rows text_of(const Table& table) {

@@ -85,6 +85,7 @@ std::string to_text(const analysis::TwoRateFit& fit, int n) {
 void add_fit(CLI::App& app) {
     auto* command = app.add_subcommand("fit", "Fit a model to a table of one's own");
     command->require_subcommand(1);
+    command->footer("\nExample:\n  dihaptic fit two_rate person.csv --json");
     auto* two_rate = command->add_subcommand("two_rate",
                                              "The two-rate model of adaptation (Smith et al. 2006) "
                                              "that is nearest to a person's trials");

@@ -142,6 +142,71 @@ std::string messages_of(const RehearseOptions& options, const std::string& id) {
                        options.out);
 }
 
+person::Population population_of(const RehearseOptions& options) {
+    if (!options.population_file.empty()) return person::read_population(options.population_file);
+    return person::shipped_population(options.real_objects ? person::Objects::real
+                                                           : person::Objects::device);
+}
+
+std::string usual_folder(const experiment::Request& request) {
+    return fmt::format("rehearsals/{}_{}", fs::path(request.file).stem().string(), request.seed);
+}
+
+/// A shard's people.
+struct Roster {
+    std::vector<std::string> waiting;
+    int there = 0;  ///< whose sessions were complete before
+};
+
+Roster roster_of(const RehearseOptions& options, const Shard& shard) {
+    Roster roster;
+    for (int person = shard.number; person <= options.people; person += shard.of) {
+        if (fs::exists(finished(options, id_of(person)))) {
+            ++roster.there;
+        } else {
+            roster.waiting.push_back(id_of(person));
+        }
+    }
+    return roster;
+}
+
+/// Returns what is to be said of those who failed.
+std::vector<std::string> run_people(const RehearseOptions& options,
+                                    const std::vector<std::string>& people) {
+    ProgressLine line("rehearsing");
+    std::map<pid_t, std::string> running;
+    std::vector<std::string> failed;
+    const size_t all = people.size();
+    size_t next = 0;
+    size_t done = 0;
+    while (!running.empty() || (next < all && !stop_requested)) {
+        while (static_cast<int>(running.size()) < options.jobs && next < all && !stop_requested) {
+            const std::string& id = people[next++];
+            running[start(options, id)] = id;
+        }
+        int status = 0;
+        const pid_t child = waitpid(-1, &status, 0);
+        if (child < 0 && errno == EINTR) continue;
+        if (child < 0)
+            throw Error({options.out, 0}, "",
+                        "is not watched over: " + std::string(std::strerror(errno)),
+                        "Start it again: it goes on with those that are missing.");
+        const auto ended = running.find(child);
+        if (ended == running.end()) continue;
+        if (status != 0) {
+            failed.push_back(fmt::format("{}: {}. {}", ended->second, what_became(status),
+                                         messages_of(options, ended->second)));
+        } else {
+            ++done;
+        }
+        running.erase(ended);
+        line.show(static_cast<double>(done + failed.size()) / static_cast<double>(all),
+                  fmt::format("{} of {}", done, all));
+    }
+    if (done < all) exit_code = kFailed;
+    return failed;
+}
+
 void rehearse(RehearseOptions& options) {
     const Shard shard = parse_shard(options.shard);
     options.request.simulate = true;
@@ -153,62 +218,16 @@ void rehearse(RehearseOptions& options) {
     }
     print(plan.warnings);
     print(experiment::simulated_limits(*plan.task));
-    options.population =
-        options.population_file.empty()
-            ? person::shipped_population(options.real_objects ? person::Objects::real
-                                                              : person::Objects::device)
-            : person::read_population(options.population_file);
-    if (options.out.empty()) {
-        options.out =
-            fmt::format("rehearsals/{}_{}", fs::path(options.request.file).stem().string(),
-                        options.request.seed);
-    }
+    options.population = population_of(options);
+    if (options.out.empty()) options.out = usual_folder(options.request);
     claim(options.out, rehearsal_of(plan, *options.population));
 
-    std::vector<std::string> waiting;
-    int there = 0;
-    for (int person = shard.number; person <= options.people; person += shard.of) {
-        if (fs::exists(finished(options, id_of(person)))) {
-            ++there;
-        } else {
-            waiting.push_back(id_of(person));
-        }
-    }
+    const auto [waiting, there] = roster_of(options, shard);
     fmt::print("{}\n{}\n", plan.title,
                there == 0 ? fmt::format("{} to do",
                                         counted(static_cast<int64_t>(waiting.size()), "session"))
                           : fmt::format("{} to do, {} done before", waiting.size(), there));
-    std::map<pid_t, std::string> running;
-    std::vector<std::string> failed;
-    {
-        ProgressLine line("rehearsing");
-        const size_t all = waiting.size();
-        size_t next = 0;
-        size_t done = 0;
-        while (!running.empty() || (next < all && !stop_requested)) {
-            while (static_cast<int>(running.size()) < options.jobs && next < all &&
-                   !stop_requested) {
-                const std::string& id = waiting[next++];
-                running[start(options, id)] = id;
-            }
-            int status = 0;
-            const pid_t child = waitpid(-1, &status, 0);
-            if (child < 0 && errno == EINTR) continue;
-            const auto ended = running.find(child);
-            if (ended == running.end()) continue;
-            if (status != 0) {
-                failed.push_back(fmt::format("{}: {}. {}", ended->second, what_became(status),
-                                             messages_of(options, ended->second)));
-            } else {
-                ++done;
-            }
-            running.erase(ended);
-            line.show(static_cast<double>(done + failed.size()) / static_cast<double>(all),
-                      fmt::format("{} of {}", done, all));
-        }
-        if (done < all) exit_code = kFailed;
-    }
-    for (const std::string& text : failed) fmt::print(stderr, "{}\n", text);
+    for (const std::string& text : run_people(options, waiting)) fmt::print(stderr, "{}\n", text);
     if (exit_code == kOk) {
         fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out, options.out);
     } else {

@@ -168,6 +168,40 @@ void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
 
 namespace {
 
+double peak_force(const analysis::SessionFigures& figures) {
+    double force = 0;
+    for (const analysis::PhaseFigures& phase : figures.phases)
+        force = std::max(force, phase.peak_force);
+    return force;
+}
+
+const char* outcome_of(const analysis::SessionFigures& figures, bool interrupted) {
+    if (figures.diverged()) return "diverged";
+    if (figures.failed()) return "force off";
+    return interrupted ? "interrupted" : "done";
+}
+
+/// What became of the object.
+struct Handling {
+    double held = 0;    ///< its longest hold [s]
+    double slip = NAN;  ///< in that [m]
+    double slid = 0;    ///< along what it lies on, in all [m]
+    double flown = 0;   ///< untouched in the air, in all [s]
+};
+
+Handling handling_of(const std::vector<analysis::Episode>& episodes) {
+    Handling out;
+    for (const analysis::Episode& e : episodes) {
+        const double lasted = e.end - e.start;
+        if (e.kind == analysis::EpisodeKind::slide) out.slid += e.distance;
+        if (e.kind == analysis::EpisodeKind::flight) out.flown += lasted;
+        if (e.kind != analysis::EpisodeKind::hold || lasted <= out.held) continue;
+        out.held = lasted;
+        out.slip = e.slip;
+    }
+    return out;
+}
+
 /// One movement of a batch: its row, printed and kept.
 std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::string& name) {
     const experiment::Plan plan = experiment::make_plan(options.request);
@@ -175,31 +209,14 @@ std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::
         experiment::run_session(plan, options.run, stop_requested, {});
     const analysis::SessionFigures figures =
         analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
-    double force = 0;
-    for (const analysis::PhaseFigures& phase : figures.phases)
-        force = std::max(force, phase.peak_force);
+    const double force = peak_force(figures);
     const analysis::PhaseFigures* grasp = figures.phase("grasp");
     const double grip = grasp != nullptr ? grasp->mean_grip : NAN;
     const double peak = grasp != nullptr ? grasp->peak_grip : NAN;
-    double held = 0;
-    double slip = NAN;
-    double slid = 0;
-    double flown = 0;
-    for (const analysis::Episode& e : figures.episodes) {
-        const double lasted = e.end - e.start;
-        if (e.kind == analysis::EpisodeKind::slide) slid += e.distance;
-        if (e.kind == analysis::EpisodeKind::flight) flown += lasted;
-        if (e.kind != analysis::EpisodeKind::hold || lasted <= held) continue;
-        held = lasted;
-        slip = e.slip;
-    }
+    const Handling object = handling_of(figures.episodes);
     const auto limited = figures.ticks_with(servo::kForceLimited);
     const experiment::MovementReport& report = *plan.movement;
     const bool guessed = report.bridged_share > hand::kMuchBridged;
-    const char* outcome = figures.diverged()   ? "diverged"
-                          : figures.failed()   ? "force off"
-                          : result.interrupted ? "interrupted"
-                                               : "done";
     if (figures.failed()) exit_code = kFailed;
     fmt::print("{:28s} {:7.2f} {:6.1f} %{} {:6d} {:5.1f} mm {:8.3f} {:8.3f} {:8.3f} {:8d}  {}{}\n",
                name, report.duration, 100 * report.bridged_share, guessed ? '!' : ' ',
@@ -209,7 +226,7 @@ std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::
                                   : "",
                result.folder);
     return {name,
-            outcome,
+            outcome_of(figures, result.interrupted),
             report.duration,
             100 * report.bridged_share,
             guessed ? "yes" : "no",
@@ -220,26 +237,27 @@ std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::
             force,
             static_cast<double>(limited),
             static_cast<double>(figures.ticks_with(servo::kRateLimited)),
-            held,
-            slip * 1e3,
-            slid * 1e3,
-            flown,
+            object.held,
+            object.slip * 1e3,
+            object.slid * 1e3,
+            object.flown,
             result.folder};
 }
 
-/// A folder of movements: a session each, and a summary row each. The summary is written anew after
-/// every movement: whatever becomes of the next, it has those before.
-void run_batch(SessionOptions& options) {
-    const Console console(options.run);
+std::vector<std::string> movements_in(const std::string& folder) {
     std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(options.request.movement)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
     }
     std::sort(files.begin(), files.end());
-    if (files.empty())
-        throw Error({options.request.movement, 0}, "", "this folder has no .csv file",
+    if (files.empty()) {
+        throw Error({folder, 0}, "", "this folder has no .csv file",
                     "Name a movement, or a folder of them.");
+    }
+    return files;
+}
 
+Table empty_summary() {
     Table summary;
     summary.columns = {{"movement", ""},
                        {"outcome", "done, interrupted, diverged, force off, or refused"},
@@ -258,6 +276,15 @@ void run_batch(SessionOptions& options) {
                        {"slid_mm", "along what it lies on, in all"},
                        {"flown_s", "untouched in the air, in all"},
                        {"session", ""}};
+    return summary;
+}
+
+/// A folder of movements: a session each, and a summary row each. The summary is written anew after
+/// every movement: whatever becomes of the next, it has those before.
+void run_batch(SessionOptions& options) {
+    const Console console(options.run);
+    const std::vector<std::string> files = movements_in(options.request.movement);
+    Table summary = empty_summary();
     const std::string table = options.run.out + "/summary.csv";
     std::error_code failed;
     fs::create_directories(options.run.out, failed);
@@ -294,13 +321,17 @@ void run_batch(SessionOptions& options) {
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
-void run(SessionOptions& options) {
-    // settings that have an option of their own
+/// Settings that have an option of their own.
+void add_settings(SessionOptions& options) {
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
     if (!options.proxy.empty()) options.request.set.push_back("proxy.kind=" + options.proxy);
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
+}
+
+void run(SessionOptions& options) {
+    add_settings(options);
     if (options.simulate && options.clock == "real")
         throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
     options.request.simulate = options.simulate;

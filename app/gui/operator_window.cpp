@@ -72,11 +72,34 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     setWindowTitle("Dihaptic");
     setCentralWidget(scene_);
     make_docks();
-    make_menus();
+    make_file_menu();
+    make_session_menu();
+    make_view_menu();
+    connect_scene();
+    connect_session();
+    connect_tuning();
+    connect_reports();
+    connect_files();
+    connect(&timer_, &QTimer::timeout, this, &OperatorWindow::refresh);
+    timer_.start(kRefresh);
+    since_refresh_.start();
+    restore();
+    update_state();
+}
 
+OperatorWindow::~OperatorWindow() = default;
+
+void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
+    connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
+        runner_.watch();
+        if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
+    });
+}
+
+void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, [this] {
@@ -86,6 +109,11 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
     connect(session_, &SessionPanel::stop_requested, this, &OperatorWindow::stop);
     connect(session_, &SessionPanel::pause_requested, this, &OperatorWindow::pause);
+    connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
+    connect(&runner_, &SessionRunner::finishing_progressed, session_, &SessionPanel::set_finishing);
+}
+
+void OperatorWindow::connect_tuning() {
     connect(tuning_, &TuningPanel::proxy_chosen, this, [this](scene::ProxyKind kind) {
         if (!runner_.running()) return;
         runner_.set_proxy(kind);
@@ -111,32 +139,25 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
                 .arg(tuning.damping ? QString("%1 N s/m").arg(*tuning.damping) : QString("k h / 2"))
                 .arg(tuning.smoothing));
     });
-    connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
-        runner_.watch();
-        if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
-    });
+}
+
+void OperatorWindow::connect_reports() {
     connect(&reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
     connect(&reporter_, &Reporter::written, this, [this](const QString& page) {
         log("report: " + page);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
     });
+}
+
+void OperatorWindow::connect_files() {
     connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
-    connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
-    connect(&runner_, &SessionRunner::finishing_progressed, session_, &SessionPanel::set_finishing);
     reload_.setSingleShot(true);
     connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
     connect(&reload_, &QTimer::timeout, this, &OperatorWindow::reload);
-    connect(&timer_, &QTimer::timeout, this, &OperatorWindow::refresh);
-    timer_.start(kRefresh);
-    since_refresh_.start();
-    restore();
-    update_state();
 }
-
-OperatorWindow::~OperatorWindow() = default;
 
 void OperatorWindow::make_docks() {
     const auto add = [&](const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
@@ -160,7 +181,7 @@ void OperatorWindow::make_docks() {
     resizeDocks({plots}, {380}, Qt::Horizontal);
 }
 
-void OperatorWindow::make_menus() {
+void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu("&File");
     open_action_ =
         file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
@@ -172,7 +193,9 @@ void OperatorWindow::make_menus() {
                     &OperatorWindow::report);
     file->addSeparator();
     file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
+}
 
+void OperatorWindow::make_session_menu() {
     QMenu* session = menuBar()->addMenu("&Session");
     const auto add = [&](const QString& name, int key, auto what) {
         QAction* action = session->addAction(name, QKeySequence(key), this, what);
@@ -188,7 +211,9 @@ void OperatorWindow::make_menus() {
     session->addSeparator();
     calibrate_action_ =
         session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
+}
 
+void OperatorWindow::make_view_menu() {
     view_menu_ = menuBar()->addMenu("&View");
     camera_menu_ = view_menu_->addMenu("C&amera");
     view_menu_->addAction("&Reset the camera", QKeySequence(Qt::Key_Home), scene_,

@@ -47,7 +47,16 @@ class OperatorWindow : public QMainWindow {
 
   private:
     void make_docks();
-    void make_menus();
+    void make_file_menu();
+    void make_session_menu();
+    /// After the docks, which it lists.
+    void make_view_menu();
+    void connect_scene();
+    void connect_session();
+    void connect_tuning();
+    void connect_reports();
+    /// What is read from files, and read again when they change.
+    void connect_files();
     void restore();
     void choose_file();
     void reload();

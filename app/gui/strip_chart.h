@@ -41,6 +41,12 @@ class StripChart : public QWidget {
     };
     /// `lines`: at most, across.
     Range range(int lines) const;
+    struct Axes;
+    QColor ink() const;
+    void draw_values(QPainter& painter, const Axes& axes) const;
+    void draw_times(QPainter& painter, const Axes& axes) const;
+    void draw_legend(QPainter& painter, double left, double top) const;
+    void draw_curve(QPainter& painter, const Axes& axes, size_t curve) const;
 
     QString title_;
     QString unit_;

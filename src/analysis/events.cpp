@@ -62,59 +62,90 @@ std::string EventFinder::name(int body) const {
 }
 
 void EventFinder::add(const servo::Frame& frame) {
-    const double now = seconds(frame.time);
-    const auto say = [&](const char* what, std::string detail) {
-        events_.push_back({frame.sequence, now, frame.trial, what, std::move(detail)});
-    };
+    add_trial(frame);
+    add_task(frame);
+    add_phase(frame);
+    add_touches(frame);
+    add_support(frame);
+    add_settings(frame);
+    seen_ = true;
+    add_status(frame);
+}
 
+void EventFinder::say(const servo::Frame& frame, const char* what, std::string detail) {
+    events_.push_back({frame.sequence, seconds(frame.time), frame.trial, what, std::move(detail)});
+}
+
+void EventFinder::add_trial(const servo::Frame& frame) {
     // a task's trials begin with their first state: before it the last one's feedback is seen
     const bool begun = frame.phase > 0 || frame.task.attempt == 0;
-    if (begun && (frame.trial != trial_ || frame.task.attempt != attempt_)) {
-        trial_ = frame.trial;
-        attempt_ = frame.task.attempt;
-        if (attempt_ > 0) say("trial", fmt::format("attempt {}", attempt_));
-    }
+    if (!begun || (frame.trial == trial_ && frame.task.attempt == attempt_)) return;
+    trial_ = frame.trial;
+    attempt_ = frame.task.attempt;
+    if (attempt_ > 0) say(frame, "trial", fmt::format("attempt {}", attempt_));
+}
+
+void EventFinder::add_task(const servo::Frame& frame) {
     const servo::TaskFrame& task = frame.task;
     const bool perturbed = !(task.visual.empty() && task.properties.empty() && task.loads.empty());
-    if (perturbed != perturbed_) say("perturbation", perturbed ? "on" : "off");
+    if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
     perturbed_ = perturbed;
-    if (task.marker != 0) say("marker", std::to_string(task.marker));
+    if (task.marker != 0) say(frame, "marker", std::to_string(task.marker));
     if (task.message != message_ && task.message >= 0)
-        say("message", listed(head_.messages, task.message));
+        say(frame, "message", listed(head_.messages, task.message));
     message_ = task.message;
-    if (!task.placements.empty()) say("put back", fmt::format("{} bodies", task.placements.size()));
-    if (task.outcome >= 0) say("outcome", listed(head_.outcomes, task.outcome));
-    if (frame.phase != phase_) {
-        phase_ = frame.phase;
-        const auto i = static_cast<size_t>(phase_);
-        say("phase", i < phases_.size() ? phases_[i] : std::to_string(phase_));
-    }
+    if (!task.placements.empty())
+        say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
+    if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
+}
+
+void EventFinder::add_phase(const servo::Frame& frame) {
+    if (frame.phase == phase_) return;
+    phase_ = frame.phase;
+    say(frame, "phase", listed(phases_, phase_));
+}
+
+void EventFinder::add_touches(const servo::Frame& frame) {
     const size_t bodies = head_.bodies.size();
     const size_t all = bodies + head_.fingers.size();
     now_touching_.assign(touching_.size(), 0);
-    bool on_support = false;
     for (const servo::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0) continue;
         const auto a = static_cast<size_t>(contact.a);
         const auto b = static_cast<size_t>(contact.b);
         if (a >= bodies) now_touching_[(a - bodies) * all + b] = 1;
         if (b >= bodies) now_touching_[(b - bodies) * all + a] = 1;
-        const bool of_object = contact.a == object_ || contact.b == object_;
-        if (of_object && a < bodies && b < bodies) on_support = true;
     }
     for (size_t i = 0; i < touching_.size(); ++i) {
         if (now_touching_[i] == touching_[i]) continue;
-        say(now_touching_[i] ? "touch" : "release",
+        say(frame, now_touching_[i] ? "touch" : "release",
             head_.fingers[i / all] + " " + name(static_cast<int>(i % all)));
     }
     std::swap(touching_, now_touching_);
-    // an object asleep on its support has no contacts in the frame, and has not moved either
-    const bool asleep = object_ >= 0 && !frame.bodies[static_cast<size_t>(object_)].awake;
-    if (object_ >= 0 && !asleep) {
-        if (seen_ && supported_ && !on_support) say("lift-off", name(object_));
-        if (seen_ && !supported_ && on_support) say("replaced", name(object_));
-        supported_ = on_support;
+}
+
+bool EventFinder::on_support(const servo::Frame& frame) const {
+    const size_t bodies = head_.bodies.size();
+    for (const servo::ContactFrame& contact : frame.contacts) {
+        if (contact.normal_force <= 0) continue;
+        const bool of_object = contact.a == object_ || contact.b == object_;
+        const bool of_bodies =
+            static_cast<size_t>(contact.a) < bodies && static_cast<size_t>(contact.b) < bodies;
+        if (of_object && of_bodies) return true;
     }
+    return false;
+}
+
+void EventFinder::add_support(const servo::Frame& frame) {
+    // an object asleep on its support has no contacts in the frame, and has not moved either
+    if (object_ < 0 || !frame.bodies[static_cast<size_t>(object_)].awake) return;
+    const bool supported = on_support(frame);
+    if (seen_ && supported_ && !supported) say(frame, "lift-off", name(object_));
+    if (seen_ && !supported_ && supported) say(frame, "replaced", name(object_));
+    supported_ = supported;
+}
+
+void EventFinder::add_settings(const servo::Frame& frame) {
     for (size_t i = 0; i < tuned_.size(); ++i) {
         const Knob& knob = kKnobs[i];
         const double value = knob.of(frame);
@@ -122,19 +153,22 @@ void EventFinder::add(const servo::Frame& frame) {
         if (!seen_) tuned = {value, value};  // the first ticks may be lost
         // what is eased in is told of when it has arrived
         if (value == tuned.last && value != tuned.told) {
-            say("setting",
+            say(frame, "setting",
                 fmt::format("{}: {} -> {}", knob.key, knob.said(tuned.told), knob.said(value)));
             tuned.told = value;
         }
         tuned.last = value;
     }
-    seen_ = true;
-    if ((frame.status & servo::kPaused) != 0) say("paused", "force off");
-    if ((frame.status & servo::kResumed) != 0) say("went on", "after a pause");
-    uint32_t begun_limits = frame.status & ~status_ & ~(servo::kPaused | servo::kResumed);
-    for (; begun_limits != 0; begun_limits &= begun_limits - 1) {
-        const uint32_t lowest = begun_limits & ~(begun_limits - 1);
-        say("limit", servo::describe(static_cast<servo::Status>(lowest)).what);
+}
+
+void EventFinder::add_status(const servo::Frame& frame) {
+    if ((frame.status & servo::kPaused) != 0) say(frame, "paused", "force off");
+    if ((frame.status & servo::kResumed) != 0) say(frame, "went on", "after a pause");
+    constexpr uint32_t kLimits = servo::kAllStatus & ~(servo::kPaused | servo::kResumed);
+    uint32_t begun = frame.status & ~status_ & kLimits;
+    for (; begun != 0; begun &= begun - 1) {
+        const uint32_t lowest = begun & ~(begun - 1);
+        say(frame, "limit", servo::describe(static_cast<servo::Status>(lowest)).what);
     }
     status_ = frame.status;
 }

@@ -29,6 +29,17 @@ class EventFinder {
 
   private:
     std::string name(int body) const;
+    void say(const servo::Frame& frame, const char* what, std::string detail);
+    // what began or ended in this frame
+    void add_trial(const servo::Frame& frame);
+    void add_task(const servo::Frame& frame);
+    void add_phase(const servo::Frame& frame);
+    void add_touches(const servo::Frame& frame);
+    void add_support(const servo::Frame& frame);
+    void add_settings(const servo::Frame& frame);
+    void add_status(const servo::Frame& frame);
+    /// The object presses on something that is no finger.
+    bool on_support(const servo::Frame& frame) const;
 
     recording::LogHead head_;
     int object_;

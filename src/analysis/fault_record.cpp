@@ -24,6 +24,7 @@ std::string words(uint32_t status) {
 }  // namespace
 
 void FaultRecord::add(const servo::Frame& frame) {
+    if ((frame.status & servo::kResumed) != 0) ended_ = false;
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
     if (!last_.empty() &&
@@ -42,7 +43,8 @@ void FaultRecord::add(const servo::Frame& frame) {
     while (old()) last_.pop_front();
     if ((frame.status & servo::kForceOff) == 0) return;
     ended_ = true;
-    faulted_ = (frame.status & servo::kStopped) == 0;
+    if ((frame.status & servo::kStopped) == 0) faults_.splice(faults_.end(), last_);
+    last_.clear();
 }
 
 Table FaultRecord::table() const {
@@ -69,8 +71,7 @@ Table FaultRecord::table() const {
         add_columns(finger, {"device_rotation_%_deg", "device_angular_velocity_%_rad_s",
                              "torque_asked_%_Nm", "torque_sent_%_Nm"});
     }
-    if (!faulted_) return table;
-    for (const servo::Frame& frame : last_) {
+    for (const servo::Frame& frame : faults_) {
         std::vector<Table::Cell> row{seconds(frame.time), words(frame.status), frame.lateness * 1e3,
                                      frame.tick_duration * 1e3};
         for (const servo::FingerFrame& finger : frame.fingers) {

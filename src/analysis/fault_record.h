@@ -1,5 +1,5 @@
-// What led to a fault: the second before force went off, tick by tick, as a table that a person can
-// read. All of it is in raw.log too.
+// What led to a session's faults: the second before force went off, tick by tick, as a table that a
+// person can read. All of it is in raw.log too.
 #pragma once
 
 #include <list>
@@ -19,7 +19,7 @@ class FaultRecord {
 
     /// Frames in their order.
     void add(const servo::Frame& frame);
-    /// Rows from kBefore before the first fault to its tick; none without a fault. An operator who
+    /// Rows from kBefore before each fault to its tick; none without a fault. An operator who
     /// stops a session is none.
     Table table() const;
 
@@ -28,9 +28,9 @@ class FaultRecord {
   private:
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
-    std::list<servo::Frame> last_;  // without bodies and contacts
-    bool ended_ = false;
-    bool faulted_ = false;
+    std::list<servo::Frame> last_;    // without bodies and contacts
+    bool ended_ = false;              // until the session goes on
+    std::list<servo::Frame> faults_;  // what led to each, one after the other
 };
 
 }  // namespace dihaptic::analysis

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include "base/geometry.h"
 #include "base/unmeasured.h"
@@ -30,6 +29,12 @@ struct Direction {
     Mean probes;  // compensation [deg]
 };
 
+struct Round {
+    std::map<std::string, Direction> directions;  // by condition
+    Mean baseline;                                // compensation [deg]
+    bool trained = false;                         // something was perturbed by now
+};
+
 /// Unit vector of the reach that a trial asks for; `number`: in the session, from 1.
 Vec3 direction_of(const CsvFile& list, int number) {
     const auto i = static_cast<size_t>(number - 1);
@@ -43,55 +48,68 @@ Vec3 direction_of(const CsvFile& list, int number) {
     return way.normalized();
 }
 
-}  // namespace
-
-std::vector<Generalisation> find_generalisation(const CsvFile& trials, const CsvFile& list) {
-    std::map<std::string, std::map<std::string, Direction>> rounds;
-    std::map<std::string, Mean> baseline;
-    std::set<std::string> trained;  // rounds in which something was perturbed by now
+std::map<std::string, Round> rounds_of(const CsvFile& trials, const CsvFile& list) {
+    std::map<std::string, Round> rounds;
     for (size_t i = 0; i < trials.rows(); ++i) {
-        const std::string round = trials.text(i, "round");
+        Round& round = rounds[trials.text(i, "round")];
         const std::string kind = trials.text(i, "kind");
         const double compensation = -trials.number(i, "hand_angle_deg");
-        Direction& direction = rounds[round][trials.text(i, "condition")];
+        Direction& direction = round.directions[trials.text(i, "condition")];
         direction.along_W = direction_of(list, static_cast<int>(trials.number(i, "trial_num")));
         if (kind == "perturbed") {
             direction.trained = true;
-            trained.insert(round);
+            round.trained = true;
         }
         if (std::isnan(compensation)) continue;
-        if (kind == "baseline") baseline[round].add(compensation);
+        if (kind == "baseline") round.baseline.add(compensation);
         const bool probe = kind == "error_clamp" || kind == "catch";
-        if (probe && trained.count(round) > 0) direction.probes.add(compensation);
+        if (probe && round.trained) direction.probes.add(compensation);
     }
+    return rounds;
+}
 
+/// From the nearest trained direction [deg].
+double angle_from_trained(const Direction& direction, const Round& round) {
+    double nearest = kUnmeasured;
+    for (const auto& [name, other] : round.directions) {
+        if (!other.trained) continue;
+        const double cosine = direction.along_W.dot(other.along_W);
+        nearest = std::fmin(nearest, std::acos(std::clamp(cosine, -1.0, 1.0)));
+    }
+    return nearest * 180 / std::numbers::pi;
+}
+
+/// What a round shows, by rising angle; nothing unless it has probes in directions not trained.
+std::vector<Generalisation> generalisation_of(const std::string& name, const Round& round) {
     std::vector<Generalisation> out;
-    for (const auto& [round, directions] : rounds) {
-        const double bias = baseline[round].count == 0 ? 0 : baseline[round].value();
-        Mean at_trained;
-        bool any = false;
-        for (const auto& [condition, direction] : directions) {
-            if (direction.trained && direction.probes.count > 0)
-                at_trained.add(direction.probes.value() - bias);
-            any = any || (!direction.trained && direction.probes.count > 0);
-        }
-        if (!any || trained.count(round) == 0) continue;
-        const size_t first = out.size();
-        for (const auto& [condition, direction] : directions) {
-            if (direction.probes.count == 0) continue;
-            double nearest = kUnmeasured;
-            for (const auto& [name, other] : directions) {
-                if (!other.trained) continue;
-                const double cosine = direction.along_W.dot(other.along_W);
-                nearest = std::fmin(nearest, std::acos(std::clamp(cosine, -1.0, 1.0)));
-            }
-            const double compensation = direction.probes.value() - bias;
-            out.push_back({round, condition, nearest * 180 / std::numbers::pi, compensation,
-                           compensation / at_trained.value(), direction.probes.count});
-        }
-        std::stable_sort(
-            out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-            [](const Generalisation& a, const Generalisation& b) { return a.angle < b.angle; });
+    const double bias = round.baseline.count == 0 ? 0 : round.baseline.value();
+    Mean at_trained;
+    bool any = false;
+    for (const auto& [condition, direction] : round.directions) {
+        if (direction.trained && direction.probes.count > 0)
+            at_trained.add(direction.probes.value() - bias);
+        any = any || (!direction.trained && direction.probes.count > 0);
+    }
+    if (!any || !round.trained) return out;
+    for (const auto& [condition, direction] : round.directions) {
+        if (direction.probes.count == 0) continue;
+        const double compensation = direction.probes.value() - bias;
+        out.push_back({name, condition, angle_from_trained(direction, round), compensation,
+                       compensation / at_trained.value(), direction.probes.count});
+    }
+    std::stable_sort(out.begin(), out.end(), [](const Generalisation& a, const Generalisation& b) {
+        return a.angle < b.angle;
+    });
+    return out;
+}
+
+}  // namespace
+
+std::vector<Generalisation> find_generalisation(const CsvFile& trials, const CsvFile& list) {
+    std::vector<Generalisation> out;
+    for (const auto& [name, round] : rounds_of(trials, list)) {
+        const std::vector<Generalisation> of_round = generalisation_of(name, round);
+        out.insert(out.end(), of_round.begin(), of_round.end());
     }
     return out;
 }

@@ -14,11 +14,43 @@ Vec3 axis_of(const GraspTrace::Sample& sample) {
     return model::grasp_axis({sample.p_WP.data(), sample.p_WP.size()});
 }
 
+Vec3 velocity_at(const servo::BodyFrame& body, const Vec3& p_W) {
+    return body.v_WB + body.w_WB.cross(p_W - body.X_WB.p);
+}
+
+/// What fingers and supports do to the object.
+void add_contacts(GraspTrace::Sample& sample, const servo::Frame& frame, int object) {
+    const int first_proxy = static_cast<int>(frame.bodies.size());
+    const auto body = [&](int i) -> const servo::BodyFrame& {
+        return frame.bodies[static_cast<size_t>(i)];
+    };
+    double pressed = 0;
+    for (const servo::ContactFrame& contact : frame.contacts) {
+        if (contact.normal_force <= 0 || (contact.a != object && contact.b != object)) continue;
+        const int other = contact.a == object ? contact.b : contact.a;
+        if (other < first_proxy) {
+            sample.on_support = true;
+            if (contact.normal_force <= pressed) continue;
+            pressed = contact.normal_force;
+            sample.support = other;
+            sample.n_support = (contact.a == object ? -1 : 1) * contact.n_W.normalized();
+            const Vec3 v =
+                velocity_at(body(object), contact.p_WC) - velocity_at(body(other), contact.p_WC);
+            sample.v_sliding = v - v.dot(sample.n_support) * sample.n_support;
+        } else {
+            const auto finger = static_cast<size_t>(other - first_proxy);
+            sample.touching[finger] = true;
+            sample.normal_force[finger] += contact.normal_force;
+            const Vec3 f_W = contact.b == other ? contact.f_B_W : Vec3(-contact.f_B_W);
+            sample.f_tangential_W[finger] += f_W - f_W.dot(contact.n_W) * contact.n_W;
+        }
+    }
+}
+
 }  // namespace
 
 void GraspTrace::add(const servo::Frame& frame) {
     const size_t n = frame.fingers.size();
-    const int first_proxy = static_cast<int>(frame.bodies.size());
     Sample sample;
     sample.time = seconds(frame.time);
     sample.phase = frame.phase;
@@ -51,30 +83,7 @@ void GraspTrace::add(const servo::Frame& frame) {
         sample.v_WH.push_back(finger.v_WH);
         sample.f_sent_W.push_back(finger.f_sent_W);
     }
-    double pressed = 0;
-    for (const servo::ContactFrame& contact : frame.contacts) {
-        if (contact.normal_force <= 0 || (contact.a != object_ && contact.b != object_)) continue;
-        const int other = contact.a == object_ ? contact.b : contact.a;
-        if (other < first_proxy) {
-            sample.on_support = true;
-            if (contact.normal_force <= pressed) continue;
-            pressed = contact.normal_force;
-            sample.support = other;
-            sample.n_support = (contact.a == object_ ? -1 : 1) * contact.n_W.normalized();
-            const auto velocity = [&](int body) {
-                const servo::BodyFrame& b = frame.bodies[static_cast<size_t>(body)];
-                return Vec3(b.v_WB + b.w_WB.cross(contact.p_WC - b.X_WB.p));
-            };
-            const Vec3 v = velocity(object_) - velocity(other);
-            sample.v_sliding = v - v.dot(sample.n_support) * sample.n_support;
-        } else {
-            const auto finger = static_cast<size_t>(other - first_proxy);
-            sample.touching[finger] = true;
-            sample.normal_force[finger] += contact.normal_force;
-            const Vec3 f_W = contact.b == other ? contact.f_B_W : Vec3(-contact.f_B_W);
-            sample.f_tangential_W[finger] += f_W - f_W.dot(contact.n_W) * contact.n_W;
-        }
-    }
+    add_contacts(sample, frame, object_);
     samples_.push_back(std::move(sample));
 }
 

@@ -86,8 +86,17 @@ struct Signals {
             height.push_back(-down.dot(s.X_WB.p));
             rise.push_back(-down.dot(s.v_WB));
         }
-        const double rest = height.front();
+        // after missing ticks it is not known where the object lies
+        const auto known =
+            std::find_if(height.begin(), height.end(), [](double h) { return std::isfinite(h); });
+        const double rest = known == height.end() ? kUnmeasured : *known;
         for (double& h : height) h -= rest;
+    }
+    /// Largest height; NaN: it is never known.
+    double top() const {
+        double out = kUnmeasured;
+        for (const double h : height) out = std::fmax(out, h);
+        return out;
     }
     size_t size() const { return grip.size(); }
     size_t samples(double time) const { return static_cast<size_t>(std::round(time / tick)); }
@@ -358,6 +367,100 @@ Events find_events(Lift& lift, const GraspTrace& trace, const Signals& signals, 
     return ByForce(trace, signals, high).find();
 }
 
+bool was_paused(const GraspTrace& trace) {
+    return std::any_of(trace.samples().begin(), trace.samples().end(),
+                       [](const GraspTrace::Sample& s) { return s.resumed; });
+}
+
+/// Where the object begins to sink to where it is put down; not before lift-off.
+size_t lowering_of(const Signals& signals, Range high, size_t lift_off) {
+    size_t lowered = high.last - 1;
+    while (lowered > lift_off && signals.rise[lowered] < kSinking) --lowered;
+    return lowered;
+}
+
+/// From touch to lift-off.
+void find_start(Lift& lift, const GraspTrace& trace, const Signals& signals, const Events& events) {
+    const auto time = [&](size_t i) { return trace.samples()[i].time; };
+    lift.lift_off = time(events.lift_off);
+    lift.lift_off_grip = signals.grip[events.lift_off];
+    if (events.onsets.empty()) return;
+    const auto [first, last] = std::minmax_element(events.onsets.begin(), events.onsets.end());
+    lift.load_onset = time(*first);
+    lift.preload = lift.load_onset - lift.touch;
+    lift.loading = lift.lift_off - time(*last);
+}
+
+/// Of the forces from touch to lowering.
+void find_peaks(Lift& lift, const GraspTrace& trace, const Signals& signals, Range up) {
+    const auto grip = part(signals.grip, up);
+    const auto peak = std::max_element(grip.begin(), grip.end());
+    lift.peak_grip = *peak;
+    lift.peak_grip_time =
+        trace.samples()[up.first + static_cast<size_t>(peak - grip.begin())].time - lift.lift_off;
+    const auto load = part(signals.load, up);
+    lift.peak_load = *std::max_element(load.begin(), load.end());
+}
+
+/// How fast the forces grew before lift-off, and how well together.
+void find_rates(Lift& lift, const Signals& signals, const Events& events, size_t touched) {
+    const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
+    const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
+    const size_t end = events.lift_off + 1;
+    const auto largest = [&](const Signal& rate) {
+        const auto range = part(rate, {touched, end});
+        return *std::max_element(range.begin(), range.end());
+    };
+    lift.peak_grip_rate = largest(grip_rate);
+    lift.peak_load_rate = largest(load_rate);
+    if (events.onsets.empty()) return;
+    const size_t loaded = *std::min_element(events.onsets.begin(), events.onsets.end());
+    find_coupling(lift, signals, grip_rate, load_rate, {loaded, end});
+}
+
+/// The stretch before lowering in which forces and height have settled; none of shorter lifts.
+std::optional<Range> hold_of(const Signals& signals, size_t lift_off, size_t lowered) {
+    const size_t early = signals.samples(0.6);
+    const size_t late = signals.samples(0.2);
+    if (lowered < lift_off + early) return std::nullopt;
+    return Range{lowered - early, lowered - late};
+}
+
+void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, Range hold,
+                  std::span<const double> friction) {
+    lift.static_grip = mean(part(signals.grip, hold));
+    lift.static_load = mean(part(signals.load, hold));
+    if (lift.static_load > kLoaded) lift.static_ratio = lift.static_grip / lift.static_load;
+    const double mu = friction_of(trace.samples()[hold.first], friction);
+    if (lift.static_load > kLoaded && mu > 0)
+        lift.safety_margin = model::safety_margin(lift.static_grip, lift.static_load, mu);
+    lift.height = mean(part(signals.height, hold));
+}
+
+bool any_touching(const GraspTrace::Sample& sample) {
+    return std::any_of(sample.touching.begin(), sample.touching.end(), [](char t) { return t; });
+}
+
+/// Replacement and release; the mark says which of them is not there, or else "complete".
+void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
+    lift.mark = "not put down";
+    if (!events.replacement) return;
+    lift.replacement = trace.samples()[*events.replacement].time;
+    lift.mark = "dropped";
+    for (size_t i = events.lift_off; i < *events.replacement; ++i) {
+        if (!any_touching(trace.samples()[i])) return;
+    }
+    lift.mark = "not released";
+    size_t released = *events.replacement;
+    for (const std::optional<size_t>& at : events.releases) {
+        if (!at) return;
+        released = std::max(released, *at);
+    }
+    lift.release = trace.samples()[released].time;
+    lift.releasing = lift.release - lift.replacement;
+    lift.mark = "complete";
+}
+
 }  // namespace
 
 Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
@@ -365,93 +468,36 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     Lift lift;
     lift.mark = "no touch";
     if (trace.samples().empty() || trace.fingers() == 0) return lift;
-    const Signals signals(trace, gravity);
-    const auto time = [&](size_t i) { return trace.samples()[i].time; };
-
-    if (std::any_of(trace.samples().begin(), trace.samples().end(),
-                    [](const GraspTrace::Sample& s) { return s.resumed; })) {
+    if (was_paused(trace)) {
         lift.mark = "paused";
         return lift;
     }
-
-    const double top = *std::max_element(signals.height.begin(), signals.height.end());
+    const Signals signals(trace, gravity);
+    const double top = signals.top();
+    if (!std::isfinite(top)) {
+        lift.mark = "place not known";
+        return lift;
+    }
     const Range high = high_of(signals, top);
     const Events events = find_events(lift, trace, signals, high, rule);
     if (events.touches.empty()) return lift;
     const size_t touched = *std::min_element(events.touches.begin(), events.touches.end());
-    const size_t lifted = events.lift_off;
-    lift.touch = time(touched);
+    lift.touch = trace.samples()[touched].time;
 
     lift.mark = "not lifted";
     if (top < kLeastHeight) return lift;
-    lift.lift_off = time(lifted);
-    lift.lift_off_grip = signals.grip[lifted];
-    std::optional<size_t> loaded;  // first
-    if (!events.onsets.empty()) {
-        const auto [first, last] = std::minmax_element(events.onsets.begin(), events.onsets.end());
-        loaded = *first;
-        lift.load_onset = time(*first);
-        lift.preload = lift.load_onset - lift.touch;
-        lift.loading = lift.lift_off - time(*last);
-    }
-
-    size_t lowered = high.last - 1;
-    while (lowered > lifted && signals.rise[lowered] < kSinking) --lowered;
-    const Range up{touched, lowered + 1};
-    const auto up_grip = part(signals.grip, up);
-    const auto peak = std::max_element(up_grip.begin(), up_grip.end());
-    lift.peak_grip = *peak;
-    lift.peak_grip_time =
-        time(up.first + static_cast<size_t>(peak - up_grip.begin())) - lift.lift_off;
-    const auto up_load = part(signals.load, up);
-    lift.peak_load = *std::max_element(up_load.begin(), up_load.end());
-    const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
-    const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
-    const Range before{touched, lifted + 1};
-    const auto largest = [&](const Signal& rate) {
-        const auto range = part(rate, before);
-        return *std::max_element(range.begin(), range.end());
-    };
-    lift.peak_grip_rate = largest(grip_rate);
-    lift.peak_load_rate = largest(load_rate);
-    if (loaded) find_coupling(lift, signals, grip_rate, load_rate, {*loaded, lifted + 1});
-    find_slips(lift, trace, {lifted, lowered + 1});
-
-    const size_t early = signals.samples(0.6);
-    const size_t late = signals.samples(0.2);
-    const bool holds = lowered >= lifted + early;
-    if (holds) {
-        const Range hold{lowered - early, lowered - late};
-        lift.static_grip = mean(part(signals.grip, hold));
-        lift.static_load = mean(part(signals.load, hold));
-        if (lift.static_load > kLoaded) lift.static_ratio = lift.static_grip / lift.static_load;
-        const double mu = friction_of(trace.samples()[hold.first], friction);
-        if (lift.static_load > kLoaded && mu > 0)
-            lift.safety_margin = model::safety_margin(lift.static_grip, lift.static_load, mu);
-        lift.height = mean(part(signals.height, hold));
+    const size_t lowered = lowering_of(signals, high, events.lift_off);
+    find_start(lift, trace, signals, events);
+    find_peaks(lift, trace, signals, {touched, lowered + 1});
+    find_rates(lift, signals, events, touched);
+    find_slips(lift, trace, {events.lift_off, lowered + 1});
+    const std::optional<Range> hold = hold_of(signals, events.lift_off, lowered);
+    if (hold) {
+        average_hold(lift, trace, signals, *hold, friction);
         lift.overshoot = top - lift.height;
     }
-
-    const auto touches = [&](size_t i) {
-        const auto& touching = trace.samples()[i].touching;
-        return std::any_of(touching.begin(), touching.end(), [](char t) { return t; });
-    };
-    lift.mark = "not put down";
-    if (!events.replacement) return lift;
-    lift.replacement = time(*events.replacement);
-    lift.mark = "dropped";
-    for (size_t i = lifted; i < *events.replacement; ++i) {
-        if (!touches(i)) return lift;
-    }
-    lift.mark = "not released";
-    size_t released = *events.replacement;
-    for (const std::optional<size_t>& at : events.releases) {
-        if (!at) return lift;
-        released = std::max(released, *at);
-    }
-    lift.release = time(released);
-    lift.releasing = lift.release - lift.replacement;
-    lift.mark = holds ? "complete" : "no hold";
+    find_end(lift, trace, events);
+    if (lift.complete() && !hold) lift.mark = "no hold";
     return lift;
 }
 

@@ -58,7 +58,7 @@ struct Lift {
     int trial = 0;
     int attempt = 0;
     /// complete, or what is not there: no touch, not lifted, dropped, no hold, not put down, not
-    /// released; or paused.
+    /// released; or paused; or place not known, where ticks are missing.
     std::string mark;
     EventRule rule = EventRule::force;
     double touch = kNone;  ///< by the first digit; all times in the session [s]

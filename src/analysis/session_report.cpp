@@ -170,7 +170,8 @@ struct SessionReader::Pass {
         ++figures.frames;
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
-        for (uint32_t left = frame.status; left != 0; left &= left - 1)
+        // a later version's log may have more of them
+        for (uint32_t left = frame.status & servo::kAllStatus; left != 0; left &= left - 1)
             ++figures.status_ticks[static_cast<size_t>(std::countr_zero(left))];
     }
 

@@ -29,6 +29,34 @@ std::string origin_of(const Place& place) {
     return place.line > 0 ? fmt::format("{}:{}", place.file, place.line) : place.file;
 }
 
+std::optional<double> finite_number(const Node& node) {
+    if (node.kind != Node::Kind::scalar) return std::nullopt;
+    double value = 0;
+    const std::string& text = node.scalar;
+    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* last = text.data() + text.size();
+    const auto [end, status] = std::from_chars(first, last, value);
+    if (status != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+bool is_too_low(const Field& field, double si) {
+    return field.above_min ? si <= field.min : si < field.min;
+}
+
+/// What a value must be, for one that is not; its bounds in the unit that it was given in.
+std::string bounds_of(const Field& field, double si, double to_si) {
+    const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
+    const bool from_zero = field.min > 0 || field.above_min;
+    if (only_positive || (is_too_low(field, si) && si <= 0 && from_zero)) return "positive";
+    const double low = field.min / to_si;
+    const double high = field.max / to_si;
+    const char* from = field.above_min ? "above" : "at least";
+    if (std::isinf(field.max)) return fmt::format("{} {:.9g}", from, low);
+    if (std::isinf(field.min)) return fmt::format("at most {:.9g}", high);
+    return fmt::format("{} {:.9g} and at most {:.9g}", from, low, high);
+}
+
 }  // namespace
 
 FieldReader::FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins,
@@ -90,13 +118,10 @@ void FieldReader::note_origin(std::string_view name, const Node& node) {
 
 std::optional<double> FieldReader::number(const Given& given, const Node& node,
                                           const Field& field) {
-    double value = 0;
-    const std::string& text = node.scalar;
-    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
-    const auto [end, status] = std::from_chars(first, text.data() + text.size(), value);
-    const bool whole = status == std::errc() && end == text.data() + text.size();
-    if (node.kind != Node::Kind::scalar || !whole || !std::isfinite(value)) {
-        const std::string shown = node.kind == Node::Kind::scalar ? "'" + shortened(text) + "'"
+    const auto value = finite_number(node);
+    if (!value) {
+        const std::string shown = node.kind == Node::Kind::scalar
+                                      ? "'" + shortened(node.scalar) + "'"
                                   : node.kind == Node::Kind::null ? "nothing"
                                                                   : "a list";
         diagnostics_.error(
@@ -105,31 +130,17 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
                                              : "Write the number alone; its unit is in the key.");
         return std::nullopt;
     }
-    const double si = value * given.to_si;
+    const double si = *value * given.to_si;
     if (!std::isfinite(si)) {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("is too large a number: {}", shortened(text)),
+                           fmt::format("is too large a number: {}", shortened(node.scalar)),
                            "Correct the value, or its unit.");
         return std::nullopt;
     }
-    const bool too_low = field.above_min ? si <= field.min : si < field.min;
-    if (too_low || si > field.max) {
-        const double low = field.min / given.to_si;
-        const double high = field.max / given.to_si;
-        std::string bound;
-        const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
-        if (only_positive || (too_low && si <= 0 && (field.min > 0 || field.above_min))) {
-            bound = "positive";
-        } else if (std::isinf(field.max)) {
-            bound = fmt::format("{} {:.9g}", field.above_min ? "above" : "at least", low);
-        } else if (std::isinf(field.min)) {
-            bound = fmt::format("at most {:.9g}", high);
-        } else {
-            bound = fmt::format("{} {:.9g} and at most {:.9g}",
-                                field.above_min ? "above" : "at least", low, high);
-        }
+    if (is_too_low(field, si) || si > field.max) {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be {}, is {}", bound, shortened(text)),
+                           fmt::format("must be {}, is {}", bounds_of(field, si, given.to_si),
+                                       shortened(node.scalar)),
                            "Correct the value, or its unit.");
         return std::nullopt;
     }

@@ -28,53 +28,44 @@ constexpr std::array kTorqueRate{Unit{"Nm_s", 1}, Unit{"mNm_ms", 1}};
 constexpr std::array kInertia{Unit{"kg_m2", 1}, Unit{"g_cm2", 1e-7}};
 
 struct Kind {
+    Quantity quantity;
     std::string_view name;
     std::span<const Unit> units;
     std::string_view symbol;
 };
 
-Kind kind(Quantity quantity) {
-    switch (quantity) {
-        case Quantity::none:
-            return {"number", {}, "1"};
-        case Quantity::length:
-            return {"length", kLength, "m"};
-        case Quantity::angle:
-            return {"angle", kAngle, "rad"};
-        case Quantity::mass:
-            return {"mass", kMass, "kg"};
-        case Quantity::density:
-            return {"density", kDensity, "kg/m^3"};
-        case Quantity::time:
-            return {"time", kTime, "s"};
-        case Quantity::frequency:
-            return {"frequency", kFrequency, "Hz"};
-        case Quantity::speed:
-            return {"speed", kSpeed, "m/s"};
-        case Quantity::force:
-            return {"force", kForce, "N"};
-        case Quantity::stiffness:
-            return {"stiffness", kStiffness, "N/m"};
-        case Quantity::damping:
-            return {"damping", kDamping, "N*s/m"};
-        case Quantity::torque:
-            return {"torque", kTorque, "N*m"};
-        case Quantity::acceleration:
-            return {"acceleration", kAcceleration, "m/s^2"};
-        case Quantity::force_rate:
-            return {"rate of force", kForceRate, "N/s"};
-        case Quantity::stiffness_per_force:
-            return {"stiffness per force", kStiffnessPerForce, "1/m"};
-        case Quantity::turn_stiffness:
-            return {"rotational stiffness", kTurnStiffness, "N*m/rad"};
-        case Quantity::turn_damping:
-            return {"rotational damping", kTurnDamping, "N*m*s/rad"};
-        case Quantity::torque_rate:
-            return {"rate of torque", kTorqueRate, "N*m/s"};
-        case Quantity::inertia:
-            return {"inertia", kInertia, "kg*m^2"};
+constexpr std::array kKinds{
+    Kind{Quantity::none, "number", {}, "1"},
+    Kind{Quantity::length, "length", kLength, "m"},
+    Kind{Quantity::angle, "angle", kAngle, "rad"},
+    Kind{Quantity::mass, "mass", kMass, "kg"},
+    Kind{Quantity::density, "density", kDensity, "kg/m^3"},
+    Kind{Quantity::time, "time", kTime, "s"},
+    Kind{Quantity::frequency, "frequency", kFrequency, "Hz"},
+    Kind{Quantity::speed, "speed", kSpeed, "m/s"},
+    Kind{Quantity::force, "force", kForce, "N"},
+    Kind{Quantity::stiffness, "stiffness", kStiffness, "N/m"},
+    Kind{Quantity::damping, "damping", kDamping, "N*s/m"},
+    Kind{Quantity::torque, "torque", kTorque, "N*m"},
+    Kind{Quantity::acceleration, "acceleration", kAcceleration, "m/s^2"},
+    Kind{Quantity::force_rate, "rate of force", kForceRate, "N/s"},
+    Kind{Quantity::stiffness_per_force, "stiffness per force", kStiffnessPerForce, "1/m"},
+    Kind{Quantity::turn_stiffness, "rotational stiffness", kTurnStiffness, "N*m/rad"},
+    Kind{Quantity::turn_damping, "rotational damping", kTurnDamping, "N*m*s/rad"},
+    Kind{Quantity::torque_rate, "rate of torque", kTorqueRate, "N*m/s"},
+    Kind{Quantity::inertia, "inertia", kInertia, "kg*m^2"},
+};
+
+constexpr bool in_order() {
+    for (size_t i = 0; i < kKinds.size(); ++i) {
+        if (kKinds[i].quantity != static_cast<Quantity>(i)) return false;
     }
-    return {"number", {}, "1"};
+    return true;
+}
+static_assert(in_order(), "a quantity is the index of its kind");
+
+const Kind& kind(Quantity quantity) {
+    return kKinds[static_cast<size_t>(quantity)];
 }
 
 }  // namespace

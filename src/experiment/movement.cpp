@@ -66,6 +66,31 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
+/// Null where the scene has none of that name.
+scene::Body* find_box(scene::Scene& scene, const std::string& name) {
+    const int i = scene.find(name);
+    if (i < 0) return nullptr;
+    scene::Body& body = scene.bodies[static_cast<size_t>(i)];
+    return body.shape.kind == scene::ShapeKind::box ? &body : nullptr;
+}
+
+/// Nothing, with an error, where there is none.
+std::optional<hand::GraspSite> grasp_of(const hand::Path& path, const MovementSpec& spec,
+                                        const std::string& file, const Place& asked_at,
+                                        Diagnostics& diagnostics) {
+    if (spec.grasp_at && *spec.grasp_at > path.duration()) {
+        diagnostics.error(asked_at, "movement.grasp_at",
+                          fmt::format("{:g} s is after the movement's end, at {:.3f} s",
+                                      *spec.grasp_at, path.duration()),
+                          "Give a time within it.");
+        return std::nullopt;
+    }
+    const auto site = hand::find_grasp(path, spec.grasp_at);
+    if (!site)
+        diagnostics.error({file, 0}, "", kNoGrasp, "Say when they closed: movement: grasp_at_s.");
+    return site;
+}
+
 void warn_of_faults(const hand::Path& path, const std::string& file, Diagnostics& diagnostics) {
     for (const hand::Fault& fault : path.faults) {
         if (!fault.wrong_unit) continue;
@@ -97,11 +122,8 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     hand::Movement movement = hand::read_movement(file, spec.axes, diagnostics);
     if (!diagnostics.has_errors())
         hand::choose_fingers(movement, scene::finger_names(scene), diagnostics);
-    const int block_index = scene.find(spec.block);
-    const bool is_box =
-        block_index >= 0 &&
-        scene.bodies[static_cast<size_t>(block_index)].shape.kind == scene::ShapeKind::box;
-    if (!is_box) {
+    scene::Body* block = find_box(scene, spec.block);
+    if (block == nullptr) {
         diagnostics.error(asked_at, "movement.block",
                           fmt::format("the scene has no box named '{}'", spec.block),
                           "Name one of its boxes.");
@@ -114,31 +136,20 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     if (diagnostics.has_errors()) return nullptr;
 
     const hand::Path path = hand::repair(movement);
-    if (spec.grasp_at && *spec.grasp_at > path.duration()) {
-        diagnostics.error(asked_at, "movement.grasp_at",
-                          fmt::format("{:g} s is after the movement's end, at {:.3f} s",
-                                      *spec.grasp_at, path.duration()),
-                          "Give a time within it.");
-        return nullptr;
-    }
-    const auto site = hand::find_grasp(path, spec.grasp_at);
-    if (!site) {
-        diagnostics.error({file, 0}, "", kNoGrasp, "Say when they closed: movement: grasp_at_s.");
-        return nullptr;
-    }
+    const auto site = grasp_of(path, spec, file, asked_at, diagnostics);
+    if (!site) return nullptr;
     // the block stands upright: only the grasp's direction in the horizontal plane turns it
     const double yaw = std::atan2(site->axis.y(), site->axis.x());
     const Quat R_WB = rotation_xyz({0, 0, yaw});
-    scene::Body& block = scene.bodies[static_cast<size_t>(block_index)];
-    Faces faces = fit_faces(path, *site, R_WB, block.shape.size, scene, spec.squeeze);
+    Faces faces = fit_faces(path, *site, R_WB, block->shape.size, scene, spec.squeeze);
     if (spec.width) {
         const double change = *spec.width - (faces.first + faces.second);
         faces.first += change / 2;
         faces.second += change / 2;
     }
-    block.rotation = {0, 0, yaw};
-    block.shape.size.x() = faces.first + faces.second;
-    if (block.shape.size.x() < kThinnest) {
+    block->rotation = {0, 0, yaw};
+    block->shape.size.x() = faces.first + faces.second;
+    if (block->shape.size.x() < kThinnest) {
         diagnostics.error(
             {file, 0}, "",
             fmt::format("the fingers closed to {:.0f} mm, where no block fits between the proxies",
@@ -150,10 +161,10 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     const Vec3 block_centre = site->centre + R_WB * Vec3((faces.second - faces.first) / 2, 0, 0);
 
     report = MovementReport{
-        file,  path.faults,         path.fingers, path.duration(), path.bridged_share(),
-        *site, block.shape.size.x()};
+        file,  path.faults,          path.fingers, path.duration(), path.bridged_share(),
+        *site, block->shape.size.x()};
     warn_of_faults(path, file, diagnostics);
-    return std::make_shared<hand::RecordedDriver>(path, *site, Vec3(block.position - block_centre),
+    return std::make_shared<hand::RecordedDriver>(path, *site, Vec3(block->position - block_centre),
                                                   scene::finger_names(scene));
 }
 

@@ -29,80 +29,85 @@ uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
 
 Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
                            const scene::Scene& scene, Diagnostics& diagnostics) {
-    const std::vector<std::string> region_names = names_of(regions);
-    const auto region = [&](const std::string& name, const Place& place, const char* key) {
-        return look_up(region_names, name, place, key, "no region", diagnostics);
-    };
-    if (spec.visual) {
-        const VisualSpec& visual = *spec.visual;
-        Map& map = map_.emplace(Map{});
-        map.moves = moves_of(visual, diagnostics);
-        map.object = scene.object_index();
-        map.about = region(visual.about, visual.place, "about");
-        if (!visual.toward.empty()) map.toward = region(visual.toward, visual.place, "toward");
-        map.scale = visual.scale;
-        if (visual.axis || visual.angle != 0)
-            map.axis = axis_of(visual.axis, visual.place, diagnostics);
-        map.angle = visual.angle;
-        map.size = visual.size;
-        if (map.moves & servo::kMovesObject && map.object < 0) {
-            diagnostics.error(visual.place, "moves", "the scene has no object that can move",
-                              "Leave out object.");
-        }
-        if (map.size != 1 && (map.moves & servo::kMovesObject) == 0) {
-            diagnostics.error(visual.place, "size", "is the object's, which is not moved",
-                              "Add object to moves.");
-        }
-        if (map.toward >= 0 && (map.angle != 0 || map.scale != Vec3::Ones())) {
-            diagnostics.error(visual.place, "toward",
-                              "what is shown on a line can be neither rotated nor scaled",
-                              "Leave out angle_deg and scale, or toward.");
-        }
-    }
-    if (spec.body) {
-        const BodySpec& body = *spec.body;
-        servo::PropertiesFrame& out = properties_.emplace();
-        out.body =
-            look_up(names_of(scene.bodies), body.body, body.place, "body", "no body", diagnostics);
-        if (out.body >= 0 && !scene.bodies[static_cast<size_t>(out.body)].moves_at_all()) {
-            diagnostics.error(body.place, "body", "'" + body.body + "' cannot move",
-                              "Name a body that can.");
-        }
-        out.mass_scale = body.density_scale * body.mass_scale;
-        out.weight_scale = body.density_scale * body.weight_scale;
-        out.turning_scale = body.density_scale;
-        out.friction_scale = body.friction_scale;
-    }
-    if (spec.field) {
-        const ForceFieldSpec& given = *spec.field;
-        ForceField& field = field_.emplace(ForceField{});
-        field.kind = given.kind;
-        field.damping = given.damping;
-        field.stiffness = given.stiffness;
-        std::vector<std::string> things = names_of(scene.bodies);
-        const int bodies = static_cast<int>(things.size());
-        for (const scene::Finger& finger : scene.fingers) things.push_back(finger.name);
-        field.index =
-            look_up(things, given.on, given.place, "on", "no finger or body", diagnostics);
-        if (field.index >= bodies) field.finger = field.index - bodies;
-        if (field.kind == FieldKind::curl)
-            field.axis = axis_of(given.axis, given.place, diagnostics);
-        if (field.kind == FieldKind::channel) {
-            field.from = region(given.from, given.place, "from");
-            field.to = region(given.to, given.place, "to");
-            if (given.stiffness <= 0) {
-                diagnostics.error(given.place, "stiffness", "a channel needs one",
-                                  "Add e.g. stiffness_N_m: 1000.");
-            }
-        } else if (given.damping == 0) {
-            diagnostics.error(given.place, "damping", "is missing: the field would do nothing",
-                              "Add e.g. damping_Ns_m: 10.");
-        }
-    }
-    const bool any = spec.visual || spec.body || spec.field;
-    if (!any) {
+    if (spec.visual) look_up_map(*spec.visual, regions, scene, diagnostics);
+    if (spec.body) look_up_body(*spec.body, scene, diagnostics);
+    if (spec.field) look_up_field(*spec.field, regions, scene, diagnostics);
+    if (!spec.visual && !spec.body && !spec.field) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
                           "Give it visual, body or field.");
+    }
+}
+
+void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
+                               const scene::Scene& scene, Diagnostics& diagnostics) {
+    const auto region = [&](const std::string& name, const char* key) {
+        return look_up(names_of(regions), name, visual.place, key, "no region", diagnostics);
+    };
+    Map& map = map_.emplace(Map{});
+    map.moves = moves_of(visual, diagnostics);
+    map.object = scene.object_index();
+    map.about = region(visual.about, "about");
+    if (!visual.toward.empty()) map.toward = region(visual.toward, "toward");
+    map.scale = visual.scale;
+    if (visual.axis || visual.angle != 0)
+        map.axis = axis_of(visual.axis, visual.place, diagnostics);
+    map.angle = visual.angle;
+    map.size = visual.size;
+    if (map.moves & servo::kMovesObject && map.object < 0) {
+        diagnostics.error(visual.place, "moves", "the scene has no object that can move",
+                          "Leave out object.");
+    }
+    if (map.size != 1 && (map.moves & servo::kMovesObject) == 0) {
+        diagnostics.error(visual.place, "size", "is the object's, which is not moved",
+                          "Add object to moves.");
+    }
+    if (map.toward >= 0 && (map.angle != 0 || map.scale != Vec3::Ones())) {
+        diagnostics.error(visual.place, "toward",
+                          "what is shown on a line can be neither rotated nor scaled",
+                          "Leave out angle_deg and scale, or toward.");
+    }
+}
+
+void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
+                                Diagnostics& diagnostics) {
+    servo::PropertiesFrame& out = properties_.emplace();
+    out.body =
+        look_up(names_of(scene.bodies), body.body, body.place, "body", "no body", diagnostics);
+    if (out.body >= 0 && !scene.bodies[static_cast<size_t>(out.body)].moves_at_all()) {
+        diagnostics.error(body.place, "body", "'" + body.body + "' cannot move",
+                          "Name a body that can.");
+    }
+    out.mass_scale = body.density_scale * body.mass_scale;
+    out.weight_scale = body.density_scale * body.weight_scale;
+    out.turning_scale = body.density_scale;
+    out.friction_scale = body.friction_scale;
+}
+
+void Perturbation::look_up_field(const ForceFieldSpec& given, const std::vector<Region>& regions,
+                                 const scene::Scene& scene, Diagnostics& diagnostics) {
+    const auto region = [&](const std::string& name, const char* key) {
+        return look_up(names_of(regions), name, given.place, key, "no region", diagnostics);
+    };
+    ForceField& field = field_.emplace(ForceField{});
+    field.kind = given.kind;
+    field.damping = given.damping;
+    field.stiffness = given.stiffness;
+    std::vector<std::string> things = names_of(scene.bodies);
+    const int bodies = static_cast<int>(things.size());
+    for (const scene::Finger& finger : scene.fingers) things.push_back(finger.name);
+    field.index = look_up(things, given.on, given.place, "on", "no finger or body", diagnostics);
+    if (field.index >= bodies) field.finger = field.index - bodies;
+    if (field.kind == FieldKind::curl) field.axis = axis_of(given.axis, given.place, diagnostics);
+    if (field.kind == FieldKind::channel) {
+        field.from = region(given.from, "from");
+        field.to = region(given.to, "to");
+        if (given.stiffness <= 0) {
+            diagnostics.error(given.place, "stiffness", "a channel needs one",
+                              "Add e.g. stiffness_N_m: 1000.");
+        }
+    } else if (given.damping == 0) {
+        diagnostics.error(given.place, "damping", "is missing: the field would do nothing",
+                          "Add e.g. damping_Ns_m: 10.");
     }
 }
 

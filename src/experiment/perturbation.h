@@ -172,6 +172,12 @@ class Perturbation {
         int from = -1;
         int to = -1;
     };
+    void look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
+                     const scene::Scene& scene, Diagnostics& diagnostics);
+    void look_up_body(const BodySpec& body, const scene::Scene& scene, Diagnostics& diagnostics);
+    void look_up_field(const ForceFieldSpec& given, const std::vector<Region>& regions,
+                       const scene::Scene& scene, Diagnostics& diagnostics);
+
     std::optional<Map> map_;
     std::optional<servo::PropertiesFrame> properties_;
     std::optional<ForceField> field_;

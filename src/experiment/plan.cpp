@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <climits>
 #include <filesystem>
 
 #include "base/regular_file.h"
@@ -49,8 +50,94 @@ Node setting(const std::string& text) {
 }
 
 void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
-    if (settings.kind != Node::Kind::null)
-        read_fields(plan.settings, settings, diagnostics, &plan.origins);
+    read_given_fields(plan.settings, settings, diagnostics, &plan.origins);
+}
+
+/// Of a scene alone, one that says nothing. Throws Error.
+Experiment experiment_of(const std::string& file, Diagnostics& diagnostics) {
+    const FileKind kind = kind_of(file);
+    if (kind == FileKind::scene) return {};
+    if (kind != FileKind::experiment) {
+        throw Error({file, 0}, "", "is neither a scene nor an experiment",
+                    "A scene has 'bodies:', an experiment has 'scene:'.");
+    }
+    Experiment experiment = read_experiment(file, diagnostics);
+    diagnostics.throw_if_errors();
+    return experiment;
+}
+
+void plan_scene(Plan& plan, const Experiment& experiment, Diagnostics& diagnostics) {
+    const std::string file =
+        experiment.scene.empty() ? plan.file : beside(plan.file, experiment.scene);
+    plan.scene_folder = fs::path(file).parent_path().string();
+    plan.scene = scene::read_scene(file, diagnostics);
+    diagnostics.throw_if_errors();
+    plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
+    plan.study = experiment.study;
+}
+
+/// The rig file; "": ideal simulated devices.
+std::string rig_file(const Request& request, const Experiment& experiment) {
+    if (!request.rig.empty()) return request.rig;
+    return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
+}
+
+void plan_rig(Plan& plan, const Request& request, const Experiment& experiment,
+              Diagnostics& diagnostics) {
+    if (const std::string file = rig_file(request, experiment); !file.empty()) {
+        plan.rig = rig::read_rig(file, diagnostics);
+    } else {
+        // a mouse can turn the hand, which is felt where orientation is measured
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
+    }
+    rig::check_age(plan.rig, recording::iso_now(), diagnostics);
+    const auto other = [](const rig::Device& device) { return device.backend != "simulated"; };
+    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), other)) {
+        diagnostics.warning(plan.rig.place, "devices", "are not simulated: ideal ones stand in",
+                            "Rehearse on devices like them by --rig, or rig: another file.");
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
+    }
+}
+
+/// Each file's over those before it, and those of the command line over all.
+void plan_settings(Plan& plan, const Request& request, const Experiment& experiment,
+                   Diagnostics& diagnostics) {
+    overlay(plan, plan.scene.settings, diagnostics);
+    overlay(plan, plan.rig.settings, diagnostics);
+    overlay(plan, experiment.settings, diagnostics);
+    std::vector<Node> typed;
+    for (const std::string& text : request.set) typed.push_back(setting(text));
+    for (const Node& one : typed) overlay(plan, one, diagnostics);
+    SafetySources safety{plan.rig.settings, {&plan.scene.settings, &experiment.settings}};
+    for (const Node& one : typed) safety.others.push_back(&one);
+    limit_safety(plan, safety, diagnostics);
+}
+
+/// "": none.
+std::string movement_file(const Request& request, const Experiment& experiment) {
+    if (!request.movement.empty()) return request.movement;
+    if (!experiment.movement || experiment.movement->file.empty()) return "";
+    return beside(request.file, experiment.movement->file);
+}
+
+void check_use_of_movement(const Plan& plan, const Request& request, const Experiment& experiment,
+                           Diagnostics& diagnostics) {
+    if (!experiment.movement) {
+        if (request.movement.empty()) return;
+        throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
+                    "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
+    }
+    const Place& place = experiment.movement->place;
+    if (rig::is_real(plan.rig)) {
+        diagnostics.error(place, "movement",
+                          "moves simulated fingers, and this rig's devices are real",
+                          "Choose another rig: --rig rigs/premium-pair.yaml.");
+    }
+    if (experiment.task) {
+        diagnostics.error(place, "movement",
+                          "a task's hand follows its states, not a recorded movement",
+                          "Leave out movement, or task.");
+    }
 }
 
 /// The trials, and the hand that does them.
@@ -69,12 +156,6 @@ void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnosti
     diagnostics.throw_if_errors();
     made->trials = make_trials(task, number, request.seed);
     plan.task = made;
-}
-
-/// The rig file; "": ideal simulated devices.
-std::string rig_file(const Request& request, const Experiment& experiment) {
-    if (!request.rig.empty()) return request.rig;
-    return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
 }
 
 /// Nobody simulated: one phase as long as a session may be.
@@ -100,6 +181,28 @@ void seat_mover(Plan& plan, recording::Mover mover) {
     plan.moved_by.mover = mover;
 }
 
+/// Who moves the hand, by what the rig is, who sits there, and what the files have of one.
+void plan_driver(Plan& plan, const Request& request, const Experiment& experiment,
+                 Diagnostics& diagnostics) {
+    const std::string movement = movement_file(request, experiment);
+    if (rig::is_real(plan.rig)) {
+        seat_mover(plan, recording::Mover::devices);
+    } else if (request.mouse) {
+        seat_mover(plan, recording::Mover::mouse);
+    } else if (plan.task) {
+        seat_mover(plan, recording::Mover::script);
+    } else if (!movement.empty()) {
+        plan.moved_by.mover = recording::Mover::recorded_movement;
+        plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
+                                     plan.scene, plan.movement, diagnostics);
+        diagnostics.throw_if_errors();
+    } else {
+        plan.driver =
+            std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.moved_by.mover = recording::Mover::script;
+    }
+}
+
 }  // namespace
 
 bool on_real_devices(const Request& request) {
@@ -121,102 +224,25 @@ Plan make_plan(const Request& request) {
     plan.file = request.file;
     plan.seed = request.seed;
     Diagnostics diagnostics;
-
-    Experiment experiment;
-    const FileKind kind = kind_of(request.file);
-    if (kind != FileKind::scene && kind != FileKind::experiment) {
-        throw Error({request.file, 0}, "", "is neither a scene nor an experiment",
-                    "A scene has 'bodies:', an experiment has 'scene:'.");
-    }
-    std::string scene_file = request.file;
-    if (kind == FileKind::experiment) {
-        experiment = read_experiment(request.file, diagnostics);
-        diagnostics.throw_if_errors();
-        scene_file = beside(request.file, experiment.scene);
-    }
-    plan.scene_folder = fs::path(scene_file).parent_path().string();
-    plan.scene = scene::read_scene(scene_file, diagnostics);
-    diagnostics.throw_if_errors();
-    plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
-    plan.study = experiment.study;
-
-    if (const std::string file = rig_file(request, experiment); !file.empty()) {
-        plan.rig = rig::read_rig(file, diagnostics);
-    } else {
-        // a mouse can turn the hand, which is felt where orientation is measured
-        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
-    }
-    rig::check_age(plan.rig, recording::iso_now(), diagnostics);
-    const auto other = [](const rig::Device& device) { return device.backend != "simulated"; };
-    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), other)) {
-        diagnostics.warning(plan.rig.place, "devices", "are not simulated: ideal ones stand in",
-                            "Rehearse on devices like them by --rig, or rig: another file.");
-        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
-    }
-    const bool real = rig::is_real(plan.rig);
-    overlay(plan, plan.scene.settings, diagnostics);
-    overlay(plan, plan.rig.settings, diagnostics);
-    overlay(plan, experiment.settings, diagnostics);
-    std::vector<Node> typed;
-    for (const std::string& text : request.set) typed.push_back(setting(text));
-    for (const Node& one : typed) overlay(plan, one, diagnostics);
-    SafetySources safety{plan.rig.settings, {&plan.scene.settings, &experiment.settings}};
-    for (const Node& one : typed) safety.others.push_back(&one);
-    limit_safety(plan, safety, diagnostics);
-
-    if (plan.scene.hand.kind != Node::Kind::null)
-        read_fields(plan.hand, plan.scene.hand, diagnostics);
+    const Experiment experiment = experiment_of(request.file, diagnostics);
+    plan_scene(plan, experiment, diagnostics);
+    plan_rig(plan, request, experiment, diagnostics);
+    plan_settings(plan, request, experiment, diagnostics);
+    read_given_fields(plan.hand, plan.scene.hand, diagnostics);
     if (experiment.hand) plan.hand = *experiment.hand;
     diagnostics.throw_if_errors();
-
-    const std::string movement = !request.movement.empty() ? request.movement
-                                 : experiment.movement && !experiment.movement->file.empty()
-                                     ? beside(request.file, experiment.movement->file)
-                                     : "";
-    if (!request.movement.empty() && !experiment.movement) {
-        throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
-                    "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
-    }
-    if (real && experiment.movement) {
-        diagnostics.error(experiment.movement->place, "movement",
-                          "moves simulated fingers, and this rig's devices are real",
-                          "Choose another rig: --rig rigs/premium-pair.yaml.");
-    }
-    if (experiment.task) {
-        if (experiment.movement) {
-            diagnostics.error(experiment.movement->place, "movement",
-                              "a task's hand follows its states, not a recorded movement",
-                              "Leave out movement, or task.");
-        }
-        plan_trials(plan, *experiment.task, request, diagnostics);
-    }
+    check_use_of_movement(plan, request, experiment, diagnostics);
+    if (experiment.task) plan_trials(plan, *experiment.task, request, diagnostics);
     diagnostics.throw_if_errors();
-    if (real) {
-        seat_mover(plan, recording::Mover::devices);
-    } else if (request.mouse) {
-        seat_mover(plan, recording::Mover::mouse);
-    } else if (plan.task) {
-        seat_mover(plan, recording::Mover::script);
-    } else if (!movement.empty()) {
-        plan.moved_by.mover = recording::Mover::recorded_movement;
-        plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
-                                     plan.scene, plan.movement, diagnostics);
-        diagnostics.throw_if_errors();
-    } else {
-        plan.driver =
-            std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
-        plan.moved_by.mover = recording::Mover::script;
-    }
-
+    plan_driver(plan, request, experiment, diagnostics);
     check_with_devices(plan, diagnostics);
     return plan;
 }
 
 namespace {
 
-/// How each attempt at a trial ended: trials.csv has a row for each, in the order in which they
-/// were made.
-std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
+/// trials.csv has a row for each, in the order in which they were made.
+std::vector<Attempt> attempts_made(const TaskPlan& plan, const std::string& file) {
     const auto bad = [&](const char* what) {
         return Error({file, 0}, "", what,
                      "Make it anew from raw.log: dihaptic recover, on the session's folder.");
@@ -226,13 +252,19 @@ std::vector<int> attempts_made(const TaskPlan& plan, const std::string& file) {
     if (!text.ends_with('\n')) throw bad("is cut off in its last line");
     const CsvFile trials(file);
     if (!trials.has("outcome")) throw bad("has no column 'outcome'");
-    std::vector<int> out;
+    std::vector<Attempt> out;
     for (size_t i = 0; i < trials.rows(); ++i) {
+        const double trial = trials.number(i, "trial_num");
+        const double attempt = trials.number(i, "attempt");
+        const auto all = static_cast<double>(plan.trials.size());
+        if (!(trial >= 1 && trial <= all && attempt >= 1 && attempt < INT_MAX))
+            throw bad("has a row without a trial of the session's, or its attempt");
         const std::string outcome = trials.text(i, "outcome");
         const auto same = [&](const TaskPlan::Outcome& o) { return o.name == outcome; };
         const auto found = std::find_if(plan.outcomes.begin(), plan.outcomes.end(), same);
-        if (found != plan.outcomes.end())
-            out.push_back(static_cast<int>(found - plan.outcomes.begin()));
+        out.push_back(
+            {static_cast<int>(trial) - 1, static_cast<int>(attempt),
+             found == plan.outcomes.end() ? -1 : static_cast<int>(found - plan.outcomes.begin())});
     }
     return out;
 }
@@ -288,8 +320,7 @@ Plan frozen_plan(const recording::SessionFolder& folder, const recording::Sessio
     plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
     plan.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
     overlay(plan, read_yaml(folder.file("settings.yaml")), diagnostics);
-    if (plan.scene.hand.kind != Node::Kind::null)
-        read_fields(plan.hand, plan.scene.hand, diagnostics);
+    read_given_fields(plan.hand, plan.scene.hand, diagnostics);
     Task task;
     read_fields(task, read_yaml(folder.file("task.yaml")), diagnostics);
     diagnostics.throw_if_errors();

@@ -48,7 +48,7 @@ struct Plan {
     std::shared_ptr<const TaskPlan> task;  ///< trials, if the experiment has some
     std::shared_ptr<SeeingDriver> seeing;  ///< the driver, if it sees
     std::string person;                    ///< the driver, if it is one: person.yaml
-    std::vector<int> done;                 ///< outcomes of trials that an earlier session ended
+    std::vector<Attempt> done;             ///< what an earlier part of the session did
     std::string resumes;                   ///< that session's folder
     std::vector<Problem> warnings;
     uint64_t seed = 1;

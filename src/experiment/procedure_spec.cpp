@@ -17,6 +17,36 @@ double lowest_level(const ProcedureSpec& spec) {
     return spec.least();
 }
 
+/// Of quest_plus; the others have none.
+size_t grid_cells(const ProcedureSpec& spec) {
+    if (!spec.quest_plus) return 0;
+    const QuestPlusSpec& s = *spec.quest_plus;
+    return static_cast<size_t>(s.levels.count) * static_cast<size_t>(s.thresholds.count) *
+           static_cast<size_t>(s.shapes.count) * static_cast<size_t>(s.lapses.count);
+}
+
+/// Levels are shares, or logarithms of shares.
+void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
+    const auto within = [&](const char* key, double level) {
+        if (level >= spec.least() && level <= spec.most()) return;
+        diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
+                          fmt::format("goes to {:g}, where levels of a share end at {:g}", level,
+                                      level > spec.most() ? spec.most() : spec.least()),
+                          spec.logarithmic
+                              ? "The share is 10^level, at most 1: raise the perturbation instead."
+                              : "The level is the perturbation's share: raise that instead.");
+    };
+    if (spec.quest_plus) {
+        within("levels", spec.quest_plus->levels.from);
+        within("levels", spec.quest_plus->levels.to);
+    }
+    if (spec.staircase) {
+        within("start", spec.staircase->start);
+        within("lowest", spec.staircase->lowest.value_or(spec.least()));
+        within("highest", spec.staircase->highest.value_or(spec.most()));
+    }
+}
+
 /// The experiment runs, and its answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = lowest_level(spec);
@@ -70,37 +100,14 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
     if (spec.yes == spec.no)
         diagnostics.error(spec.place, "no", "is the same outcome as yes", "Name two outcomes.");
-    if (spec.quest_plus) {
-        const QuestPlusSpec& s = *spec.quest_plus;
-        const auto cells =
-            static_cast<size_t>(s.levels.count) * static_cast<size_t>(s.thresholds.count) *
-            static_cast<size_t>(s.shapes.count) * static_cast<size_t>(s.lapses.count);
-        if (cells > kLargestGrid) {
-            diagnostics.error(
-                spec.place, "quest_plus",
-                fmt::format("has a grid of {} values, where {} are the most", cells, kLargestGrid),
-                "Lower a count.");
-            return;
-        }
+    if (const size_t cells = grid_cells(spec); cells > kLargestGrid) {
+        diagnostics.error(
+            spec.place, "quest_plus",
+            fmt::format("has a grid of {} values, where {} are the most", cells, kLargestGrid),
+            "Lower a count.");
+        return;
     }
-    const auto within = [&](const char* key, double level) {
-        if (level >= spec.least() && level <= spec.most()) return;
-        diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
-                          fmt::format("goes to {:g}, where levels of a share end at {:g}", level,
-                                      level > spec.most() ? spec.most() : spec.least()),
-                          spec.logarithmic
-                              ? "The share is 10^level, at most 1: raise the perturbation instead."
-                              : "The level is the perturbation's share: raise that instead.");
-    };
-    if (spec.quest_plus) {
-        within("levels", spec.quest_plus->levels.from);
-        within("levels", spec.quest_plus->levels.to);
-    }
-    if (spec.staircase) {
-        within("start", spec.staircase->start);
-        within("lowest", spec.staircase->lowest.value_or(spec.least()));
-        within("highest", spec.staircase->highest.value_or(spec.most()));
-    }
+    check_levels(spec, diagnostics);
     if (spec.quest && !spec.logarithmic)
         diagnostics.error(spec.place, "logarithmic", "quest's levels are logarithms",
                           "Add logarithmic: yes.");

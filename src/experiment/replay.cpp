@@ -86,6 +86,70 @@ std::unique_ptr<devices::DeviceGroup> replaying_devices(const recording::Setup& 
     return devices::find_backend("replay")->make(configs, context);
 }
 
+/// What the session ran with, from its own files.
+struct Inputs {
+    scene::Scene scene;
+    rig::Rig rig;
+    servo::Settings settings;
+};
+
+Inputs read_inputs(const recording::SessionFolder& folder, const recording::LogHead& head,
+                   Diagnostics& diagnostics) {
+    diagnostics.add(folder.changed(head.inputs, Severity::error));
+    diagnostics.throw_if_errors();
+    Inputs out;
+    out.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    out.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    read_fields(out.settings, read_yaml(folder.file("settings.yaml")), diagnostics);
+    diagnostics.throw_if_errors();
+    check(head, out.scene, folder.raw_log());
+    return out;
+}
+
+/// What the devices said in the recorded tick.
+void read_again(const servo::Frame& recorded, const recording::LogHead& head,
+                std::span<devices::Reading> readings) {
+    auto turn = recorded.turns.begin();
+    for (size_t i = 0; i < readings.size(); ++i) {
+        const servo::FingerFrame& finger = recorded.fingers[i];
+        readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, reported(finger.status)};
+        if (!head.devices[i].orientation) continue;
+        readings[i].R_DH = turn->R_DH;
+        readings[i].w_DH = turn->w_DH;
+        ++turn;
+    }
+}
+
+/// What the session's owner ordered in it.
+void order_again(const servo::Frame& recorded, servo::Commands& commands) {
+    commands.force_off = (recorded.status & servo::kStopped) != 0;
+    commands.rest = (recorded.status & servo::kPaused) != 0;
+    // for how long is not known any more, and changes nothing
+    commands.abandoned = (recorded.status & servo::kAbandoned) != 0 ? 1 : 0;
+    commands.tuning = {
+        static_cast<haptics::CouplingKind>(recorded.coupling), recorded.stiffness,
+        std::isnan(recorded.damping) ? std::nullopt : std::optional(recorded.damping),
+        recorded.smoothing};
+    commands.proxy = static_cast<haptics::ProxyKind>(recorded.proxy);
+    commands.friction_scale = recorded.friction_scale;
+    commands.workspace_rate = recorded.workspace_rate;
+    commands.solver = static_cast<dynamics::Solver>(recorded.solver);
+    commands.trial = recorded.trial;
+    commands.phase = recorded.phase;
+    commands.task = recorded.task;
+}
+
+/// What is missing of the log, and whether the session's state accounts for it.
+void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
+               ReplayResult& result) {
+    const recording::LogHealth& health = log.read_to_end();  // for what is missing after a gap
+    result.log = recording::describe(health, info.ticks, log.head().planned());
+    // of a session that was recovered it is known that it has no end; of others that is news
+    const bool endless = info.state == recording::SessionState::recovered && !health.complete;
+    result.damaged = !health.gaps.empty() || !health.strays.empty() ||
+                     health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));
+}
+
 }  // namespace
 
 ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
@@ -97,52 +161,22 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const recording::SessionInfo info = folder.read_info(head, diagnostics);
     ReplayResult result;
     result.warnings = diagnostics.problems();
-    diagnostics.add(folder.changed(head.inputs, Severity::error));
-    diagnostics.throw_if_errors();
-    const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
-    const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
-    servo::Settings settings;
-    read_fields(settings, read_yaml(folder.file("settings.yaml")), diagnostics);
-    diagnostics.throw_if_errors();
-    check(head, scene, folder.raw_log());
+    const Inputs inputs = read_inputs(folder, head, diagnostics);
 
     const servo::Frame* recorded = log.next();
     devices::Context context;
-    context.tick = settings.tick();
+    context.tick = inputs.settings.tick();
     context.recording = [&](Time, std::span<devices::Reading> readings) {
-        if (recorded == nullptr) return false;
-        auto turn = recorded->turns.begin();
-        for (size_t i = 0; i < readings.size(); ++i) {
-            const servo::FingerFrame& finger = recorded->fingers[i];
-            readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, reported(finger.status)};
-            if (!head.devices[i].orientation) continue;
-            readings[i].R_DH = turn->R_DH;
-            readings[i].w_DH = turn->w_DH;
-            ++turn;
-        }
-        return true;
+        if (recorded != nullptr) read_again(*recorded, head, readings);
+        return recorded != nullptr;
     };
-    servo::Servo servo(scene, settings, replaying_devices(head, context),
-                       rig::poses(rig, scene::finger_names(scene)), rig::wall_box(rig));
+    servo::Servo servo(inputs.scene, inputs.settings, replaying_devices(head, context),
+                       rig::poses(inputs.rig, scene::finger_names(inputs.scene)),
+                       rig::wall_box(inputs.rig));
     servo.activate();
-
     const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
                                          servo::Commands& commands) {
-        commands.force_off = (recorded->status & servo::kStopped) != 0;
-        commands.rest = (recorded->status & servo::kPaused) != 0;
-        // for how long is not known any more, and changes nothing
-        commands.abandoned = (recorded->status & servo::kAbandoned) != 0 ? 1 : 0;
-        commands.tuning = {
-            static_cast<haptics::CouplingKind>(recorded->coupling), recorded->stiffness,
-            std::isnan(recorded->damping) ? std::nullopt : std::optional(recorded->damping),
-            recorded->smoothing};
-        commands.proxy = static_cast<haptics::ProxyKind>(recorded->proxy);
-        commands.friction_scale = recorded->friction_scale;
-        commands.workspace_rate = recorded->workspace_rate;
-        commands.solver = static_cast<dynamics::Solver>(recorded->solver);
-        commands.trial = recorded->trial;
-        commands.phase = recorded->phase;
-        commands.task = recorded->task;
+        order_again(*recorded, commands);
     };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
@@ -159,13 +193,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     result.elapsed = std::chrono::duration<double>(Wall::now() - begin).count();
     result.interrupted = stop.load();
     if (result.interrupted) return result;
-
-    const recording::LogHealth& health = log.read_to_end();  // for what is missing after a gap
-    result.log = recording::describe(health, info.ticks, head.planned());
-    // of a session that was recovered it is known that it has no end; of others that is news
-    const bool endless = info.state == recording::SessionState::recovered && !health.complete;
-    result.damaged = !health.gaps.empty() || !health.strays.empty() ||
-                     health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));
+    judge_log(log, info, result);
     if (progress) progress(1);
     return result;
 }

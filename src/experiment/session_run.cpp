@@ -15,6 +15,7 @@
 #include "experiment/outward.h"
 #include "experiment/phase_director.h"
 #include "experiment/task_director.h"
+#include "experiment/wait.h"
 
 namespace dihaptic::experiment {
 namespace {
@@ -79,7 +80,8 @@ std::string identity_of(const recording::Setup& setup, const Plan& plan, bool re
         return fmt::format("{:08x}{:08x}", random(), random());
     }
     std::string text = to_yaml(write_fields(setup));
-    for (const int outcome : plan.done) text += fmt::format("{} ", outcome);
+    for (const Attempt& done : plan.done)
+        text += fmt::format("{} {} {} ", done.trial, done.attempt, done.outcome);
     return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
 }
 
@@ -88,60 +90,6 @@ std::string identity_of(const recording::Setup& setup, const Plan& plan, bool re
 bool simulated_trigger(const servo::Frame& last, Time period) noexcept {
     return (last.time + period) % std::chrono::seconds(1) < period;
 }
-
-/// A simulated hand that never does what a trial waits for would fill the disk.
-struct Wait {
-    static constexpr double kLongestBetween = 60;  // trials [s]
-    static constexpr double kLongest = 60;         // in a state, beyond its exit by time [s]
-    static constexpr double kRounds = 10;          // through all states, in one attempt
-
-    /// `stages`: of the task.
-    explicit Wait(const std::vector<TaskPlan::Stage>& stages) : bounds{kLongestBetween} {
-        for (const TaskPlan::Stage& stage : stages) {
-            double longest = 0;
-            for (const TaskPlan::Way& way : stage.ways) {
-                if (way.exit.when == When::time) longest = std::max(longest, way.exit.hold);
-            }
-            bounds.push_back(longest + kLongest);
-            attempt_bound += kRounds * bounds.back();
-        }
-    }
-
-    void look(const servo::Frame& last, const servo::Commands& commands) noexcept {
-        const double now = seconds(last.time);
-        if (last.trial != trial || last.task.attempt != attempt) begun = since = now;
-        if (last.phase != phase) since = now;
-        trial = last.trial;
-        attempt = last.task.attempt;
-        phase = last.phase;
-        ended = now;
-        const bool same = commands.trial == trial && commands.phase == phase;
-        over = (same && now - since > bounds[static_cast<size_t>(phase)]) ||
-               now - begun > attempt_bound;
-    }
-    std::string describe(const std::vector<recording::PhaseInfo>& phases) const {
-        const auto i = static_cast<size_t>(phase);
-        return fmt::format(
-            "The simulated hand never ended '{}' of trial {}: the session ends after {:.0f} s of "
-            "it. "
-            "{}",
-            i < phases.size() ? phases[i].name : "a state", trial, ended - since,
-            phase == kBetween ? "Its fingers stay where an object is put back: let the last state "
-                                "lead them away."
-                              : "Give the state an exit by time, or the hand steps that meet one; "
-                                "states that lead back to each other need a way out.");
-    }
-
-    int trial = 0;
-    int attempt = 0;
-    int phase = 0;
-    double since = 0;            // of the state [s]
-    double begun = 0;            // of the attempt [s]
-    double ended = 0;            // what was seen last [s]
-    std::vector<double> bounds;  // by phase [s]
-    double attempt_bound = kLongestBetween;
-    bool over = false;
-};
 
 /// Calls `look` about ten times a second from a thread of its own while something runs, and once
 /// after.
@@ -188,258 +136,373 @@ bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& sto
     }
 }
 
+/// One session from its folder to its last note: what the servo's callbacks share.
+class Run {
+  public:
+    Run(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+        const Progress& progress)
+        : plan_(plan),
+          options_(options),
+          stop_(stop),
+          progress_(progress),
+          real_(options.clock == Clock::real),
+          name_(fs::path(plan.file).stem().string()),
+          folder_(recording::SessionFolder::create(
+              options.out,
+              options.participant.id.empty() ? name_ : name_ + "_" + options.participant.id)),
+          live_(options.live) {}
+
+    RunResult run();
+
+  private:
+    void describe();
+    void describe_task();
+    void open_record();
+    void begin();
+    void make_directors();
+
+    void take(const servo::Frame& frame);
+    void direct(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                servo::Commands& commands);
+    void direct_task(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                     servo::Commands& commands);
+    void be_steered(const servo::Frame& last, servo::Commands& commands);
+
+    void run_ticks();
+    void run_real_ticks(const servo::Director& director, const servo::FrameSink& sink);
+    double share() const noexcept;
+    std::string fault_text() const;
+    std::string stall_text(const servo::Timing::Stall& stall) const;
+
+    void close_record();
+    void note_how_it_ended();
+    void conclude();
+
+    const Plan& plan_;
+    const RunOptions& options_;
+    const std::atomic<bool>& stop_;
+    const Progress& progress_;
+    const bool real_;
+    const std::string name_;
+    const recording::SessionFolder folder_;
+    Live* const live_;
+
+    RunResult result_;
+    recording::SessionInfo& info_ = result_.info;
+    std::unique_ptr<servo::Servo> servo_;
+    std::optional<recording::Recorder> recorder_;
+    servo::FrameSink read_;           // in place of it
+    std::optional<Outward> outward_;  // others must not take a rehearsal for a session
+    std::optional<PhaseDirector> phases_;
+    std::optional<TaskDirector> task_;
+    std::optional<Wait> wait_;
+    Time whole_{0};                    // is over after this time
+    std::atomic<int64_t> reached_{0};  // session time [ns]
+};
+
+RunResult Run::run() {
+    result_.folder = folder_.path();
+    servo_ = make_servo(plan_, options_.keeper);
+    describe();
+    open_record();
+    begin();
+    make_directors();
+    const auto begun = Wall::now();
+    run_ticks();
+    result_.elapsed = since(begun);
+    servo_->deactivate();
+    close_record();
+    note_how_it_ended();
+    conclude();
+    return std::move(result_);
+}
+
+void Run::describe() {
+    info_.title = plan_.title.empty() ? name_ : plan_.title;
+    info_.program = recording::program_version();
+    info_.started = recording::iso_now();
+    info_.command = options_.command;
+    info_.experiment = plan_.file;
+    info_.clock = real_ ? "real" : "virtual";
+    info_.seed = std::to_string(plan_.seed);
+    info_.participant = options_.participant;
+    info_.moved_by = plan_.moved_by;
+    info_.study = plan_.study;
+    if (const int object = plan_.scene.object_index(); object >= 0)
+        info_.object = plan_.scene.bodies[static_cast<size_t>(object)].name;
+    info_.devices = records_of(*servo_, plan_.scene);
+    if (plan_.task) {
+        describe_task();
+    } else {
+        info_.phases = phases_of(*plan_.driver);
+    }
+    for (const Problem& warning : plan_.warnings) info_.notes.push_back(warning.text());
+    if (plan_.movement) {
+        info_.notes.push_back(fmt::format("{:.1f} % of the movement was bridged",
+                                          100 * plan_.movement->bridged_share));
+    }
+    info_.inputs = freeze_inputs(plan_, folder_);
+    info_.identity = identity_of(info_, plan_, real_);
+    folder_.write_info(info_);
+}
+
+void Run::describe_task() {
+    for (const std::string& phase : plan_.task->phases()) info_.phases.push_back({phase, 0, 0});
+    for (const TaskPlan::Outcome& outcome : plan_.task->outcomes)
+        info_.outcomes.push_back(outcome.name);
+    info_.messages = plan_.task->messages;
+    info_.resumes = plan_.resumes;
+}
+
+void Run::open_record() {
+    const recording::LogHead head = log_head(plan_.scene, plan_.settings, info_);
+    if (options_.in_place_of_log) {
+        read_ = options_.in_place_of_log(folder_, info_, head);
+    } else {
+        recorder_.emplace(folder_.raw_log(), head,
+                          real_ ? recording::Writing::in_thread : recording::Writing::in_place,
+                          options_.sync);
+    }
+    result_.lock.emplace(folder_);
+    if (real_ || options_.sync > 0) folder_.sync();  // what it is about, before it begins
+}
+
+/// Real devices, what they send to, or the person may refuse: there is no session then.
+void Run::begin() {
+    if (plan_.seeing) plan_.seeing->restart();
+    try {
+        if (real_ && !plan_.rig.outlets.empty())
+            outward_.emplace(plan_, fs::path(folder_.path()).filename().string());
+        servo_->activate();
+        if (options_.check) {
+            for (const Problem& warning : options_.check(servo_->devices()))
+                info_.notes.push_back(warning.text());
+            folder_.write_info(info_);
+        }
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(folder_.path(), ignored);
+        throw;
+    }
+}
+
+/// All that the ticks need is made before the first of them: they allocate nothing.
+void Run::make_directors() {
+    whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
+    result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
+                           2);
+    if (live_ != nullptr) live_->prepare(*servo_, plan_.scene);
+    phases_.emplace(info_.phases, plan_.settings.tick());
+    if (!plan_.task) return;
+    task_.emplace(*plan_.task, plan_.seed, plan_.settings.tick(), plan_.done);
+    if (plan_.seeing && !real_) wait_.emplace(plan_.task->stages);
+}
+
+void Run::take(const servo::Frame& frame) {
+    if (recorder_) {
+        recorder_->record(frame);
+    } else {
+        read_(frame);
+        ++result_.ticks;
+    }
+    if (outward_) outward_->send(frame);
+    if (plan_.seeing) plan_.seeing->see(frame);
+    if (live_ != nullptr) live_->show(frame);
+    reached_.store(frame.time.count(), std::memory_order_relaxed);
+}
+
+void Run::direct(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                 servo::Commands& commands) {
+    if (task_) {
+        direct_task(last, handles, commands);
+    } else {
+        (*phases_)(last, handles, commands);
+    }
+    if (wait_) wait_->look(last, commands);
+    commands.stop = commands.stop || (recorder_ && recorder_->failed()) || (wait_ && wait_->over());
+    commands.force_off = real_ && stop_.load(std::memory_order_relaxed);
+    if (live_ != nullptr) be_steered(last, commands);
+}
+
+void Run::direct_task(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                      servo::Commands& commands) {
+    if (servo_->fault()) {
+        // without force there are no trials: this one is over
+        commands.trial = last.trial;
+        commands.phase = last.phase;
+        commands.task.attempt = last.task.attempt;
+        return;
+    }
+    if (options_.keys != nullptr) task_->press(options_.keys->exchange(0));
+    if (const char key = plan_.seeing ? plan_.seeing->take_key() : '\0'; key != 0)
+        task_->press(key);
+    if (outward_) {
+        if (const int code = outward_->take_trigger(); code != 0) task_->trigger(code);
+    } else if (!real_ && simulated_trigger(last, servo_->period())) {
+        task_->trigger(TaskDirector::kAnyTrigger);
+    }
+    (*task_)(last, handles, commands);
+}
+
+/// By who watches a session on the real clock.
+void Run::be_steered(const servo::Frame& last, servo::Commands& commands) {
+    commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
+    commands.rest = live_->paused.load(std::memory_order_relaxed);
+    commands.abandoned = live_->abandoned();
+    commands.solver = live_->solver.read();
+    commands.tuning = live_->tune(servo_->settings().coupling.tuning(), plan_.settings.tick());
+    if (plan_.settings.proxy.changeable && last.sequence >= 0)
+        commands.proxy = live_->change_proxy(last);
+    commands.friction_scale = live_->friction_scale.read();
+    if (task_) {
+        if (live_->skip.exchange(false, std::memory_order_relaxed)) task_->skip();
+        live_->done.store(task_->share(), std::memory_order_relaxed);
+    }
+    commands.workspace_rate = live_->turn(last, plan_.settings.tick());
+}
+
+void Run::run_ticks() {
+    const servo::FrameSink sink = [this](const servo::Frame& frame) { take(frame); };
+    const servo::Director director =
+        [this](const servo::Frame& last, std::span<const haptics::Handle> handles,
+               servo::Commands& commands) { direct(last, handles, commands); };
+    recording::ShowingsWriter showings(folder_);
+    const Watcher watcher([&] {
+        if (progress_) progress_(std::min(1.0, share()));
+        if (live_ == nullptr) return;
+        while (const auto showing = live_->take_showing()) showings.add(*showing);
+        showings.flush();
+    });
+    if (real_) {
+        run_real_ticks(director, sink);
+    } else {
+        servo::run_virtual(*servo_, director, sink, whole_, stop_, &result_.timing.ticks);
+    }
+}
+
+/// Once, or when somebody steers it, from pause to pause and from fault to remedy.
+void Run::run_real_ticks(const servo::Director& director, const servo::FrameSink& sink) {
+    const auto stuck = [this](const servo::Timing::Stall& stall) {
+        if (options_.stuck) options_.stuck(stall_text(stall));
+    };
+    const std::atomic<bool> never{false};  // the director stops it, with a last tick
+    Time first{0};
+    while (true) {
+        servo::run_real(*servo_, director, sink, first, whole_, never, result_.timing, stuck);
+        servo_->rest();
+        if (live_ == nullptr) return;
+        if (servo_->fault() && !stop_) {
+            info_.notes.push_back(fault_text());
+            if (task_) task_->interrupt();
+            live_->tell(info_.notes.back());
+        } else if (!servo_->resting()) {
+            return;
+        } else if (task_) {
+            task_->interrupt();
+        }
+        first = result_.timing.reached + servo_->period();
+        if (first > whole_ || !wait_to_go_on(*servo_, *live_, stop_)) return;
+    }
+}
+
+double Run::share() const noexcept {
+    if (task_) return task_->share();
+    return static_cast<double>(reached_.load(std::memory_order_relaxed)) /
+           static_cast<double>(std::max<int64_t>(1, whole_.count()));
+}
+
+std::string Run::stall_text(const servo::Timing::Stall& stall) const {
+    return fmt::format(
+        "{}. The call has not returned since, so the session ends here. Switch the "
+        "devices off and on; dihaptic recover {} makes the session's files.",
+        servo::describe(stall), folder_.path());
+}
+
+std::string Run::fault_text() const {
+    const haptics::Fault& fault = servo_->fault();
+    const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
+    std::string out =
+        haptics::describe(fault, info_.devices[device].finger, info_.devices[device].model);
+    if (const std::string said = servo_->devices().explain(static_cast<int>(device));
+        fault.device >= 0 && !said.empty())
+        out += " Its driver says: " + said;
+    const bool stopped = fault.kind == haptics::FaultKind::stopped;
+    if (!stopped) out += " The second before it is in fault.csv.";
+    if (live_ != nullptr) return out;  // who steers knows how it goes on
+    if (plan_.task) {
+        out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
+                           folder_.path());
+    } else if (!stopped) {
+        out += " Then start the session again.";
+    }
+    return out;
+}
+
+void Run::close_record() {
+    if (recorder_) {
+        recorder_->finish();
+        result_.ticks = recorder_->frames();
+        result_.dropped = recorder_->dropped();
+    }
+    if (outward_) {
+        for (const std::string& failure : outward_->finish()) info_.notes.push_back(failure);
+    }
+    result_.simulated = seconds(Time(reached_.load()));
+    if (plan_.open_ended()) info_.phases.back().end = result_.simulated;
+}
+
+void Run::note_how_it_ended() {
+    // with a mouse, or a person, there is no more to do than somebody wants to
+    const bool unfinished = task_ ? task_->share() < 1 : !plan_.open_ended();
+    const bool ended = live_ != nullptr && live_->ended;
+    result_.interrupted = stop_.load() || (ended && unfinished);
+    if (servo_->fault()) {
+        result_.fault = fault_text();
+        // a session that waited for a remedy has told of it
+        if (info_.notes.empty() || info_.notes.back() != result_.fault)
+            info_.notes.push_back(result_.fault);
+    }
+    if (wait_ && wait_->over()) {
+        result_.interrupted = true;
+        result_.fault = wait_->describe(info_.phases);
+        info_.notes.push_back(result_.fault);
+    }
+    if (result_.timing.stall) {
+        result_.stall = servo::describe(*result_.timing.stall);
+        info_.notes.push_back(result_.stall);
+    }
+    if (result_.timing.pauses > 0) info_.notes.push_back(servo::describe_pauses(result_.timing));
+}
+
+/// The session's state on the disk stays `running` until its other files are there.
+void Run::conclude() {
+    if (progress_ && !result_.interrupted) progress_(1);
+    info_.ticks = static_cast<int>(result_.ticks + result_.dropped);
+    info_.interrupted = result_.interrupted;
+    info_.finished =
+        fmt::format("{}, {}, {} not recorded", counted(info_.ticks, "tick"),
+                    counted(result_.timing.overruns, "overrun"), counted(result_.dropped, "frame"));
+    if (real_) info_.finished += "; " + servo::describe(result_.timing);
+    if (result_.timing.refusals.any()) {
+        info_.notes.push_back(
+            servo::describe(result_.timing.refusals, plan_.settings.real_time_priority));
+    }
+    folder_.write_info(info_);
+    // a fault ends a session too: the trials that are left are for dihaptic resume
+    const bool cut_short = task_ && servo_->fault() && task_->share() < 1;
+    info_.state = result_.interrupted || cut_short ? recording::SessionState::interrupted
+                                                   : recording::SessionState::complete;
+}
+
 }  // namespace
 
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress) {
-    const bool real = options.clock == Clock::real;
-    if (!real && rig::is_real(plan.rig)) {
+    if (options.clock != Clock::real && rig::is_real(plan.rig)) {
         throw Error(plan.rig.place, "devices", "are real, and keep real time",
                     "Run them on the real clock, or choose a rig of simulated devices.");
     }
-    const std::string name = fs::path(plan.file).stem().string();
-    const auto folder = recording::SessionFolder::create(
-        options.out, options.participant.id.empty() ? name : name + "_" + options.participant.id);
-
-    RunResult result;
-    result.folder = folder.path();
-    recording::SessionInfo& info = result.info;
-    info.title = plan.title.empty() ? name : plan.title;
-    info.program = recording::program_version();
-    info.started = recording::iso_now();
-    info.command = options.command;
-    info.experiment = plan.file;
-    info.clock = real ? "real" : "virtual";
-    info.seed = std::to_string(plan.seed);
-    info.participant = options.participant;
-    info.moved_by = plan.moved_by;
-    info.study = plan.study;
-    if (const int object = plan.scene.object_index(); object >= 0) {
-        info.object = plan.scene.bodies[static_cast<size_t>(object)].name;
-    }
-    const auto servo = make_servo(plan, options.keeper);
-    info.devices = records_of(*servo, plan.scene);
-    if (!plan.task) info.phases = phases_of(*plan.driver);
-    if (plan.task) {
-        for (const std::string& phase : plan.task->phases()) info.phases.push_back({phase, 0, 0});
-        for (const TaskPlan::Outcome& outcome : plan.task->outcomes)
-            info.outcomes.push_back(outcome.name);
-        info.messages = plan.task->messages;
-        info.resumes = plan.resumes;
-    }
-    for (const Problem& warning : plan.warnings) info.notes.push_back(warning.text());
-    if (plan.movement) {
-        info.notes.push_back(fmt::format("{:.1f} % of the movement was bridged",
-                                         100 * plan.movement->bridged_share));
-    }
-    info.inputs = freeze_inputs(plan, folder);
-    info.identity = identity_of(info, plan, real);
-    folder.write_info(info);
-
-    const recording::LogHead head = log_head(plan.scene, plan.settings, info);
-    servo::FrameSink read;
-    std::optional<recording::Recorder> recorder;
-    if (options.in_place_of_log) {
-        read = options.in_place_of_log(folder, info, head);
-    } else {
-        recorder.emplace(folder.raw_log(), head,
-                         real ? recording::Writing::in_thread : recording::Writing::in_place,
-                         options.sync);
-    }
-    result.lock.emplace(folder);
-    if (real || options.sync > 0) folder.sync();  // what it is about, before it begins
-    std::optional<Outward> outward;               // others must not take a rehearsal for a session
-    if (plan.seeing) plan.seeing->restart();
-    try {
-        if (real && !plan.rig.outlets.empty())
-            outward.emplace(plan, fs::path(folder.path()).filename().string());
-        servo->activate();
-        if (options.check) {
-            for (const Problem& warning : options.check(servo->devices()))
-                info.notes.push_back(warning.text());
-            folder.write_info(info);
-        }
-    } catch (...) {
-        // real devices, what they send to, or the person may refuse: there is no session then
-        std::error_code ignored;
-        fs::remove_all(folder.path(), ignored);
-        throw;
-    }
-    const Time whole = plan.task ? kLongest : from_seconds(plan.driver->duration());
-    result.timing.reserve(static_cast<size_t>(std::min(whole, kLongestTimed) / servo->period()) +
-                          2);
-    std::atomic<int64_t> reached{0};
-    Live* const live = options.live;
-    if (live != nullptr) live->prepare(*servo, plan.scene);
-    const servo::FrameSink sink = [&](const servo::Frame& frame) {
-        if (recorder) {
-            recorder->record(frame);
-        } else {
-            read(frame);
-            ++result.ticks;
-        }
-        if (outward) outward->send(frame);
-        if (plan.seeing) plan.seeing->see(frame);
-        if (live != nullptr) live->show(frame);
-        reached.store(frame.time.count(), std::memory_order_relaxed);
-    };
-    PhaseDirector phases(info.phases, plan.settings.tick());
-    std::optional<TaskDirector> task;
-    if (plan.task) task.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
-    std::optional<Wait> wait;
-    if (plan.task && plan.seeing && !real) wait.emplace(plan.task->stages);
-    const servo::Director director = [&](const servo::Frame& last,
-                                         std::span<const haptics::Handle> handles,
-                                         servo::Commands& commands) {
-        if (task && servo->fault()) {
-            // without force there are no trials: this one is over
-            commands.trial = last.trial;
-            commands.phase = last.phase;
-            commands.task.attempt = last.task.attempt;
-        } else if (task) {
-            if (options.keys != nullptr) task->press(options.keys->exchange(0));
-            if (const char key = plan.seeing ? plan.seeing->take_key() : '\0'; key != 0)
-                task->press(key);
-            if (outward) {
-                if (const int code = outward->take_trigger(); code != 0) task->trigger(code);
-            } else if (!real && simulated_trigger(last, servo->period())) {
-                task->trigger(TaskDirector::kAnyTrigger);
-            }
-            (*task)(last, handles, commands);
-        } else {
-            phases(last, handles, commands);
-        }
-        if (wait) wait->look(last, commands);
-        commands.stop = commands.stop || (recorder && recorder->failed()) || (wait && wait->over);
-        commands.force_off = real && stop.load(std::memory_order_relaxed);
-        if (live == nullptr) return;
-        commands.stop = commands.stop || live->ended.load(std::memory_order_relaxed);
-        commands.rest = live->paused.load(std::memory_order_relaxed);
-        commands.abandoned = live->abandoned();
-        commands.solver = live->solver.read();
-        commands.tuning = live->tune(servo->settings().coupling.tuning(), plan.settings.tick());
-        if (plan.settings.proxy.changeable && last.sequence >= 0)
-            commands.proxy = live->change_proxy(last);
-        commands.friction_scale = live->friction_scale.read();
-        if (task) {
-            if (live->skip.exchange(false, std::memory_order_relaxed)) task->skip();
-            live->done.store(task->share(), std::memory_order_relaxed);
-        }
-        commands.workspace_rate = live->turn(last, plan.settings.tick());
-    };
-    const auto stuck = [&](const servo::Timing::Stall& stall) {
-        if (!options.stuck) return;
-        options.stuck(
-            fmt::format("{}. The call has not returned since, so the session ends here. Switch the "
-                        "devices off and on; dihaptic recover {} makes the session's files.",
-                        servo::describe(stall), folder.path()));
-    };
-    const auto describe_fault = [&] {
-        const haptics::Fault& fault = servo->fault();
-        const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
-        std::string out =
-            haptics::describe(fault, info.devices[device].finger, info.devices[device].model);
-        if (const std::string said = servo->devices().explain(static_cast<int>(device));
-            fault.device >= 0 && !said.empty())
-            out += " Its driver says: " + said;
-        const bool stopped = fault.kind == haptics::FaultKind::stopped;
-        if (!stopped) out += " The second before it is in fault.csv.";
-        if (live != nullptr) return out;  // who steers knows how it goes on
-        if (plan.task) {
-            out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
-                               folder.path());
-        } else if (!stopped) {
-            out += " Then start the session again.";
-        }
-        return out;
-    };
-    const auto share = [&] {
-        return task ? task->share()
-                    : static_cast<double>(reached.load(std::memory_order_relaxed)) /
-                          static_cast<double>(std::max<int64_t>(1, whole.count()));
-    };
-    recording::ShowingsWriter showings(folder);
-    const auto ended = [&] { return live != nullptr && live->ended; };
-    const auto begin = Wall::now();
-    {
-        const Watcher watcher([&] {
-            if (progress) progress(std::min(1.0, share()));
-            if (live == nullptr) return;
-            while (const auto showing = live->take_showing()) showings.add(*showing);
-            showings.flush();
-        });
-        if (real) {
-            const std::atomic<bool> never{false};  // the director stops it, with a last tick
-            Time first{0};
-            while (true) {
-                servo::run_real(*servo, director, sink, first, whole, never, result.timing, stuck);
-                servo->rest();
-                if (live == nullptr) break;
-                if (servo->fault() && !stop) {
-                    info.notes.push_back(describe_fault());
-                    if (task) task->interrupt();
-                    live->tell(info.notes.back());
-                } else if (!servo->resting()) {
-                    break;
-                } else if (task) {
-                    task->interrupt();
-                }
-                first = result.timing.reached + servo->period();
-                if (first > whole || !wait_to_go_on(*servo, *live, stop)) break;
-            }
-        } else {
-            servo::run_virtual(*servo, director, sink, whole, stop, &result.timing.ticks);
-        }
-    }
-    result.elapsed = since(begin);
-    servo->deactivate();
-    if (recorder) recorder->finish();
-    if (outward) {
-        for (const std::string& failure : outward->finish()) info.notes.push_back(failure);
-    }
-    result.simulated = seconds(Time(reached.load()));
-    if (recorder) {
-        result.ticks = recorder->frames();
-        result.dropped = recorder->dropped();
-    }
-    // with a mouse, or a person, there is no more to do than somebody wants to
-    const bool unfinished = task ? task->share() < 1 : !plan.open_ended();
-    result.interrupted = stop.load() || (ended() && unfinished);
-    if (plan.open_ended()) info.phases.back().end = result.simulated;
-    if (servo->fault()) {
-        result.fault = describe_fault();
-        // a session that waited for a remedy has told of it
-        if (info.notes.empty() || info.notes.back() != result.fault)
-            info.notes.push_back(result.fault);
-    }
-    if (wait && wait->over) {
-        result.interrupted = true;
-        result.fault = wait->describe(info.phases);
-        info.notes.push_back(result.fault);
-    }
-    if (result.timing.stall) {
-        result.stall = servo::describe(*result.timing.stall);
-        info.notes.push_back(result.stall);
-    }
-
-    if (result.timing.pauses > 0) info.notes.push_back(servo::describe_pauses(result.timing));
-
-    if (progress && !result.interrupted) progress(1);
-
-    info.ticks = static_cast<int>(result.ticks + result.dropped);
-    info.interrupted = result.interrupted;
-    info.finished =
-        fmt::format("{}, {}, {} not recorded", counted(info.ticks, "tick"),
-                    counted(result.timing.overruns, "overrun"), counted(result.dropped, "frame"));
-    if (real) info.finished += "; " + servo::describe(result.timing);
-    if (result.timing.refusals.any()) {
-        info.notes.push_back(
-            servo::describe(result.timing.refusals, plan.settings.real_time_priority));
-    }
-    folder.write_info(info);
-    info.state = result.interrupted ? recording::SessionState::interrupted
-                                    : recording::SessionState::complete;
-    return result;
+    return Run(plan, options, stop, progress).run();
 }
 
 }  // namespace dihaptic::experiment

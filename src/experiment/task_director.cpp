@@ -24,17 +24,26 @@ Vec3 middle(std::span<const haptics::Handle> handles) noexcept {
     return sum / static_cast<double>(handles.size());
 }
 
+/// Of the finger; -1: of all.
+bool slower(std::span<const haptics::Handle> handles, int finger, double speed) noexcept {
+    for (size_t i = 0; i < handles.size(); ++i) {
+        const bool counts = finger < 0 || i == static_cast<size_t>(finger);
+        if (counts && handles[i].v_WH.norm() >= speed) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
-                           const std::vector<int>& done)
+                           const std::vector<Attempt>& done)
     : plan_(plan), tick_(tick), queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed) {
     for (const ProcedureSpec& spec : plan.task.procedures)
         procedures_.push_back(make_procedure(spec));
-    for (const int outcome : done) {
-        if (queue_.empty()) break;
-        take_answer(outcome);
-        queue_.finish(plan.outcomes[static_cast<size_t>(outcome)].redo);
+    for (const Attempt& attempt : done) {
+        if (!queue_.go_to(attempt.trial, attempt.attempt) || attempt.outcome < 0) continue;
+        take_answer(attempt.outcome);
+        queue_.finish(plan.outcomes[static_cast<size_t>(attempt.outcome)].redo);
         skip_done();
     }
     share_ = static_cast<double>(queue_.done()) / queue_.all();
@@ -59,35 +68,37 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         return;
     }
     if (state_ < 0) {
-        if (now < feedback_until_) {
-            // it is being read
-        } else if (clear(last)) {
-            for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
-                const bool there =
-                    last.sequence >= 0 &&
-                    (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
-                     last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
-                if (!there) add(commands.task.placements, {home.body, home.X_WB});
-            }
-            if (message_ == plan_.move_away) message_ = -1;
-            enter(0, now, commands);
-        } else {
-            message_ = plan_.move_away;
-        }
+        begin(last, now, commands);
     } else if (const TaskPlan::Way* way = way_out(last, handles, input, now)) {
         if (way->feedback >= 0) {
             message_ = way->feedback;
             next_message_ = -1;
             feedback_until_ = now + plan_.task.feedback - tick_ / 2;
         }
-        if (way->state >= 0) {
-            enter(way->state, now, commands);
-        } else {
+        if (way->state < 0) {
             finish(way->outcome, way->exit.redo, now, commands);
             return;
         }
+        enter(way->state, now, commands);
     }
     order(last, handles, commands);
+}
+
+void TaskDirector::begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept {
+    if (now < feedback_until_) return;  // it is being read
+    if (!clear(last)) {
+        message_ = plan_.move_away;
+        return;
+    }
+    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
+        const bool there =
+            last.sequence >= 0 &&
+            (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
+             last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
+        if (!there) add(commands.task.placements, {home.body, home.X_WB});
+    }
+    if (message_ == plan_.move_away) message_ = -1;
+    enter(0, now, commands);
 }
 
 /// Whether nothing is put back where a finger is, which would be pushed out of the body, nor out of
@@ -138,19 +149,11 @@ const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
 bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
                          std::span<const haptics::Handle> handles,
                          const Input& input) const noexcept {
-    const auto finger = static_cast<size_t>(std::max(0, way.finger));
     switch (way.exit.when) {
         case When::inside:
-        case When::outside: {
-            const TaskPlan::Cell& cell = plan_.cell(trial());
-            const auto region = static_cast<size_t>(way.region);
-            const Vec3 hand_W = way.finger < 0 ? middle(handles) : handles[finger].p_WH;
-            const servo::VisualMap* map =
-                way.exit.shown ? servo::map_of(last, servo::kMovesProxies) : nullptr;
-            const Vec3 p_W = map != nullptr ? map->displayed(hand_W) : hand_W;
-            const bool inside = (p_W - cell.p_W[region]).norm() <= cell.radius[region];
-            return inside == (way.exit.when == When::inside);
-        }
+            return inside(way, last, handles);
+        case When::outside:
+            return !inside(way, last, handles);
         case When::touched:
             return pressed(last, way.body, way.finger, 1);
         case When::released:
@@ -158,27 +161,41 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
         case When::gripped:
             return pressed(last, way.body, -1, 2);
         case When::lifted:
-            for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
-                if (home.body != way.body) continue;
-                const double z = last.bodies[static_cast<size_t>(way.body)].X_WB.p.z();
-                return z - home.X_WB.p.z() >= way.exit.height;
-            }
-            return false;
+            return lifted(way, last);
         case When::still:
-            for (size_t i = 0; i < handles.size(); ++i) {
-                const bool counts = way.finger < 0 || i == finger;
-                if (counts && handles[i].v_WH.norm() >= way.exit.speed) return false;
-            }
-            return true;
+            return slower(handles, way.finger, way.exit.speed);
         case When::key:
             return input.key == way.exit.key.front();
-        case When::button:
+        case When::button: {
+            const auto finger = static_cast<size_t>(std::max(0, way.finger));
             return (last.fingers[finger].buttons >> way.exit.button & 1u) != 0;
+        }
         case When::trigger:
             return input.trigger == kAnyTrigger ||
                    (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
         case When::time:
             break;
+    }
+    return false;
+}
+
+bool TaskDirector::inside(const TaskPlan::Way& way, const servo::Frame& last,
+                          std::span<const haptics::Handle> handles) const noexcept {
+    const TaskPlan::Cell& cell = plan_.cell(trial());
+    const auto region = static_cast<size_t>(way.region);
+    const Vec3 hand_W =
+        way.finger < 0 ? middle(handles) : handles[static_cast<size_t>(way.finger)].p_WH;
+    const servo::VisualMap* map =
+        way.exit.shown ? servo::map_of(last, servo::kMovesProxies) : nullptr;
+    const Vec3 p_W = map != nullptr ? map->displayed(hand_W) : hand_W;
+    return (p_W - cell.p_W[region]).norm() <= cell.radius[region];
+}
+
+bool TaskDirector::lifted(const TaskPlan::Way& way, const servo::Frame& last) const noexcept {
+    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
+        if (home.body != way.body) continue;
+        const double z = last.bodies[static_cast<size_t>(way.body)].X_WB.p.z();
+        return z - home.X_WB.p.z() >= way.exit.height;
     }
     return false;
 }

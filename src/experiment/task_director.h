@@ -11,10 +11,9 @@ namespace dihaptic::experiment {
 
 class TaskDirector {
   public:
-    /// `plan` outlives it. `done`: outcomes of the trials that an earlier part of the session
-    /// ended, in order.
+    /// `plan` outlives it. `done`: what an earlier part of the session did, in order.
     TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
-                 const std::vector<int>& done = {});
+                 const std::vector<Attempt>& done = {});
 
     void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
                     servo::Commands& commands) noexcept;
@@ -37,6 +36,8 @@ class TaskDirector {
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const servo::Frame& last) const noexcept;
+    /// The trial, once its feedback was read and bodies can be put back.
+    void begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
     void enter(int state, double now, servo::Commands& commands) noexcept;
     /// What came in from outside since the last tick.
     struct Input {
@@ -45,6 +46,9 @@ class TaskDirector {
     };
     bool holds(const TaskPlan::Way& way, const servo::Frame& last,
                std::span<const haptics::Handle> handles, const Input& input) const noexcept;
+    bool inside(const TaskPlan::Way& way, const servo::Frame& last,
+                std::span<const haptics::Handle> handles) const noexcept;
+    bool lifted(const TaskPlan::Way& way, const servo::Frame& last) const noexcept;
     bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
     const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
                                  const Input& input, double now) noexcept;

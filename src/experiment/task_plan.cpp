@@ -35,6 +35,10 @@ std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     return list;
 }
 
+bool is_key(const std::string& text) {
+    return text.size() == 1 && std::isalnum(static_cast<unsigned char>(text[0])) != 0;
+}
+
 class Planner {
   public:
     Planner(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics)
@@ -136,15 +140,34 @@ class Planner {
     TaskPlan::Way way(const Exit& exit) {
         TaskPlan::Way out;
         out.exit = exit;
+        out.finger = judged_finger(exit);
+        look_up_condition(exit, out);
+        if (exit.to.empty() == exit.outcome.empty()) {
+            error(exit.place, "to",
+                  exit.to.empty() ? "leads nowhere" : "leads to a state and out of the trial",
+                  "Give it either to: a state, or outcome: what became of the trial.");
+        }
+        if (!exit.to.empty()) {
+            out.state = look_up(names_of(plan_.task.states), exit.to, exit.place, "to", "no state",
+                                diagnostics_);
+        }
+        if (!exit.outcome.empty()) out.outcome = outcome(exit);
+        out.feedback = listed(plan_.messages, exit.feedback);
+        return out;
+    }
+
+    int judged_finger(const Exit& exit) {
+        if (!exit.finger.empty())
+            return look_up(fingers_, exit.finger, exit.place, "finger",
+                           "none of the scene's fingers", diagnostics_);
         const bool any_finger = exit.when == When::touched || exit.when == When::released ||
                                 exit.when == When::still || exit.when == When::inside ||
                                 exit.when == When::outside;
-        if (!exit.finger.empty()) {
-            out.finger = look_up(fingers_, exit.finger, exit.place, "finger",
-                                 "none of the scene's fingers", diagnostics_);
-        } else if (!any_finger) {
-            out.finger = 0;
-        }
+        return any_finger ? -1 : 0;
+    }
+
+    /// What has to be so for the exit to be taken.
+    void look_up_condition(const Exit& exit, TaskPlan::Way& out) {
         switch (exit.when) {
             case When::inside:
             case When::outside:
@@ -158,8 +181,7 @@ class Planner {
                 check_body(exit, out.body);
                 break;
             case When::key:
-                if (exit.key.size() != 1 ||
-                    std::isalnum(static_cast<unsigned char>(exit.key[0])) == 0)
+                if (!is_key(exit.key))
                     error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
                           "Write one letter or digit, e.g. key: y.");
                 break;
@@ -175,18 +197,6 @@ class Planner {
             case When::button:
                 break;
         }
-        if (exit.to.empty() == exit.outcome.empty()) {
-            error(exit.place, "to",
-                  exit.to.empty() ? "leads nowhere" : "leads to a state and out of the trial",
-                  "Give it either to: a state, or outcome: what became of the trial.");
-        }
-        if (!exit.to.empty()) {
-            out.state = look_up(names_of(plan_.task.states), exit.to, exit.place, "to", "no state",
-                                diagnostics_);
-        }
-        if (!exit.outcome.empty()) out.outcome = outcome(exit);
-        out.feedback = listed(plan_.messages, exit.feedback);
-        return out;
     }
 
     void check_body(const Exit& exit, int body) {
@@ -290,42 +300,22 @@ class Planner {
     }
 
     void check_block(const Block& block) {
-        const std::vector<std::string> perturbations = names_of(plan_.task.perturbations);
         for (const std::string& name : block.conditions)
             look_up(names_of(plan_.task.conditions), name, block.place, "conditions",
                     "no condition", diagnostics_);
-        const auto perturbation = [&](const std::string& name, const Place& place) {
-            if (!name.empty())
-                look_up(perturbations, name, place, "perturb", "no perturbation", diagnostics_);
-        };
-        perturbation(block.perturb, block.place);
-        size_t procedure_trials = 0;
-        for (const std::string& name : block.procedures) {
-            const int i = look_up(names_of(plan_.task.procedures), name, block.place, "procedures",
-                                  "no procedure", diagnostics_);
-            if (i >= 0)
-                procedure_trials +=
-                    static_cast<size_t>(plan_.task.procedures[static_cast<size_t>(i)].trials);
-        }
-        if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
-            error(block.place, "procedures", "choose the perturbation and its share by themselves",
-                  "Leave out perturb and ramp.");
-        if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
-            error(block.place, "perturb", "is missing in a perturbed block",
-                  "Name a perturbation, or make it a baseline block.");
-        if (block.ramp > 0 && block.perturb.empty())
-            error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
+        check_perturbation(block.perturb, block.place);
+        const size_t answers = most_answers(block);
+        check_ways_to_perturb(block);
         const size_t conditions = block.conditions.empty()
                                       ? std::max<size_t>(1, plan_.task.conditions.size())
                                       : block.conditions.size();
         if (block.order == Order::counterbalanced && conditions > 8)
             error(block.place, "order", "more than 8 conditions have too many orders",
                   "Use latin_square.");
-        const size_t trials = block.procedures.empty()
-                                  ? conditions * static_cast<size_t>(block.repeats)
-                                  : procedure_trials;
+        const size_t trials =
+            block.procedures.empty() ? conditions * static_cast<size_t>(block.repeats) : answers;
         for (const Insert& insert : block.insert) {
-            perturbation(insert.perturb, insert.place);
+            check_perturbation(insert.perturb, insert.place);
             if (static_cast<size_t>(insert.count) > trials)
                 error(insert.place, "count",
                       fmt::format("is {}, more than the block's {} trials", insert.count, trials),
@@ -335,6 +325,36 @@ class Planner {
         if (trials_ > kMostTrials)
             error(block.place, "repeats",
                   fmt::format("makes more than {} trials in all", kMostTrials), "Lower it.");
+    }
+
+    void check_perturbation(const std::string& name, const Place& place) {
+        if (!name.empty())
+            look_up(names_of(plan_.task.perturbations), name, place, "perturb", "no perturbation",
+                    diagnostics_);
+    }
+
+    /// That the block's procedures may ask for, in all.
+    size_t most_answers(const Block& block) {
+        size_t out = 0;
+        for (const std::string& name : block.procedures) {
+            const int i = look_up(names_of(plan_.task.procedures), name, block.place, "procedures",
+                                  "no procedure", diagnostics_);
+            if (i >= 0)
+                out += static_cast<size_t>(plan_.task.procedures[static_cast<size_t>(i)].trials);
+        }
+        return out;
+    }
+
+    /// A block has a perturbation, ramped or not, or procedures that choose one, or neither.
+    void check_ways_to_perturb(const Block& block) {
+        if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
+            error(block.place, "procedures", "choose the perturbation and its share by themselves",
+                  "Leave out perturb and ramp.");
+        if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
+            error(block.place, "perturb", "is missing in a perturbed block",
+                  "Name a perturbation, or make it a baseline block.");
+        if (block.ramp > 0 && block.perturb.empty())
+            error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
     }
 
     void check_reach() {

@@ -78,34 +78,36 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     return out;
 }
 
-/// The block's trials, one after the other.
-std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
-                             Random& random) {
-    const std::vector<std::string> perturbations = names_of(task.perturbations);
-    std::vector<int> conditions;
+/// Of the block: by index among the task's, or the one that a task without any has.
+std::vector<int> conditions_of(const Task& task, const Block& block) {
+    std::vector<int> out;
     for (const std::string& name : block.conditions)
-        conditions.push_back(index_of(names_of(task.conditions), name));
-    if (conditions.empty()) {
-        conditions.resize(std::max<size_t>(1, task.conditions.size()));
-        std::iota(conditions.begin(), conditions.end(), 0);
+        out.push_back(index_of(names_of(task.conditions), name));
+    if (out.empty()) {
+        out.resize(std::max<size_t>(1, task.conditions.size()));
+        std::iota(out.begin(), out.end(), 0);
     }
-    std::vector<Trial> out;
-    Trial trial;
-    trial.round = round;
-    trial.kind = block.kind;
-    trial.perturb = index_of(perturbations, block.perturb);
+    return out;
+}
+
+/// Gives trials their conditions in the block's order, as often as it takes.
+void deal_conditions(const std::vector<int>& conditions, Order order, int number, Random& random,
+                     std::vector<Trial>& trials) {
     const int n = static_cast<int>(conditions.size());
-    if (!block.procedures.empty()) {
-        out = procedure_trials(task, block, trial, random);
-        // their conditions in the block's order, as often as it takes
-        for (size_t i = 0; i < out.size();) {
-            for (const int k : ordered(n, block.order, number, random)) {
-                if (i == out.size()) break;
-                out[i++].condition = conditions[static_cast<size_t>(k)];
-            }
+    for (size_t i = 0; i < trials.size();) {
+        for (const int k : ordered(n, order, number, random)) {
+            if (i == trials.size()) break;
+            trials[i++].condition = conditions[static_cast<size_t>(k)];
         }
     }
-    for (int repeat = 0; repeat < block.repeats && block.procedures.empty(); ++repeat) {
+}
+
+/// Every condition once in each repeat.
+std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Block& block,
+                                   Trial trial, int number, Random& random) {
+    const int n = static_cast<int>(conditions.size());
+    std::vector<Trial> out;
+    for (int repeat = 0; repeat < block.repeats; ++repeat) {
         // a Latin square goes on from repeat to repeat
         const int row = block.order == Order::latin_square ? number + repeat : number;
         for (const int i : ordered(n, block.order, row, random)) {
@@ -113,23 +115,45 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
             out.push_back(trial);
         }
     }
+    return out;
+}
+
+/// At random places, each after another trial, so that none is first.
+void insert_trials(const Insert& insert, const Task& task, Random& random,
+                   std::vector<Trial>& trials) {
+    const auto places = ordered(static_cast<int>(trials.size()), Order::shuffled, 0, random);
+    std::vector<int> which;
+    for (int k = 0; k < insert.count; ++k)
+        which.push_back(places[static_cast<size_t>(k) % places.size()]);
+    std::sort(which.rbegin(), which.rend());
+    for (const int i : which) {
+        Trial extra = trials[static_cast<size_t>(i)];
+        extra.kind = insert.kind;
+        extra.perturb = index_of(names_of(task.perturbations), insert.perturb);
+        extra.procedure = -1;
+        if (std::isnan(extra.share)) extra.share = 1;
+        trials.insert(trials.begin() + i + 1, extra);
+    }
+}
+
+/// The block's trials, one after the other.
+std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
+                             Random& random) {
+    Trial trial;
+    trial.round = round;
+    trial.kind = block.kind;
+    trial.perturb = index_of(names_of(task.perturbations), block.perturb);
+    const std::vector<int> conditions = conditions_of(task, block);
+    std::vector<Trial> out;
+    if (block.procedures.empty()) {
+        out = repeated_trials(conditions, block, trial, number, random);
+    } else {
+        out = procedure_trials(task, block, trial, random);
+        deal_conditions(conditions, block.order, number, random, out);
+    }
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
-    for (const Insert& insert : block.insert) {
-        const auto places = ordered(static_cast<int>(out.size()), Order::shuffled, 0, random);
-        std::vector<int> which;  // each after another trial, so that none is first
-        for (int k = 0; k < insert.count; ++k)
-            which.push_back(places[static_cast<size_t>(k) % places.size()]);
-        std::sort(which.rbegin(), which.rend());
-        for (const int i : which) {
-            Trial extra = out[static_cast<size_t>(i)];
-            extra.kind = insert.kind;
-            extra.perturb = index_of(perturbations, insert.perturb);
-            extra.procedure = -1;
-            if (std::isnan(extra.share)) extra.share = 1;
-            out.insert(out.begin() + i + 1, extra);
-        }
-    }
+    for (const Insert& insert : block.insert) insert_trials(insert, task, random, out);
     for (size_t i = 0; i < out.size(); ++i) out[i].in_block = static_cast<int>(i) + 1;
     return out;
 }
@@ -259,6 +283,16 @@ TrialQueue::TrialQueue(const std::vector<Trial>& trials, Redo redo, int most_att
     queue_.reserve(trials.size() * static_cast<size_t>(most_attempts));
     queue_.resize(trials.size());
     std::iota(queue_.begin(), queue_.end(), 0);
+}
+
+bool TrialQueue::go_to(int trial, int attempt) noexcept {
+    const auto next = queue_.begin() + static_cast<std::ptrdiff_t>(at_);
+    const auto found = std::find(next, queue_.end(), trial);
+    if (found == queue_.end()) return false;
+    std::rotate(next, found, found + 1);
+    int& made = attempts_[static_cast<size_t>(trial)];
+    made = std::max(made, attempt);
+    return true;
 }
 
 void TrialQueue::finish(bool redo) noexcept {

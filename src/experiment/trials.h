@@ -38,6 +38,13 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials);
 /// Throws Error when the file is no list of this task's trials.
 std::vector<Trial> read_trial_list(const Task& task, const std::string& file);
 
+/// What a row of trials.csv says of an attempt at a trial.
+struct Attempt {
+    int trial = 0;     ///< index among the session's
+    int attempt = 1;   ///< at it, from 1
+    int outcome = -1;  ///< index among the task's; -1: it was interrupted, or its end is lost
+};
+
 /// What is still to be done. It allocates nothing once it is made.
 class TrialQueue {
   public:
@@ -51,6 +58,10 @@ class TrialQueue {
     /// The trial is over; with `redo` it is done again as the policy says, unless it was attempted
     /// often enough.
     void finish(bool redo) noexcept;
+
+    /// This attempt was made next, in an earlier part of the session. What was to come before it is
+    /// still to be done: how it ended is not known. False: nothing is left of that trial.
+    bool go_to(int trial, int attempt) noexcept;
 
     /// The trial begins anew: something that is none of its business interrupted it.
     void again() noexcept { ++attempts_[static_cast<size_t>(trial())]; }

@@ -92,59 +92,57 @@ void check_separator(const std::string& file, const std::string& header) {
     }
 }
 
-Columns read_header(const std::string& file, const std::string& header, Diagnostics& diagnostics) {
-    const Place place{file, 1};
-    Columns columns;
-    columns.keys = split(header);
-    std::set<std::string> seen;
-    std::vector<std::string> unknown;
-    for (size_t i = 0; i < columns.keys.size(); ++i) {
-        const std::string& key = columns.keys[i];
-        const int at = static_cast<int>(i);
-        const size_t last = key.rfind('_');
-        const std::string unit = last == std::string::npos ? "" : key.substr(last + 1);
-        const std::string stem = last == std::string::npos ? key : key.substr(0, last);
-        const bool of_axis = stem.size() > 2 && stem[stem.size() - 2] == '_' &&
-                             stem.back() >= 'x' && stem.back() <= 'z';
-        const auto time_unit = unit_of(unit, Quantity::time);
-        const auto length_unit = unit_of(unit, Quantity::length);
-        const bool known =
-            key == "occluded" || (stem == "time" && time_unit) || (of_axis && length_unit);
-        if (!known) {
-            unknown.push_back(key);
-        } else if (!seen.insert(key == "occluded" ? key : stem).second) {
-            diagnostics.error(place, key, fmt::format("column {} repeats an earlier one", i + 1),
-                              "Keep one of the two.");
-        } else if (key == "occluded") {
-            columns.occluded = at;
-        } else if (stem == "time") {
-            columns.time = at;
-            columns.time_unit = *time_unit;
-        } else {
-            const std::string name = stem.substr(0, stem.size() - 2);
-            auto finger = std::find_if(columns.fingers.begin(), columns.fingers.end(),
-                                       [&](const auto& f) { return f.name == name; });
-            if (finger == columns.fingers.end()) {
-                columns.fingers.push_back({name, unit, *length_unit});
-                finger = columns.fingers.end() - 1;
-            }
-            if (finger->unit_name != unit) {
-                diagnostics.error(place, key, "has another unit than the finger's other axes",
-                                  "Use one unit.");
-            }
-            finger->axis[static_cast<size_t>(stem.back() - 'x')] = at;
-        }
+/// What a column's name says of it.
+struct Heading {
+    enum class Kind { unknown, occluded, time, position };
+    Kind kind = Kind::unknown;
+    std::string stem;       ///< without the unit: "thumb_x"
+    std::string unit_name;  ///< "" when there is none
+    double unit = 1;
+};
+
+bool names_axis(const std::string& stem) {
+    return stem.size() > 2 && stem[stem.size() - 2] == '_' && stem.back() >= 'x' &&
+           stem.back() <= 'z';
+}
+
+Heading heading_of(const std::string& key) {
+    Heading out;
+    const size_t last = key.rfind('_');
+    out.stem = key.substr(0, last);
+    if (last != std::string::npos) out.unit_name = key.substr(last + 1);
+    const auto time_unit = unit_of(out.unit_name, Quantity::time);
+    const auto length_unit = unit_of(out.unit_name, Quantity::length);
+    if (key == "occluded") {
+        out.kind = Heading::Kind::occluded;
+    } else if (out.stem == "time" && time_unit) {
+        out.kind = Heading::Kind::time;
+        out.unit = *time_unit;
+    } else if (names_axis(out.stem) && length_unit) {
+        out.kind = Heading::Kind::position;
+        out.unit = *length_unit;
     }
-    if (unknown.size() == columns.keys.size()) {
-        throw Error(place, "", "the first line names no column of a movement", kHeaderRemedy);
+    return out;
+}
+
+/// A column of a finger's position along an axis.
+void add_position(Columns& columns, const Heading& heading, int column, const Place& place,
+                  Diagnostics& diagnostics) {
+    const std::string name = heading.stem.substr(0, heading.stem.size() - 2);
+    auto finger = std::find_if(columns.fingers.begin(), columns.fingers.end(),
+                               [&](const auto& f) { return f.name == name; });
+    if (finger == columns.fingers.end()) {
+        columns.fingers.push_back({name, heading.unit_name, heading.unit});
+        finger = columns.fingers.end() - 1;
     }
-    for (const std::string& key : unknown) {
-        diagnostics.error(place, shortened(key),
-                          key.empty() ? "a column has no name" : "is not a column of a movement",
-                          kHeaderRemedy);
+    if (finger->unit_name != heading.unit_name) {
+        diagnostics.error(place, columns.key(column),
+                          "has another unit than the finger's other axes", "Use one unit.");
     }
-    // after a repeated column, the one that is missing is what the repetition was meant to be
-    if (diagnostics.has_errors()) return columns;
+    finger->axis[static_cast<size_t>(heading.stem.back() - 'x')] = column;
+}
+
+void check_complete(const Columns& columns, const Place& place, Diagnostics& diagnostics) {
     if (columns.time < 0)
         diagnostics.error(place, "time_ms", "this column is missing", kHeaderRemedy);
     if (columns.fingers.empty())
@@ -157,6 +155,42 @@ Columns read_header(const std::string& file, const std::string& header, Diagnost
                               "this column is missing", kHeaderRemedy);
         }
     }
+}
+
+Columns read_header(const std::string& file, const std::string& header, Diagnostics& diagnostics) {
+    const Place place{file, 1};
+    Columns columns;
+    columns.keys = split(header);
+    std::set<std::string> seen;
+    std::vector<std::string> unknown;
+    for (size_t i = 0; i < columns.keys.size(); ++i) {
+        const std::string& key = columns.keys[i];
+        const int at = static_cast<int>(i);
+        const Heading heading = heading_of(key);
+        if (heading.kind == Heading::Kind::unknown) {
+            unknown.push_back(key);
+        } else if (!seen.insert(heading.stem).second) {
+            diagnostics.error(place, key, fmt::format("column {} repeats an earlier one", i + 1),
+                              "Keep one of the two.");
+        } else if (heading.kind == Heading::Kind::occluded) {
+            columns.occluded = at;
+        } else if (heading.kind == Heading::Kind::time) {
+            columns.time = at;
+            columns.time_unit = heading.unit;
+        } else {
+            add_position(columns, heading, at, place, diagnostics);
+        }
+    }
+    if (unknown.size() == columns.keys.size()) {
+        throw Error(place, "", "the first line names no column of a movement", kHeaderRemedy);
+    }
+    for (const std::string& key : unknown) {
+        diagnostics.error(place, shortened(key),
+                          key.empty() ? "a column has no name" : "is not a column of a movement",
+                          kHeaderRemedy);
+    }
+    // after a repeated column, the one that is missing is what the repetition was meant to be
+    if (!diagnostics.has_errors()) check_complete(columns, place, diagnostics);
     return columns;
 }
 
@@ -221,6 +255,18 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     return readable;
 }
 
+/// Fingers, and the columns by world axis.
+void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes) {
+    movement.time_column = columns.key(columns.time);
+    for (const Columns::Finger& finger : columns.fingers) {
+        movement.fingers.push_back(finger.name);
+        std::array<std::string, 3> keys;
+        for (size_t axis = 0; axis < 3; ++axis) keys[axis] = columns.key(finger.axis[axis]);
+        if (axes == RecordingAxes::y_up) std::swap(keys[1], keys[2]);
+        movement.columns.push_back(keys);
+    }
+}
+
 void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
                 Diagnostics& problems) {
     const std::string& file = movement.file;
@@ -237,14 +283,7 @@ void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
     check_separator(file, header);
     const Columns columns = read_header(file, header, problems);
     if (problems.has_errors()) return;
-    movement.time_column = columns.key(columns.time);
-    for (const Columns::Finger& finger : columns.fingers) movement.fingers.push_back(finger.name);
-    for (const Columns::Finger& finger : columns.fingers) {
-        std::array<std::string, 3> keys;
-        for (size_t axis = 0; axis < 3; ++axis) keys[axis] = columns.key(finger.axis[axis]);
-        if (axes == RecordingAxes::y_up) std::swap(keys[1], keys[2]);
-        movement.columns.push_back(keys);
-    }
+    name_columns(movement, columns, axes);
     while (problems.problems().size() < kMostErrors) {
         const auto line = lines.next();
         if (!line) break;

@@ -29,19 +29,19 @@ double typical_extent(const Movement& movement, size_t finger) {
     return extent;
 }
 
-}  // namespace
-
-void check_times(const Movement& movement, Diagnostics& problems) {
-    const auto& frames = movement.frames;
-    if (frames.size() < 2) return;
-    const std::string& key = movement.time_column;
-    const std::string unit = unit_of(key);
-    const double to_unit = unit == "ms" ? 1e3 : 1;
+double median_step(const std::vector<Movement::Frame>& frames) {
     std::vector<double> steps;
     for (size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i].time - frames[i - 1].time);
     const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
-    const double step = *middle;
+    return *middle;
+}
+
+/// False, with an error, when no tracker records at such a rate.
+bool check_rate(const Movement& movement, Diagnostics& problems) {
+    const std::string& key = movement.time_column;
+    const std::string unit = unit_of(key);
+    const double step = median_step(movement.frames);
     if (step > 1 / kSlowestTracker) {
         problems.error({movement.file, 1}, key,
                        fmt::format("the lines are {:.6g} s apart, where at least {:g} frames a "
@@ -50,7 +50,7 @@ void check_times(const Movement& movement, Diagnostics& problems) {
                        unit == "s"
                            ? "If the times are in milliseconds, name the column so: time_ms."
                            : "Record at a higher rate.");
-        return;
+        return false;
     }
     if (step > 0 && step < 1 / kFastestTracker) {
         problems.error({movement.file, 1}, key,
@@ -58,8 +58,17 @@ void check_times(const Movement& movement, Diagnostics& problems) {
                                    step, kFastestTracker),
                        unit == "s" ? "Check the times' unit, or export at a lower rate."
                                    : "If the times are in seconds, name the column so: time_s.");
-        return;
+        return false;
     }
+    return true;
+}
+
+/// Each line's time is after that of the line before, and not by long.
+void check_steps(const Movement& movement, Diagnostics& problems) {
+    const auto& frames = movement.frames;
+    const std::string& key = movement.time_column;
+    const std::string unit = unit_of(key);
+    const double to_unit = unit == "ms" ? 1e3 : 1;
     const auto shown = [&](const Movement::Frame& frame) {
         return fmt::format("{:.9g} {}", frame.time * to_unit, unit);
     };
@@ -84,12 +93,20 @@ void check_times(const Movement& movement, Diagnostics& problems) {
             return;  // the next lines would only repeat it
         }
     }
-    if (!problems.has_errors() && frames.back().time - frames.front().time > kLongestMovement) {
-        problems.error({movement.file, frames.back().line}, key,
-                       fmt::format("the recording lasts {:.0f} s, where {:.0f} s are the most",
-                                   frames.back().time - frames.front().time, kLongestMovement),
-                       "Cut it into movements, a file each.");
-    }
+}
+
+}  // namespace
+
+void check_times(const Movement& movement, Diagnostics& problems) {
+    const auto& frames = movement.frames;
+    if (frames.size() < 2 || !check_rate(movement, problems)) return;
+    check_steps(movement, problems);
+    const double duration = frames.back().time - frames.front().time;
+    if (problems.has_errors() || duration <= kLongestMovement) return;
+    problems.error({movement.file, frames.back().line}, movement.time_column,
+                   fmt::format("the recording lasts {:.0f} s, where {:.0f} s are the most",
+                               duration, kLongestMovement),
+                   "Cut it into movements, a file each.");
 }
 
 void check_plausible(const Movement& movement, Diagnostics& problems) {

@@ -12,6 +12,19 @@ double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
     return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
 }
 
+/// The same of a force and a torque on something that moves as well.
+double work(const Wrench& on_it_W, const Pose& X_WA, const Pose& X_WB) noexcept {
+    return on_it_W.force.dot(X_WB.p - X_WA.p) + work(on_it_W.torque, X_WA.R, X_WB.R);
+}
+
+/// Force against a velocity, or torque against an angular one, that takes an excess of energy
+/// within h, by no stronger a damper than may be.
+Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) noexcept {
+    const double speed2 = velocity.squaredNorm();
+    if (!(speed2 > 0)) return Vec3::Zero();
+    return -std::min(strongest, excess / (h * speed2)) * velocity;
+}
+
 }  // namespace
 
 /// A window ends with a step of the world, until which nothing is judged.
@@ -45,13 +58,10 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     count_windows(stepped, h);
     if (started_) {
         const bool was_slack = asked_.is_zero();
-        const auto by_proxy = [&](const Wrench& w) {
-            return w.force.dot(X_WP.p - X_WP_.p) + work(w.torque, X_WP_.R, X_WP.R);
-        };
-        double at_end = by_proxy(asked_W);
+        double at_end = work(asked_W, X_WP_, X_WP);
         // a proxy that comes to touch was moved by nobody's work until then, unless it was hit
         if (was_slack) at_end = std::max(0.0, at_end);
-        const double held = was_slack || slack ? at_end : by_proxy(asked_);
+        const double held = was_slack || slack ? at_end : work(asked_, X_WP_, X_WP);
         const double rest = stored - stored_ + to_hand;
         since_step_[0] += rest - at_end;
         since_step_[1] += rest - held;
@@ -68,12 +78,8 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     if (excess <= 0) return damper_;
     flags |= kEnergyGenerated;
     if (mode_ != EnergyGuardMode::act) return damper_;
-    const double speed2 = handle.v_WH.squaredNorm();
-    const double turning2 = handle.w_WH.squaredNorm();
-    if (speed2 > 0)
-        damper_.force = -std::min(kMostEnergyDamping, excess / (h * speed2)) * handle.v_WH;
-    if (turning2 > 0)
-        damper_.torque = -std::min(kMostEnergyTurnDamping, excess / (h * turning2)) * handle.w_WH;
+    damper_.force = braking(handle.v_WH, excess, h, kMostEnergyDamping);
+    damper_.torque = braking(handle.w_WH, excess, h, kMostEnergyTurnDamping);
     if (!damper_.is_zero()) flags |= kEnergyDamped;
     return damper_;
 }

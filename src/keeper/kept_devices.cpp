@@ -165,8 +165,11 @@ class KeptDevices final : public devices::DeviceGroup {
   private:
     void do_activate() override {
         if (process_ == nullptr || !process_->answers()) {
-            process_ = std::make_unique<Process>(order_.keeping.program);
-            process_->ask(to_json(order_), kSetUp);
+            // one whose devices cannot be made yet is no keeper: the next try asks another
+            process_.reset();
+            auto fresh = std::make_unique<Process>(order_.keeping.program);
+            fresh->ask(to_json(order_), kSetUp);
+            process_ = std::move(fresh);
         }
         SharedPage& page = process_->page();
         page.ended.store(0);

@@ -149,8 +149,7 @@ void Server::write_zero() noexcept {
 void Server::take_force_away() noexcept {
     if (page_.off.load() != 0) return;
     write_zero();
-    if (devices_->can_stop()) devices_->stop();
-    page_.off.store(1);
+    if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
 
 /// Whether the program has its forces ready, in time.
@@ -180,7 +179,7 @@ bool Server::take_turn() noexcept {
         write();
     } else {
         write_zero();
-        if (ended()) page_.off.store(1);
+        if (ended() && (!devices_->can_stop() || devices_->stop())) page_.off.store(1);
     }
     return page_.closing.load() == 0;
 }

@@ -114,31 +114,31 @@ double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
     return model::grip_with_margin(across, friction, traits_.safety_margin) + std::abs(along) / 2;
 }
 
-void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& aim) noexcept {
-    past_.add(newest);
-    if (phase_ == GripPhase::open) return;
-    const Feeling& now_felt = felt();
-    if (phase_ == GripPhase::preload && now - since_ >= traits_.preload_time - latency_)
-        phase_ = GripPhase::ready;
-    if (!now_felt.held && now - since_ > latency_ && phase_ != GripPhase::unload) {  // lost
-        aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);
-        end();
-        return;
-    }
+bool Grip::lost(double now) const noexcept {
+    return !felt().held && now - since_ > latency_ && phase_ != GripPhase::unload;
+}
+
+void Grip::feel_skin(double now, const Feeling& newest) noexcept {
     // of now: the skin's own time is its delay
     if (traits_.skin_time > 0 && newest.body == body_ &&
         now - touched_ + latency_ > traits_.skin_time)
         memory().friction = misfelt_ * newest.friction;
-    const bool carries = phase_ == GripPhase::load || phase_ == GripPhase::lifted;
-    if (now_felt.slips && carries && now_felt.body == body_ && now > reflex_) {
-        const double known = memory().friction;
-        const double told = std::max(now_felt.slip_friction, kDoubt * known);
-        if (now_felt.slip_friction > 0 && told < known) memory().friction = told;
-        strength_ = std::min(kStrongestReflex, std::max(1.0, strength_) * kReflex);
-        reflex_ = now + kReflexTime;
-    }
-    const double carried = now_felt.force_W.dot(up());
-    if (phase_ == GripPhase::load && now_felt.rise > kRise) {
+}
+
+void Grip::answer_slip(double now) noexcept {
+    if (!carries() || !felt().slips || felt().body != body_ || now <= reflex_) return;
+    const double known = memory().friction;
+    const double told = std::max(felt().slip_friction, kDoubt * known);
+    if (felt().slip_friction > 0 && told < known) memory().friction = told;
+    strength_ = std::min(kStrongestReflex, std::max(1.0, strength_) * kReflex);
+    reflex_ = now + kReflexTime;
+}
+
+/// Whether the object has come off, or else takes more force; and whether it rests on something
+/// again.
+void Grip::watch_lift(double now, Strokes& aim) noexcept {
+    const double carried = felt().force_W.dot(up());
+    if (phase_ == GripPhase::load && felt().rise > kRise) {
         phase_ = GripPhase::lifted;
         since_ = now;
         weight_ = carried;
@@ -148,48 +148,79 @@ void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& ai
         aim.add({Vec3::Zero(), 0, more}, now, kProbe);
         probe_ = now + kProbe;
     }
-
     if (phase_ == GripPhase::lifted && weighed_ && carried < kReplaced * weight_) {
         remember();
         phase_ = GripPhase::ready;
         since_ = now;
     }
+}
 
-    inertial_ = Vec3::Zero();
-    Vec3 expected = aim.at(now).load * up();
+void Grip::weigh(double now, Strokes& aim) noexcept {
+    weight_ += (felt().force_W.dot(up()) - weight_) * tick_ / kWeighing;
+    if (weighed_ || now - since_ <= kWeighed) return;
+    weighed_ = true;
+    aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
+}
+
+/// What tells a mass, while the object is carried.
+void Grip::feel_mass(const Feeling& newest) noexcept {
+    if (along_ == Vec3::Zero()) return;
+    const double a = newest.acceleration_W.dot(along_);
+    push_ += (newest.force_W - weight_ * up()).dot(along_) * a;
+    moved_ += a * a;
+}
+
+/// Of each finger, for what the plan expects to need at this load, and for what is felt to be more
+/// [N].
+double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
+    Vec3 expected = load * up();
     double peak = 1;
     if (phase_ == GripPhase::load) {
         peak = traits_.peak_grip;
         expected /= kAimedAbove;  // it is not expected to weigh more
     }
     if (phase_ == GripPhase::lifted) {
-        weight_ += (carried - weight_) * tick_ / kWeighing;
-        if (!weighed_ && now - since_ > kWeighed) {
-            weighed_ = true;
-            aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
-        }
-        inertial_ = memory().inertial(aim.acceleration(now));
         expected += inertial_;
         const double late = std::max(0.0, now - since_ - kPeakTime);
         peak = 1 + (traits_.peak_grip - 1) * std::exp(-late / kPeakDecay);
-        if (along_ != Vec3::Zero()) {
-            const double a = newest.acceleration_W.dot(along_);
-            push_ += (newest.force_W - weight_ * up()).dot(along_) * a;
-            moved_ += a * a;
-        }
     }
     double grip = strength_ * peak * needed(expected, axis);
-    if (phase_ == GripPhase::load || phase_ == GripPhase::lifted) {
-        const double surprise = strength_ * needed(now_felt.force_W, axis);
+    if (carries()) {
+        const double surprise = strength_ * needed(felt().force_W, axis);
         if (surprise > kSurprise * grip) grip = surprise;
     }
-    grip = std::max(grip, phase_ == GripPhase::lifted ? traits_.least_grip : hold_);
-    if (phase_ == GripPhase::unload) {
+    return std::max(grip, phase_ == GripPhase::lifted ? traits_.least_grip : hold_);
+}
+
+void Grip::tick(double now, const Feeling& newest, const Vec3& axis, Strokes& aim) noexcept {
+    past_.add(newest);
+    if (phase_ == GripPhase::open) return;
+    if (phase_ == GripPhase::preload && now - since_ >= traits_.preload_time - latency_)
+        phase_ = GripPhase::ready;
+    if (lost(now)) {
+        aim.add({Vec3::Zero(), 0, -aim.goal().load}, now, kUnload);
+        end();
+        return;
+    }
+    feel_skin(now, newest);
+    answer_slip(now);
+    watch_lift(now, aim);
+
+    const double load = aim.at(now).load;
+    inertial_ = Vec3::Zero();
+    if (phase_ == GripPhase::lifted) {
+        weigh(now, aim);
+        inertial_ = memory().inertial(aim.acceleration(now));
+        feel_mass(newest);
+    }
+    double grip = 0;
+    if (phase_ != GripPhase::unload) {
+        grip = wanted(now, load, axis);
+    } else if (now - since_ < kUnload) {
         grip = hold_ * (1 - model::minimum_jerk((now - since_) / kUnload).share);
-        if (now - since_ >= kUnload) {
-            end();
-            return;
-        }
+    } else {
+        end();
+        return;
     }
     squeeze_ += (grip - squeeze_) * std::min(1.0, tick_ / kMuscle);
 }

@@ -57,7 +57,17 @@ class Grip {
 
   private:
     GripMemory& memory() noexcept { return memory_[static_cast<size_t>(body_)]; }
+    bool carries() const noexcept {
+        return phase_ == GripPhase::load || phase_ == GripPhase::lifted;
+    }
     double needed(const Vec3& force_W, const Vec3& axis) const noexcept;
+    double wanted(double now, double load, const Vec3& axis) const noexcept;
+    bool lost(double now) const noexcept;
+    void feel_skin(double now, const Feeling& newest) noexcept;
+    void answer_slip(double now) noexcept;
+    void watch_lift(double now, Strokes& aim) noexcept;
+    void weigh(double now, Strokes& aim) noexcept;
+    void feel_mass(const Feeling& newest) noexcept;
     void remember() noexcept;
     void end() noexcept;
 

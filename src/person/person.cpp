@@ -69,6 +69,12 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits
     return out;
 }
 
+/// Whether the person is to press one of some keys.
+bool asks(const TaskPlan::Stage& stage) noexcept {
+    return std::any_of(stage.ways.begin(), stage.ways.end(),
+                       [](const TaskPlan::Way& way) { return way.exit.when == When::key; });
+}
+
 Vec3 rotation_between(const Vec3& from, const Vec3& to) noexcept {
     const Vec3 axis = from.cross(to);
     const double sine = axis.norm();
@@ -147,7 +153,7 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
         return target;
     }
     // the fingers press with a force, and carry with one: their springs are stretched by it
-    const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
+    const double k = stiffness();
     const auto count = static_cast<double>(places_.size());
     // but not on through what yields
     const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
@@ -200,21 +206,25 @@ void Person::begin_attempt() noexcept {
     if (random_.uniform(0, 1) < traits_.give_up_rate) delay_ = kGivingUp;
 }
 
-/// A new state shows by its targets and its message. One that asks for no movement leaves the one
-/// that is made going.
-void Person::follow_cues(const Sight& sight) noexcept {
-    const bool between = sight.trial < 1 || sight.phase == experiment::kBetween;
-    if (between) {
-        if (!between_) since_ = now_;
-        between_ = true;
-        if (now_ - since_ > kIdle && phase_ > 0 && trial_ != 0) rest();
-        return;
-    }
-    between_ = false;
+void Person::await_trial() noexcept {
+    if (!between_) since_ = now_;
+    between_ = true;
+    if (now_ - since_ > kIdle && phase_ > 0 && trial_ != 0) rest();
+}
+
+void Person::see_targets(const Sight& sight) noexcept {
     for (size_t i = 0; i < known_.size(); ++i) {
         if ((sight.shown >> i & 1u) != 0) known_[i] = sight.target[i];
     }
     seen_ |= sight.shown;
+}
+
+/// A new state shows by its targets and its message. One that asks for no movement leaves the one
+/// that is made going.
+void Person::follow_cues(const Sight& sight) noexcept {
+    if (sight.trial < 1 || sight.phase == experiment::kBetween) return await_trial();
+    between_ = false;
+    see_targets(sight);
     const bool new_attempt = sight.trial != trial_ || sight.attempt != attempt_;
     if (!new_attempt && sight.phase == phase_) return;
     if (new_attempt) begin_attempt();
@@ -224,11 +234,8 @@ void Person::follow_cues(const Sight& sight) noexcept {
     const double reaction = noisy(traits_.reaction_time, traits_.reaction_noise);
     const double begins = now_ + std::max(0.0, reaction - traits_.visual_delay) + delay_;
     delay_ = 0;
-    answer_at_ = -1;
     const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
-    for (const TaskPlan::Way& way : stage.ways) {
-        if (way.exit.when == When::key && answer_at_ < 0) answer_at_ = begins + kDecision;
-    }
+    answer_at_ = asks(stage) ? begins + kDecision : -1;
     if (!new_attempt && stage.hand.empty()) return;
     end_reach();
     acting_ = phase_;
@@ -255,12 +262,7 @@ void Person::go_on(const Sight& sight) noexcept {
     if (answer_at_ >= 0 && now_ >= answer_at_) answer(sight);
     switch (doing_) {
         case Doing::nothing:
-            // it did not do, so that the trial goes on: try again
-            if (!between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
-                !steps().empty() && steps().front().reach >= 0) {
-                step_ = 0;
-                begin_step(sight);
-            }
+            try_again(sight);
             return;
         case Doing::waiting:
             if (now_ < wait_until_) return;
@@ -283,22 +285,37 @@ void Person::go_on(const Sight& sight) noexcept {
         case Doing::releasing:
             if (!grip_.holds()) begin_step(sight);
             return;
-        case Doing::moving: {
-            const bool closes = pending_.aperture < 0 && places_.size() > 1;
-            if (closes && !grip_.holds() && grip_.felt().held) {
-                const double k = impedance_.stiffness + impedance_.stiffness_per_force * felt_;
-                grip_.close(now_, k * (half_ - aim_.at(now_).aperture / 2));
-                touched_ = half_;
-                doing_ = Doing::preloading;
-                return;
-            }
-            if (now_ < aim_.end()) return;
-            if (correct(sight)) return;
-            if (grip_.phase() == GripPhase::lifted) grip_.carried();
-            finish_step(sight);
+        case Doing::moving:
+            go_on_moving(sight);
             return;
-        }
     }
+}
+
+/// The trial goes on, so that what the hand did was not enough.
+void Person::try_again(const Sight& sight) noexcept {
+    const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
+                        !steps().empty() && steps().front().reach >= 0;
+    if (!failed) return;
+    step_ = 0;
+    begin_step(sight);
+}
+
+double Person::stiffness() const noexcept {
+    return impedance_.stiffness + impedance_.stiffness_per_force * felt_;
+}
+
+void Person::go_on_moving(const Sight& sight) noexcept {
+    const bool closes = pending_.aperture < 0 && places_.size() > 1;
+    if (closes && !grip_.holds() && grip_.felt().held) {
+        grip_.close(now_, stiffness() * (half_ - aim_.at(now_).aperture / 2));
+        touched_ = half_;
+        doing_ = Doing::preloading;
+        return;
+    }
+    if (now_ < aim_.end()) return;
+    if (correct(sight)) return;
+    if (grip_.phase() == GripPhase::lifted) grip_.carried();
+    finish_step(sight);
 }
 
 void Person::finish_step(const Sight& sight) noexcept {

@@ -37,8 +37,12 @@ class Person final : public experiment::SeeingDriver {
 
     void measure(const servo::Frame& frame) noexcept;
     void follow_cues(const Sight& sight) noexcept;
+    void await_trial() noexcept;
+    void see_targets(const Sight& sight) noexcept;
     void begin_attempt() noexcept;
     void go_on(const Sight& sight) noexcept;
+    void go_on_moving(const Sight& sight) noexcept;
+    void try_again(const Sight& sight) noexcept;
     void begin_step(const Sight& sight) noexcept;
     void finish_step(const Sight& sight) noexcept;
     void move(const Aim& way, double duration, const Sight& sight) noexcept;
@@ -52,6 +56,7 @@ class Person final : public experiment::SeeingDriver {
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const experiment::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
+    double stiffness() const noexcept;
     double noisy(double value, double share) noexcept;
     const std::vector<experiment::TaskPlan::Step>& steps() const noexcept;
 

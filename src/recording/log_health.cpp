@@ -70,11 +70,8 @@ std::string describe(const Stray& stray) {
                        counted(stray.count, "frame"), from);
 }
 
-}  // namespace
-
-std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double planned) {
+void describe_gaps(std::vector<std::string>& out, const LogHealth& health) {
     constexpr size_t kMostGaps = 10;  // more say no more
-    std::vector<std::string> out;
     for (size_t i = 0; i < health.gaps.size() && i < kMostGaps; ++i) {
         const Gap& gap = health.gaps[i];
         out.push_back(fmt::format("{} missing from tick {} on, between {:.3f} s and {:.3f} s: {}",
@@ -87,7 +84,10 @@ std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double
                         counted(static_cast<int64_t>(health.gaps.size() - kMostGaps), "more gap"),
                         counted(health.missing(), "tick")));
     }
-    for (const Stray& stray : health.strays) out.push_back(describe(stray));
+}
+
+void describe_end(std::vector<std::string>& out, const LogHealth& health, int64_t ticks,
+                  double planned) {
     const int64_t at_end = ticks - 1 - health.last_tick;
     const double end = seconds(health.last_time);
     if (at_end > 0) {
@@ -117,6 +117,15 @@ std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double
     } else if (!health.complete) {
         out.push_back("the log ends without its end mark");
     }
+}
+
+}  // namespace
+
+std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double planned) {
+    std::vector<std::string> out;
+    describe_gaps(out, health);
+    for (const Stray& stray : health.strays) out.push_back(describe(stray));
+    describe_end(out, health, ticks, planned);
     return out;
 }
 

@@ -230,7 +230,9 @@ void RawLogReader::note_frame() {
     const Time period = from_seconds(head_.tick);
     const Time last = health_.frames > 0 ? health_.last_time : -period;
     const int64_t missing = frame_.sequence - health_.last_tick - 1;
-    health_.left_out += (frame_.time - last) / period - missing - 1;
+    // devices that pace keep a period of their own: whole ticks count
+    const int64_t periods = (frame_.time - last + period / 2) / period;
+    health_.left_out += std::max<int64_t>(0, periods - missing - 1);
     if (missing > 0) {
         health_.gaps.push_back(
             {health_.last_tick + 1, missing, health_.last_time, frame_.time, damaged_, gone_});

@@ -109,6 +109,16 @@ void check_joints(const CalibrationInput& input) {
     }
 }
 
+/// Points on a line leave open how the devices are turned about it.
+void check_touches(const CalibrationInput& input) {
+    std::vector<Vec3> points;
+    for (const CalibrationInput::JigSample& sample : input.jig_samples)
+        points.push_back(input.jig[sample.point]);
+    if (across(points) >= kLeastJig) return;
+    throw Error("the points of the jig that were touched are on a line, or too near to each other",
+                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
+}
+
 void check_link(const CalibrationSolution& solution, double slips) {
     if (solution.link_spread <= kMostSpread && slips <= kMostSlips) return;
     throw Error(
@@ -163,6 +173,46 @@ Vec3 middle(const CalibrationSolver& solver, const CalibrationSolution& solution
     return (solver.endpoint(solution, sample.a, sample.at_a) +
             solver.endpoint(solution, sample.b, sample.at_b)) /
            2;
+}
+
+/// Of samples that the solution did not see.
+struct HeldOut {
+    std::vector<double> along_link;  ///< misfits, slips left out [m]
+    std::vector<double> off_jig;     ///< the same [m]
+    size_t slips = 0;                ///< of the link
+};
+
+/// Solves anew without each fold, and judges its samples by that. `all`: the solution of all
+/// samples. What each sample of the link came to goes to `out`.
+HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& solver,
+                       const CalibrationSolution& all, CalibrationResult& out) {
+    const size_t links = input.link_samples.size();
+    const size_t touches = input.jig_samples.size();
+    HeldOut found;
+    out.after.resize(links);
+    for (size_t fold = 0; fold < kFolds; ++fold) {
+        const auto link = without(links, fold, kStretches);
+        auto jig = std::vector<uint8_t>(touches, 1);
+        // a touched point as a whole: its samples say the same
+        for (size_t k = 0; k < touches; ++k) jig[k] = input.jig_samples[k].point % kFolds != fold;
+        const CalibrationSolution part = solver.solve(all, link, jig);
+        for (size_t k = 0; k < links; ++k) {
+            if (link[k]) continue;
+            const CalibrationInput::LinkSample& sample = input.link_samples[k];
+            const double misfit = solver.link_misfit(part, sample);
+            const bool slip = std::abs(misfit) > kSlip * all.link_spread;
+            out.after[k] = {middle(solver, part, sample), misfit, slip};
+            out.before[k].slip = slip;
+            found.slips += slip;
+            if (!slip) found.along_link.push_back(misfit);
+        }
+        for (size_t k = 0; k < touches; ++k) {
+            if (jig[k]) continue;
+            const double misfit = solver.jig_misfit(part, input.jig_samples[k]).norm();
+            if (misfit <= 2 * kSlip * all.jig_spread) found.off_jig.push_back(misfit);
+        }
+    }
+    return found;
 }
 
 }  // namespace
@@ -239,16 +289,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         throw Error("one device alone is calibrated by a jig, and none was touched",
                     "Give the rig file a jig, or two devices.");
     }
-    if (!input.jig_samples.empty()) {
-        std::vector<Vec3> points;
-        for (const CalibrationInput::JigSample& sample : input.jig_samples)
-            points.push_back(input.jig[sample.point]);
-        if (across(points) < kLeastJig) {
-            throw Error(
-                "the points of the jig that were touched are on a line, or too near to each other",
-                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
-        }
-    }
+    if (!input.jig_samples.empty()) check_touches(input);
     const size_t links = input.link_samples.size();
     const size_t touches = input.jig_samples.size();
     const CalibrationSolution nominal = solver.nominal();
@@ -256,39 +297,13 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         solver.solve(nominal, std::vector<uint8_t>(links, 1), std::vector<uint8_t>(touches, 1));
 
     CalibrationResult out;
-    out.before.resize(links);
-    out.after.resize(links);
-    std::vector<double> along;
-    std::vector<double> off_jig;
-    for (size_t k = 0; k < links; ++k) {
-        const CalibrationInput::LinkSample& sample = input.link_samples[k];
-        out.before[k] = {middle(solver, nominal, sample), solver.link_misfit(nominal, sample)};
-    }
-    size_t slips = 0;
-    for (size_t fold = 0; fold < kFolds; ++fold) {
-        const auto link = without(links, fold, kStretches);
-        auto jig = std::vector<uint8_t>(touches, 1);
-        // a touched point as a whole: its samples say the same
-        for (size_t k = 0; k < touches; ++k) jig[k] = input.jig_samples[k].point % kFolds != fold;
-        const CalibrationSolution part = solver.solve(all, link, jig);
-        for (size_t k = 0; k < links; ++k) {
-            if (link[k]) continue;
-            const CalibrationInput::LinkSample& sample = input.link_samples[k];
-            const double misfit = solver.link_misfit(part, sample);
-            const bool slip = std::abs(misfit) > kSlip * all.link_spread;
-            out.after[k] = {middle(solver, part, sample), misfit, slip};
-            out.before[k].slip = slip;
-            slips += slip;
-            if (!slip) along.push_back(misfit);
-        }
-        for (size_t k = 0; k < touches; ++k) {
-            if (jig[k]) continue;
-            const double misfit = solver.jig_misfit(part, input.jig_samples[k]).norm();
-            if (misfit <= 2 * kSlip * all.jig_spread) off_jig.push_back(misfit);
-        }
-    }
+    for (const CalibrationInput::LinkSample& sample : input.link_samples)
+        out.before.push_back(
+            {middle(solver, nominal, sample), solver.link_misfit(nominal, sample)});
+    const HeldOut held_out = judge_held_out(input, solver, all, out);
     Calibration& calibration = out.calibration;
-    if (links > 0) calibration.slips = static_cast<double>(slips) / static_cast<double>(links);
+    if (links > 0)
+        calibration.slips = static_cast<double>(held_out.slips) / static_cast<double>(links);
     check_link(all, calibration.slips);
     if (all.jig_spread > kMostSpread) {
         throw Error(fmt::format("the endpoints that touched the jig were {:.1f} mm off its points",
@@ -296,13 +311,13 @@ CalibrationResult calibrate(const CalibrationInput& input) {
                     "Do the rig file's jig, positions and rotations name these places?");
     }
     calibration.link_length = all.length;
-    calibration.link_rms = rms(along);
-    calibration.link_worst = worst(along);
+    calibration.link_rms = rms(held_out.along_link);
+    calibration.link_worst = worst(held_out.along_link);
     // the link points everywhere alike, and shows one of three directions at a time
     calibration.agreement_rms = std::sqrt(3.0) * calibration.link_rms;
     if (touches > 0) {
-        calibration.jig_rms = rms(off_jig);
-        calibration.jig_worst = worst(off_jig);
+        calibration.jig_rms = rms(held_out.off_jig);
+        calibration.jig_worst = worst(held_out.off_jig);
     }
     for (size_t i = 0; i < input.devices.size(); ++i) {
         calibration.devices.push_back(part_of(input.devices[i], all.corrections[i]));

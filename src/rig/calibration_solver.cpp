@@ -87,16 +87,24 @@ Vec3 CalibrationSolver::jig_misfit(const CalibrationSolution& solution,
     return endpoint(solution, sample.device, sample.at) - input_.jig[sample.point];
 }
 
-double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<uint8_t>& link,
-                               const std::vector<uint8_t>& jig, bool redescending) const {
-    const auto n = static_cast<Eigen::Index>(count_);
-    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(n);
-    const auto at = [&](size_t device) { return static_cast<Eigen::Index>(first_[device]); };
-    // slope of the endpoint by its device's parameters: turn, shift, shape
-    const auto slope = [&](size_t device, const CalibrationReading& reading) {
+/// One Gauss-Newton step: the normal equations H change = -g, added up, and what comes of them.
+struct CalibrationSolver::Step {
+    Step(const CalibrationSolver& of, CalibrationSolution& from, bool is_redescending)
+        : solver(of),
+          solution(from),
+          redescending(is_redescending),
+          n(static_cast<Eigen::Index>(of.count_)),
+          H(Eigen::MatrixXd::Zero(n, n)),
+          g(Eigen::VectorXd::Zero(n)) {}
+
+    Eigen::Index first_of(size_t device) const {
+        return static_cast<Eigen::Index>(solver.first_[device]);
+    }
+
+    /// Of the endpoint by its device's parameters: turn, shift, shape.
+    Gradient slope(size_t device, const CalibrationReading& reading) const {
         const Correction& correction = solution.corrections[device];
-        Gradient out(3, static_cast<Eigen::Index>(6 + shape_count(device)));
+        Gradient out(3, static_cast<Eigen::Index>(6 + solver.shape_count(device)));
         const Mat3 R = correction.X.R.toRotationMatrix();
         out.leftCols<3>() = -cross_matrix(R * correction.shaped(reading.p_DH, reading.joints));
         out.middleCols<3>(3) = Mat3::Identity();
@@ -110,88 +118,119 @@ double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<
                 out.col(6 + i) = R * symmetric(unit) * reading.p_DH;
             }
         }
-        return Gradient(input_.devices[device].X_WD.R.toRotationMatrix() * out);
-    };
+        return Gradient(solver.input_.devices[device].X_WD.R.toRotationMatrix() * out);
+    }
 
-    std::vector<double> misfits;
-    for (size_t k = 0; k < link.size(); ++k)
-        if (link[k]) misfits.push_back(std::abs(link_misfit(solution, input_.link_samples[k])));
-    // medians of a normal distribution's size, in one dimension and in three
-    solution.link_spread = std::max(kLeastSpread, median(misfits) / 0.6745);
-    misfits.clear();
-    for (size_t k = 0; k < jig.size(); ++k)
-        if (jig[k]) misfits.push_back(jig_misfit(solution, input_.jig_samples[k]).norm());
-    solution.jig_spread = std::max(kLeastSpread, median(misfits) / 1.538);
+    void measure_spreads(const std::vector<uint8_t>& link, const std::vector<uint8_t>& jig) {
+        std::vector<double> misfits;
+        for (size_t k = 0; k < link.size(); ++k)
+            if (link[k])
+                misfits.push_back(
+                    std::abs(solver.link_misfit(solution, solver.input_.link_samples[k])));
+        // medians of a normal distribution's size, in one dimension and in three
+        solution.link_spread = std::max(kLeastSpread, median(misfits) / 0.6745);
+        misfits.clear();
+        for (size_t k = 0; k < jig.size(); ++k)
+            if (jig[k])
+                misfits.push_back(solver.jig_misfit(solution, solver.input_.jig_samples[k]).norm());
+        solution.jig_spread = std::max(kLeastSpread, median(misfits) / 1.538);
+    }
 
-    Eigen::RowVectorXd row(n);
-    for (size_t k = 0; k < link.size(); ++k) {
-        if (!link[k]) continue;
-        const CalibrationInput::LinkSample& sample = input_.link_samples[k];
-        const double misfit = link_misfit(solution, sample);
+    void add(const CalibrationInput::LinkSample& sample) {
+        const double misfit = solver.link_misfit(solution, sample);
         const double w = weight(misfit / solution.link_spread, redescending) /
                          (solution.link_spread * solution.link_spread);
-        if (w == 0) continue;
-        const Vec3 along =
-            (endpoint(solution, sample.a, sample.at_a) - endpoint(solution, sample.b, sample.at_b))
-                .normalized();
-        row.setZero();
+        if (w == 0) return;
+        const Vec3 along = (solver.endpoint(solution, sample.a, sample.at_a) -
+                            solver.endpoint(solution, sample.b, sample.at_b))
+                               .normalized();
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n);
         const Gradient a = slope(sample.a, sample.at_a);
         const Gradient b = slope(sample.b, sample.at_b);
-        row.segment(at(sample.a), a.cols()) += along.transpose() * a;
-        row.segment(at(sample.b), b.cols()) -= along.transpose() * b;
+        row.segment(first_of(sample.a), a.cols()) += along.transpose() * a;
+        row.segment(first_of(sample.b), b.cols()) -= along.transpose() * b;
         row[n - 1] = -1;
         H.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose(), w);
         g += w * misfit * row.transpose();
     }
-    for (size_t k = 0; k < jig.size(); ++k) {
-        if (!jig[k]) continue;
-        const CalibrationInput::JigSample& sample = input_.jig_samples[k];
-        const Vec3 misfit = jig_misfit(solution, sample);
+
+    void add(const CalibrationInput::JigSample& sample) {
+        const Vec3 misfit = solver.jig_misfit(solution, sample);
         const double w = weight(misfit.norm() / solution.jig_spread, redescending) /
                          (solution.jig_spread * solution.jig_spread);
         const Gradient a = slope(sample.device, sample.at);
-        H.block(at(sample.device), at(sample.device), a.cols(), a.cols()) += w * a.transpose() * a;
-        g.segment(at(sample.device), a.cols()) += w * a.transpose() * misfit;
+        const Eigen::Index i = first_of(sample.device);
+        H.block(i, i, a.cols(), a.cols()) += w * a.transpose() * a;
+        g.segment(i, a.cols()) += w * a.transpose() * misfit;
     }
-    H = Eigen::MatrixXd(H.selfadjointView<Eigen::Lower>());
-    const auto expect = [&](Eigen::Index i, double value, double prior) {
+
+    void expect(Eigen::Index i, double value, double prior) {
         H(i, i) += 1 / (prior * prior);
         g[i] += value / (prior * prior);
-    };
-    for (size_t device = 0; device < solution.corrections.size(); ++device) {
-        const Correction& correction = solution.corrections[device];
-        const Vec3 turn = rotation_vector(correction.X.R);
-        const Eigen::Index i = at(device);
-        for (int axis = 0; axis < 3; ++axis) {
-            expect(i + axis, turn[axis], kTurn);
-            expect(i + 3 + axis, correction.X.p[axis], kShift);
-        }
-        if (correction.arm) {
-            expect(i + 6, correction.joint_offset[1], kOffset);
-            expect(i + 7, correction.joint_offset[2], kOffset);
-            continue;
-        }
-        const Mat3& S = correction.stretch;
-        const std::array<double, 6> shape{S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
-        for (size_t j = 0; j < shape.size(); ++j)
-            expect(i + 6 + static_cast<Eigen::Index>(j), shape[j], kStretch);
     }
-    H(n - 1, n - 1) += 1;  // a link of a metre, more or less: for jigs without one
 
-    const Eigen::VectorXd change = -H.ldlt().solve(g);
-    for (size_t device = 0; device < solution.corrections.size(); ++device) {
-        Correction& correction = solution.corrections[device];
-        const Eigen::Index i = at(device);
-        correction.X.R = (rotation_by(change.segment<3>(i)) * correction.X.R).normalized();
-        correction.X.p += change.segment<3>(i + 3);
-        if (correction.arm) {
-            correction.joint_offset.tail<2>() += change.segment<2>(i + 6);
-        } else {
-            correction.stretch += symmetric(change.segment<6>(i + 6));
+    void add_priors() {
+        for (size_t device = 0; device < solution.corrections.size(); ++device) {
+            const Correction& correction = solution.corrections[device];
+            const Vec3 turn = rotation_vector(correction.X.R);
+            const Eigen::Index i = first_of(device);
+            for (int axis = 0; axis < 3; ++axis) {
+                expect(i + axis, turn[axis], kTurn);
+                expect(i + 3 + axis, correction.X.p[axis], kShift);
+            }
+            if (correction.arm) {
+                expect(i + 6, correction.joint_offset[1], kOffset);
+                expect(i + 7, correction.joint_offset[2], kOffset);
+                continue;
+            }
+            const Mat3& S = correction.stretch;
+            const std::array<double, 6> shape{S(0, 0), S(1, 1), S(2, 2), S(1, 2), S(0, 2), S(0, 1)};
+            for (size_t j = 0; j < shape.size(); ++j)
+                expect(i + 6 + static_cast<Eigen::Index>(j), shape[j], kStretch);
         }
+        H(n - 1, n - 1) += 1;  // a link of a metre, more or less: for jigs without one
     }
-    solution.length += change[n - 1];
-    return change.cwiseAbs().maxCoeff();
+
+    /// Returns the largest change of a parameter.
+    double change_parameters() {
+        const Eigen::VectorXd change = -H.ldlt().solve(g);
+        for (size_t device = 0; device < solution.corrections.size(); ++device) {
+            Correction& correction = solution.corrections[device];
+            const Eigen::Index i = first_of(device);
+            correction.X.R = (rotation_by(change.segment<3>(i)) * correction.X.R).normalized();
+            correction.X.p += change.segment<3>(i + 3);
+            if (correction.arm) {
+                correction.joint_offset.tail<2>() += change.segment<2>(i + 6);
+            } else {
+                correction.stretch += symmetric(change.segment<6>(i + 6));
+            }
+        }
+        solution.length += change[n - 1];
+        return change.cwiseAbs().maxCoeff();
+    }
+
+    const CalibrationSolver& solver;
+    CalibrationSolution& solution;
+    bool redescending;
+    Eigen::Index n;
+    Eigen::MatrixXd H;
+    Eigen::VectorXd g;
+};
+
+double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<uint8_t>& link,
+                               const std::vector<uint8_t>& jig, bool redescending) const {
+    Step step(*this, solution, redescending);
+    step.measure_spreads(link, jig);
+    for (size_t k = 0; k < link.size(); ++k) {
+        if (link[k]) step.add(input_.link_samples[k]);
+    }
+    for (size_t k = 0; k < jig.size(); ++k) {
+        if (jig[k]) step.add(input_.jig_samples[k]);
+    }
+    // links are added to the lower half alone
+    step.H = Eigen::MatrixXd(step.H.selfadjointView<Eigen::Lower>());
+    step.add_priors();
+    return step.change_parameters();
 }
 
 CalibrationSolution CalibrationSolver::solve(CalibrationSolution start,

@@ -147,11 +147,9 @@ Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack
     return best;
 }
 
-/// The largest box of cells that have all their points in: of every stack of layers, the largest
-/// rectangle of columns that are in throughout.
-void find_box(const Grid& grid, Workspace& out) {
-    const int side = std::max(1, (grid.size.maxCoeff() - 2) / kMostCells + 1);
-    // a cell is `side` steps wide, and neighbours share the points between them
+/// Cells of `side` steps a side that have all their points in; neighbours share the points between
+/// them.
+Grid full_cells(const Grid& grid, int side) {
     Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
     const Eigen::Vector3i n = cells.size;
     for (int z = 0; z < n.z(); ++z)
@@ -164,6 +162,15 @@ void find_box(const Grid& grid, Workspace& out) {
                             all = grid.in[grid.at(x * side + i, y * side + j, z * side + k)] != 0;
                 cells.in[cells.at(x, y, z)] = all;
             }
+    return cells;
+}
+
+/// The largest box of full cells: of every stack of layers, the largest rectangle of columns that
+/// are full throughout.
+void find_box(const Grid& grid, Workspace& out) {
+    const int side = std::max(1, (grid.size.maxCoeff() - 2) / kMostCells + 1);
+    const Grid cells = full_cells(grid, side);
+    const Eigen::Vector3i n = cells.size;
     int best = 0;
     std::vector<int> heights(static_cast<size_t>(n.x()));
     std::vector<int> stack;

@@ -107,6 +107,26 @@ void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagno
     }
 }
 
+/// Of a body that can move; false when what it weighs makes no sense.
+bool check_weight(const Body& body, Diagnostics& diagnostics) {
+    if (!body.mass && !body.density) {
+        if (body.weighed) return false;  // what is wrong with it has been said
+        diagnostics.error(body.place, body.name, "has neither mass nor density",
+                          "Add mass_g or density_g_cm3, or fixed: yes.");
+        return false;
+    }
+    if (has_volume(body.shape) && (mass(body) < kLightest || mass(body) > kHeaviest)) {
+        diagnostics.error(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
+                          "Check the units of its size and its density.");
+        return false;
+    }
+    if (mass(body) > kImplausibleMass) {
+        diagnostics.warning(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
+                            "Check the unit of its mass or density.");
+    }
+    return true;
+}
+
 void check_body(const Body& body, Diagnostics& diagnostics) {
     check_plausible(body.shape, body.place, diagnostics);
     if (body.shape.kind == ShapeKind::plane && body.moves_at_all()) {
@@ -117,22 +137,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
         diagnostics.error(body.place, "density", "both mass and density are given",
                           "Keep one of the two.");
     }
-    if (body.fixed) return;
-    if (!body.mass && !body.density) {
-        if (body.weighed) return;  // what is wrong with it has been said
-        diagnostics.error(body.place, body.name, "has neither mass nor density",
-                          "Add mass_g or density_g_cm3, or fixed: yes.");
-        return;
-    }
-    if (has_volume(body.shape) && (mass(body) < kLightest || mass(body) > kHeaviest)) {
-        diagnostics.error(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
-                          "Check the units of its size and its density.");
-        return;
-    }
-    if (mass(body) > kImplausibleMass) {
-        diagnostics.warning(body.place, body.name, fmt::format("weighs {:g} kg", mass(body)),
-                            "Check the unit of its mass or density.");
-    }
+    if (body.fixed || !check_weight(body, diagnostics)) return;
     const bool two_axes =
         body.turns == Axes::xy || body.turns == Axes::xz || body.turns == Axes::yz;
     if (two_axes) {

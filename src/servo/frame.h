@@ -46,6 +46,7 @@ enum Status : uint32_t {
     kPaused = 1u << 29,
 };
 constexpr int kStatusBits = 30;
+constexpr uint32_t kAllStatus = (1u << kStatusBits) - 1;
 
 struct StatusText {
     std::string what;

@@ -20,6 +20,8 @@ using Steady = std::chrono::steady_clock;
 /// Until their first tick devices that pace start a thread, or a scheduler, of their own. No force
 /// is on them then: the watchdog waits for longer than any of them does before it gives up.
 constexpr Time kDevicesBegin = std::chrono::seconds(4);
+/// After their last tick, with which force went off, they end it.
+constexpr Time kDevicesEnd = std::chrono::seconds(2);
 
 double elapsed(Steady::time_point since) {
     return std::chrono::duration<double>(Steady::now() - since).count();
@@ -117,7 +119,8 @@ struct RealLoop {
                 std::max({timing.longest_pause, seconds(now - timing.reached), lateness});
         }
         const auto end = Steady::now();
-        watchdog.end_tick(end);
+        // after the last one force is off, and devices may take their time to end
+        watchdog.end_tick(servo.stopped() ? end + kDevicesEnd : end);
         last_tick = seconds(end - begin);
         timing.ticks.add(last_tick);
         timing.lateness.add(lateness);

@@ -19,6 +19,57 @@ haptics::FaultKind reported_by(const devices::Reading& reading) {
     return haptics::FaultKind::none;
 }
 
+/// Where a hand is kept: within the wall, or else in what its device reaches, if it says so.
+std::optional<haptics::WorkspaceBox> box_of(const devices::DeviceInfo& info, const Pose& X_0D,
+                                            const std::optional<Eigen::AlignedBox3d>& wall) {
+    if (wall) return haptics::WorkspaceBox{{Quat::Identity(), wall->center()}, wall->sizes()};
+    if (info.workspace) return haptics::WorkspaceBox{X_0D, *info.workspace};
+    return {};
+}
+
+dynamics::BodyIndex add_proxy(dynamics::World& world, const scene::Finger& finger,
+                              haptics::ProxyKind kind, bool changeable, bool turns) {
+    const bool is_point = kind == haptics::ProxyKind::point;
+    if (!changeable) {
+        return is_point ? world.add_point(finger, Vec3::Zero(), turns)
+                        : world.add_proxy(finger, Vec3::Zero(), turns);
+    }
+    const dynamics::BodyIndex proxy = world.add_changeable_proxy(finger, Vec3::Zero(), turns);
+    world.set_point(proxy, is_point);
+    return proxy;
+}
+
+haptics::ProxyKind other_than(haptics::ProxyKind kind) {
+    return kind == haptics::ProxyKind::point ? haptics::ProxyKind::rigid
+                                             : haptics::ProxyKind::point;
+}
+
+/// What holds for one tick alone; trial, phase and solver stay until they are ordered anew.
+void forget_orders(Commands& commands) noexcept {
+    commands.task.clear();
+    commands.stop = false;
+    commands.force_off = false;
+    commands.rest = false;
+    commands.abandoned = 0;
+    commands.tuning.reset();
+    commands.proxy.reset();
+    commands.friction_scale.reset();
+    commands.workspace_rate = 0;
+}
+
+void scale_friction(double scale, dynamics::World& world,
+                    std::span<haptics::Finger> fingers) noexcept {
+    if (scale == world.friction_scale()) return;
+    world.set_friction_scale(scale);
+    for (haptics::Finger& finger : fingers) finger.set_friction_scale(scale);
+}
+
+bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
+    return std::any_of(readings.begin(), readings.end(), [](const devices::Reading& reading) {
+        return (reading.status & devices::kForceDropped) != 0;
+    });
+}
+
 }  // namespace
 
 Servo::Servo(const scene::Scene& scene, const Settings& settings,
@@ -42,36 +93,23 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         if (safety.hand_damping) damping_ = *safety.hand_damping;
         devices_->limit(static_cast<int>(i), safety.largest_force(info.peak_force, info.scale),
                         safety.largest_torque(info.peak_torque));
-        std::optional<haptics::WorkspaceBox> box;
-        if (wall) {
-            box = {{Quat::Identity(), wall->center()}, wall->sizes()};
-        } else if (info.workspace) {
-            box = {X_0D_[i], *info.workspace};
-        }
         force_guards_.emplace_back(
             settings.safety,
-            haptics::DeviceLimits{info.peak_force, info.continuous_force, box, info.peak_torque,
+            haptics::DeviceLimits{info.peak_force, info.continuous_force,
+                                  box_of(info, X_0D_[i], wall), info.peak_torque,
                                   info.continuous_torque, info.scale},
             settings.tick());
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const scene::Finger& finger = scene.fingers[i];
         const haptics::ProxyKind kind = settings.proxy.of(finger);
-        const bool is_point = kind == haptics::ProxyKind::point;
         if (info.measures_orientation) turning_.push_back(i);
         const bool changeable = settings.proxy.changeable && !finger.proxy;
         const bool turns = info.measures_orientation && (changeable || turns_with_handle(kind));
-        const dynamics::BodyIndex proxy =
-            changeable ? world_.add_changeable_proxy(finger, Vec3::Zero(), turns)
-            : is_point ? world_.add_point(finger, Vec3::Zero(), turns)
-                       : world_.add_proxy(finger, Vec3::Zero(), turns);
+        const dynamics::BodyIndex proxy = add_proxy(world_, finger, kind, changeable, turns);
         fingers_.push_back(make_finger(scene, i, proxy, kind));
         spares_.emplace_back();
-        if (changeable) {
-            world_.set_point(proxy, is_point);
-            spares_.back().emplace(make_finger(
-                scene, i, proxy, is_point ? haptics::ProxyKind::rigid : haptics::ProxyKind::point));
-        }
+        if (changeable) spares_.back().emplace(make_finger(scene, i, proxy, other_than(kind)));
         X_D0_.push_back(X_0D_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed * info.scale);
     }
@@ -159,7 +197,9 @@ void Servo::rest() noexcept {
 }
 
 void Servo::resume() {
-    if (faults_.tripped()) {
+    // what the watchdog stopped, were it in the last tick before a pause, stays so until it begins
+    const bool were_stopped = stopped_from_outside_.exchange(false);
+    if (faults_.tripped() || were_stopped) {
         devices_->deactivate();
         active_ = false;
         devices_->activate();
@@ -190,6 +230,7 @@ void Servo::deactivate() {
 }
 
 bool Servo::stop_devices() noexcept {
+    stopped_from_outside_ = true;
     return devices_->can_stop() && devices_->stop();
 }
 
@@ -201,25 +242,13 @@ void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcep
 
 const Frame& Servo::tick(Time now, const Director& director) noexcept {
     measure(now);
-    commands_.task.clear();
-    commands_.stop = false;
-    commands_.force_off = false;
-    commands_.rest = false;
-    commands_.abandoned = 0;
-    commands_.tuning.reset();
-    commands_.proxy.reset();
-    commands_.friction_scale.reset();
-    commands_.workspace_rate = 0;
+    forget_orders(commands_);
     if (director) director(frame_, handles_, commands_);
     if (commands_.tuning) settings_.coupling.set(*commands_.tuning);
     retune();
     if (commands_.proxy && *commands_.proxy != settings_.proxy.kind)
         change_proxies(*commands_.proxy);
-    if (commands_.friction_scale && *commands_.friction_scale != world_.friction_scale()) {
-        world_.set_friction_scale(*commands_.friction_scale);
-        for (haptics::Finger& finger : fingers_)
-            finger.set_friction_scale(*commands_.friction_scale);
-    }
+    if (commands_.friction_scale) scale_friction(*commands_.friction_scale, world_, fingers_);
     turn_workspaces(commands_.workspace_rate);
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
     if (commands_.abandoned > 0)
@@ -308,6 +337,9 @@ void Servo::make_forces(Time now) noexcept {
     const bool stepped = steps_now();
     // what shakes a simulated hand, since its machine keeps it waiting, shakes nobody
     const bool waits = !real_ && late_.sustained() > 0;
+    const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
+        if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
+    };
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
         const Wrench last_0 = force.sent_0;
@@ -319,20 +351,15 @@ void Servo::make_forces(Time now) noexcept {
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.flags);
-        if (const double fed = force_guards_[i].feeding(); fed > 0 && !waits)
-            faults_.trip({haptics::FaultKind::active, static_cast<int>(i), now, fed});
+        judge_shaking(haptics::FaultKind::active, i, force_guards_[i].feeding());
         force.felt_W.force += field_on(i);
         force.felt_0 = turn_.unturned(force.felt_W);
         force.felt_0.force += force_guards_[i].push(unturned_[i], force.flags);
         asked = asked || !force.felt_0.is_zero();
     }
-    // a device without force leaves half a grasp: the others wait with it, and all come on softly
-    const bool dropped =
-        std::any_of(readings_.begin(), readings_.end(), [](const devices::Reading& reading) {
-            return (reading.status & devices::kForceDropped) != 0;
-        });
     const bool held = switch_held();
-    const bool allowed = held && !dropped && !commands_.rest;
+    // a device without force leaves half a grasp: the others wait with it, and all come on softly
+    const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
     const double share = resumed_ ? 0 : rising;  // without a soft start too
     for (size_t i = 0; i < fingers_.size(); ++i) {
@@ -340,8 +367,7 @@ void Servo::make_forces(Time now) noexcept {
         bound_rise(i, share);
         force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.flags);
         if (held) force.flags &= ~static_cast<unsigned>(haptics::kSwitchedOff);
-        if (const double by = force_guards_[i].chatter(); by > 0 && !waits)
-            faults_.trip({haptics::FaultKind::chatters, static_cast<int>(i), now, by});
+        judge_shaking(haptics::FaultKind::chatters, i, force_guards_[i].chatter());
         if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }

@@ -7,6 +7,7 @@
 // The force that is written belongs to the positions that were read in the same tick.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -189,6 +190,7 @@ class Servo {
     bool anew_ = false;     // in the next tick all proxies begin at their handles
     bool active_ = false;
     bool stopped_ = false;
+    std::atomic<bool> stopped_from_outside_{false};  // by the watchdog, since they began
     bool resting_ = false;
 };
 

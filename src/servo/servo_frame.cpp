@@ -1,6 +1,7 @@
 // What a tick leaves behind: the Frame.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "servo/servo.h"
@@ -8,59 +9,131 @@
 namespace dihaptic::servo {
 namespace {
 
-uint32_t fault_status(haptics::FaultKind kind) {
-    switch (kind) {
-        case haptics::FaultKind::none:
-            break;
-        case haptics::FaultKind::bad_reading:
-            return kBadReading;
-        case haptics::FaultKind::not_answering:
-            return kNotAnswering;
-        case haptics::FaultKind::uncalibrated:
-            return kUncalibrated;
-        case haptics::FaultKind::device_fault:
-            return kDeviceFault;
-        case haptics::FaultKind::too_fast:
-        case haptics::FaultKind::turned_too_fast:
-            return kTooFast;
-        case haptics::FaultKind::late:
-            return kLate;
-        case haptics::FaultKind::keeps_late:
-            return kKeepsLate;
-        case haptics::FaultKind::not_finite:
-        case haptics::FaultKind::diverged:
-            return kNotFinite;
-        case haptics::FaultKind::active:
-        case haptics::FaultKind::chatters:
-            return kEnergyGenerated;
-        case haptics::FaultKind::abandoned:
-            return kAbandoned;
-        case haptics::FaultKind::stopped:
-            return kStopped;
+struct FaultBit {
+    haptics::FaultKind kind;
+    Status bit;
+};
+
+constexpr FaultBit kFaultBits[] = {
+    {haptics::FaultKind::bad_reading, kBadReading},
+    {haptics::FaultKind::not_answering, kNotAnswering},
+    {haptics::FaultKind::uncalibrated, kUncalibrated},
+    {haptics::FaultKind::device_fault, kDeviceFault},
+    {haptics::FaultKind::too_fast, kTooFast},
+    {haptics::FaultKind::turned_too_fast, kTooFast},
+    {haptics::FaultKind::late, kLate},
+    {haptics::FaultKind::keeps_late, kKeepsLate},
+    {haptics::FaultKind::not_finite, kNotFinite},
+    {haptics::FaultKind::diverged, kNotFinite},
+    {haptics::FaultKind::active, kEnergyGenerated},
+    {haptics::FaultKind::chatters, kEnergyGenerated},
+    {haptics::FaultKind::abandoned, kAbandoned},
+    {haptics::FaultKind::stopped, kStopped},
+};
+static_assert(std::size(kFaultBits) == static_cast<size_t>(haptics::FaultKind::stopped));
+
+uint32_t fault_status(haptics::FaultKind kind) noexcept {
+    for (const FaultBit& row : kFaultBits) {
+        if (row.kind == kind) return row.bit;
     }
     return 0;
 }
 
-uint32_t finger_status(const devices::Reading& reading, unsigned limits) {
+/// A bit of a device's status or of a force's flags, and the Frame's for it.
+struct BitOf {
+    uint32_t theirs;
+    Status ours;
+};
+
+constexpr BitOf kReadingBits[] = {
+    {devices::kOutsideWorkspace, kOutsideWorkspace},
+    {devices::kForceClamped, kForceClamped},
+    {devices::kNoMoreData, kNoMoreData},
+    {devices::kNotAnswering, kNotAnswering},
+    {devices::kForceDropped, kForceDropped},
+    {devices::kNeedsCalibration, kUncalibrated},
+    {devices::kDeviceFault, kDeviceFault},
+};
+
+constexpr BitOf kForceBits[] = {
+    {haptics::kForceLimited, kForceLimited}, {haptics::kRateLimited, kRateLimited},
+    {haptics::kNotFinite, kNotFinite},       {haptics::kHeatLimited, kHeatLimited},
+    {haptics::kPushedInward, kPushedInward}, {haptics::kSoftStarted, kSoftStarted},
+    {haptics::kSwitchedOff, kSwitchedOff},   {haptics::kEnergyGenerated, kEnergyGenerated},
+    {haptics::kEnergyDamped, kEnergyDamped}, {haptics::kRiseBounded, kSoftened},
+};
+
+uint32_t translated(uint32_t theirs, std::span<const BitOf> bits) noexcept {
+    uint32_t ours = 0;
+    for (const BitOf& bit : bits) {
+        if (theirs & bit.theirs) ours |= bit.ours;
+    }
+    return ours;
+}
+
+uint32_t step_status(dynamics::StepStatus step, const contact::SolveStats& solve) noexcept {
     uint32_t status = 0;
-    if (reading.status & devices::kOutsideWorkspace) status |= kOutsideWorkspace;
-    if (reading.status & devices::kForceClamped) status |= kForceClamped;
-    if (reading.status & devices::kNoMoreData) status |= kNoMoreData;
-    if (reading.status & devices::kNotAnswering) status |= kNotAnswering;
-    if (reading.status & devices::kForceDropped) status |= kForceDropped;
-    if (reading.status & devices::kNeedsCalibration) status |= kUncalibrated;
-    if (reading.status & devices::kDeviceFault) status |= kDeviceFault;
-    if (limits & haptics::kForceLimited) status |= kForceLimited;
-    if (limits & haptics::kRateLimited) status |= kRateLimited;
-    if (limits & haptics::kNotFinite) status |= kNotFinite;
-    if (limits & haptics::kHeatLimited) status |= kHeatLimited;
-    if (limits & haptics::kPushedInward) status |= kPushedInward;
-    if (limits & haptics::kSoftStarted) status |= kSoftStarted;
-    if (limits & haptics::kSwitchedOff) status |= kSwitchedOff;
-    if (limits & haptics::kEnergyGenerated) status |= kEnergyGenerated;
-    if (limits & haptics::kEnergyDamped) status |= kEnergyDamped;
-    if (limits & haptics::kRiseBounded) status |= kSoftened;
+    if (step == dynamics::StepStatus::contacts_full) status |= kContactsFull;
+    if (step == dynamics::StepStatus::diverged) status |= kNotFinite;
+    if (solve.fallback) status |= kSolverFallback;
+    if (solve.missed) status |= kSolverMissed;
     return status;
+}
+
+void note_solver(const dynamics::World& world, Frame& frame) noexcept {
+    const contact::SolveStats& solve = world.solve_stats();
+    frame.solver = static_cast<int32_t>(world.solver());
+    frame.solver_iterations = solve.iterations;
+    frame.solver_residual = solve.residual;
+    frame.solver_fallback = solve.fallback;
+    frame.solver_route = static_cast<int32_t>(solve.route);
+}
+
+void note_tuning(const haptics::Tuning& tuning, Frame& frame) noexcept {
+    frame.coupling = static_cast<int32_t>(tuning.kind);
+    frame.stiffness = tuning.stiffness;
+    frame.damping = tuning.damping.value_or(kUnmeasured);
+    frame.smoothing = tuning.smoothing;
+}
+
+void note_motion(const devices::Reading& reading, const haptics::Handle& handle,
+                 const dynamics::BodyState& proxy, FingerFrame& out) noexcept {
+    out.p_DH = reading.p_DH;
+    out.v_DH = reading.v_DH;
+    out.p_WH = handle.p_WH;
+    out.v_WH = handle.v_WH;
+    out.p_WP = proxy.X_WB.p;
+    out.v_WP = proxy.v_WB;
+    out.R_WP = proxy.X_WB.R;
+    const bool finite = out.p_WH.allFinite() && out.v_WH.allFinite() && out.p_WP.allFinite() &&
+                        out.v_WP.allFinite();
+    if (!finite) out.status |= kNotFinite;
+}
+
+void note_body(const dynamics::BodyState& state, uint16_t body, Frame& frame) noexcept {
+    BodyFrame& out = frame.bodies[body];
+    out.X_WB = state.X_WB;
+    out.v_WB = state.v_WB;
+    out.w_WB = state.w_WB;
+    out.awake = state.awake ? 1 : 0;
+    // squares too: what overflows in the next computation has diverged already
+    const double size = out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
+    if (!std::isfinite(size)) frame.status |= kNotFinite;
+    frame.changed.push_back(body);
+}
+
+/// Bodies that were asleep and still are have not changed: only the awake ones are looked at.
+void note_bodies(const dynamics::World& world, Frame& frame) noexcept {
+    const auto states = world.states();
+    const size_t count = frame.bodies.size();
+    frame.changed.clear();
+    if (frame.sequence == 0) {
+        for (size_t i = 0; i < count; ++i) note_body(states[i], static_cast<uint16_t>(i), frame);
+        return;
+    }
+    for (const size_t i : world.stepped()) {
+        if (i < count) note_body(states[i], static_cast<uint16_t>(i), frame);
+    }
 }
 
 }  // namespace
@@ -71,54 +144,34 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.trial = commands.trial;
     frame_.phase = commands.phase;
     frame_.task = commands.task;
-    frame_.status = step == dynamics::StepStatus::contacts_full ? kContactsFull : 0u;
-    if (step == dynamics::StepStatus::diverged) frame_.status |= kNotFinite;
+    frame_.status = step_status(step, world_.solve_stats());
     if (overrun_) frame_.status |= kOverrun;
     if (std::exchange(resumed_, false)) frame_.status |= kResumed;
     if (commands.rest) frame_.status |= kPaused;
-    if (world_.solve_stats().fallback) frame_.status |= kSolverFallback;
-    if (world_.solve_stats().missed) frame_.status |= kSolverMissed;
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
-    frame_.solver = static_cast<int32_t>(world_.solver());
     if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
     const haptics::Tuning tuning = in_force_.tuning();
     if (tuning.stiffness < settings_.coupling.stiffness) frame_.status |= kSoftened;
-    frame_.coupling = static_cast<int32_t>(tuning.kind);
-    frame_.stiffness = tuning.stiffness;
-    frame_.damping = tuning.damping.value_or(kUnmeasured);
-    frame_.smoothing = tuning.smoothing;
+    note_tuning(tuning, frame_);
+    note_solver(world_, frame_);
     frame_.proxy = static_cast<int32_t>(settings_.proxy.kind);
     frame_.friction_scale = world_.friction_scale();
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
-    frame_.solver_iterations = world_.solve_stats().iterations;
-    frame_.solver_residual = world_.solve_stats().residual;
-    frame_.solver_fallback = world_.solve_stats().fallback;
-    frame_.solver_route = static_cast<int32_t>(world_.solve_stats().route);
     for (size_t i = 0; i < fingers_.size(); ++i) {
         FingerFrame& out = frame_.fingers[i];
-        const dynamics::BodyState& proxy = world_.state(fingers_[i].proxy());
         const haptics::ProxyTouch& touch = fingers_[i].touch();
-        out.p_DH = readings_[i].p_DH;
-        out.v_DH = readings_[i].v_DH;
         out.buttons = readings_[i].buttons;
-        out.status =
-            finger_status(readings_[i], forces_[i].flags) | fault_status(device_faults_[i]);
-        out.p_WH = handles_[i].p_WH;
-        out.v_WH = handles_[i].v_WH;
-        out.p_WP = proxy.X_WB.p;
-        out.v_WP = proxy.v_WB;
-        out.R_WP = proxy.X_WB.R;
+        out.status = translated(readings_[i].status, kReadingBits) |
+                     translated(forces_[i].flags, kForceBits) | fault_status(device_faults_[i]);
+        note_motion(readings_[i], handles_[i], world_.state(fingers_[i].proxy()), out);
         out.f_asked_W = forces_[i].asked_W.force;
         out.f_sent_W = forces_[i].sent_W.force;
         out.f_contact_W = touch.f_P_W;
         out.normal_force = touch.normal_force;
-        const bool finite = out.p_WH.allFinite() && out.v_WH.allFinite() && out.p_WP.allFinite() &&
-                            out.v_WP.allFinite();
-        if (!finite) out.status |= kNotFinite;
         frame_.status |= out.status;
     }
     for (size_t n = 0; n < turning_.size(); ++n) {
@@ -131,28 +184,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
                            forces_[i].asked_W.torque,
                            forces_[i].sent_W.torque};
     }
-    // bodies that were asleep and still are have not changed: only the awake ones are looked at
-    const auto states = world_.states();
-    const auto keep = [&](uint16_t i) {
-        BodyFrame& out = frame_.bodies[i];
-        out.X_WB = states[i].X_WB;
-        out.v_WB = states[i].v_WB;
-        out.w_WB = states[i].w_WB;
-        out.awake = states[i].awake ? 1 : 0;
-        // squares too: what overflows in the next computation has diverged already
-        const double size =
-            out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
-        if (!std::isfinite(size)) frame_.status |= kNotFinite;
-        frame_.changed.push_back(i);
-    };
-    frame_.changed.clear();
-    if (frame_.sequence == 0) {
-        for (size_t i = 0; i < frame_.bodies.size(); ++i) keep(static_cast<uint16_t>(i));
-    } else {
-        for (const size_t i : world_.stepped()) {
-            if (i < frame_.bodies.size()) keep(static_cast<uint16_t>(i));
-        }
-    }
+    note_bodies(world_, frame_);
     merge_contacts();
     measure_grasp();
 }

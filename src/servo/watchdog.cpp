@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace dihaptic::servo {
@@ -42,19 +43,21 @@ Watchdog::~Watchdog() {
 void Watchdog::run() {
     std::unique_lock lock(mutex_);
     // false when the run ended first
-    const auto no_tick_for = [&](Time limit) {
+    const auto no_tick_for = [&](Time limit, Clock::time_point from) {
         while (!done_) {
-            const auto deadline = last_end() + limit;
+            const auto deadline = std::max(last_end(), from) + limit;
             if (Clock::now() >= deadline) return true;
             wake_.wait_until(lock, deadline);
         }
         return false;
     };
-    if (!no_tick_for(limit_)) return;
+    if (!no_tick_for(limit_, Clock::time_point::min())) return;
     lock.unlock();
     stop_();
     lock.lock();
-    if (!no_tick_for(limit_ + kStuck)) return;
+    // a program that stood still as a whole goes on with this thread or with the servo's: that one
+    // gets its time
+    if (!no_tick_for(kStuck, Clock::now())) return;
     lock.unlock();
     stuck_();
 }

@@ -25,7 +25,7 @@ class Watchdog {
     static constexpr Time kStuck = std::chrono::seconds(2);
 
     /// `stop` is called once when no tick has ended for `limit`, `stuck` once when none has for
-    /// kStuck more; both from the watchdog's thread. The first tick counts from here.
+    /// kStuck after it; both from the watchdog's thread. The first tick counts from here.
     Watchdog(Time limit, std::function<void()> stop, std::function<void()> stuck);
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;

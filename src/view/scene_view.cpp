@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "base/diagnostics.h"
 #include "servo/displayed.h"
@@ -62,6 +63,54 @@ class KeepTarget {
 /// From a to b, z along it.
 Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
+}
+
+/// What overlays are made of.
+class Solids {
+  public:
+    struct Solid {
+        const gl::Model* model;
+        Eigen::Matrix4d world_from_model;
+        Vec3 colour;
+    };
+    /// `model` is to last as long.
+    void add(const gl::Model& model, const Eigen::Matrix4d& world_from_model, const Vec3& tint) {
+        all_.push_back({&model, world_from_model, tint});
+    }
+    void add(const Triangles& what, const Pose& X, const Vec3& tint) {
+        add(made_.emplace_back(what), gl::matrix(X), tint);
+    }
+    void add_line(const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
+        add(tube(std::array{a, b}, radius), {}, tint);
+    }
+    const std::vector<Solid>& all() const { return all_; }
+
+  private:
+    std::deque<gl::Model> made_;  // stay where they are as it grows
+    std::vector<Solid> all_;
+};
+
+/// The edges of the box.
+void add_workspace(Solids& out, const Workspace& workspace) {
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+            Vec3 a;
+            a[axis] = -0.5;
+            a[(axis + 1) % 3] = (corner & 1) - 0.5;
+            a[(axis + 2) % 3] = (corner >> 1) - 0.5;
+            Vec3 b = a;
+            b[axis] = 0.5;
+            out.add_line(workspace.X_WD * a.cwiseProduct(workspace.size),
+                         workspace.X_WD * b.cwiseProduct(workspace.size), 0.0005, ink("#5b6675"));
+        }
+    }
+}
+
+void add_grip_axis(Solids& out, const servo::Frame& frame, size_t fingers) {
+    Vec3 others = Vec3::Zero();
+    for (size_t i = 1; i < fingers; ++i) others += servo::displayed_proxy(frame, i).p;
+    out.add_line(servo::displayed_proxy(frame, 0).p, others / static_cast<double>(fingers - 1),
+                 0.0006, ink("#7b4ea3"));
 }
 
 void check_version() {
@@ -214,13 +263,12 @@ struct SceneView::Parts {
         }
     }
 
-    struct Drawing {  // of an overlay
-        const gl::Model* model;
-        Eigen::Matrix4d world_from_model;
-        Vec3 colour;
-    };
-
-    void draw_overlays(const servo::Frame& frame, const Overlays& overlays);
+    void draw_background(const Eigen::Vector2d& size) const;
+    void draw_surfaces(const servo::Frame& frame, const Camera& camera, const Eigen::Vector2d& size,
+                       const Eigen::Matrix4d& light_from_world, double texel) const;
+    void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
+    void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
+    void draw_solids(const Solids& solids) const;
     void draw_targets(const servo::Frame& frame) const;
     void draw_ghosts(const servo::Frame& frame) const;
 };
@@ -255,45 +303,54 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     glBindFramebuffer(GL_FRAMEBUFFER, p.samples);
     glViewport(0, 0, width, height);
     const Eigen::Vector2d size(width, height);
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    p.background.use();
-    p.background.set("size", size);
-    glBindVertexArray(p.nothing);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-
-    const float furthest = 1;
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LESS);
-    glClearBufferfv(GL_DEPTH, 0, &furthest);
-    const double distance = (camera.position - camera.look_at).norm();
-    p.surface.use();
-    p.surface.set("size", size);
-    p.surface.set("clip_from_world", projection(camera, static_cast<double>(width) / height,
-                                                0.05 * distance, distance + kPlaneSize));
-    p.surface.set("eye", camera.position);
-    p.surface.set("middle", p.start);
-    p.surface.set("light", light());
-    p.surface.set("light_from_world", light_from_world);
-    p.surface.set("texel", texel);
-    p.surface.set("shadowed", 1);
-    p.surface.set("moments", 0);
-    p.surface.set("alpha", 1.0);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, p.shadow_map.texture());
-    p.draw_models(frame, p.surface, [&](const Parts::Thing& thing) {
-        p.surface.set("albedo", thing.colour);
-        p.surface.set("gloss", thing.ground ? 0.25 : 1.0);
-        p.surface.set("grid", thing.ground ? 0.28 : 0.0);
-        p.surface.set("fade", thing.plane ? 1.2 : 0.0);
-    });
+    p.draw_background(size);
+    p.draw_surfaces(frame, camera, size, light_from_world, texel);
     p.draw_overlays(frame, overlays);
 
     glBindFramebuffer(GL_READ_FRAMEBUFFER, p.samples);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
     glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     return {frame.sequence, frame.time};
+}
+
+void SceneView::Parts::draw_background(const Eigen::Vector2d& size) const {
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    background.use();
+    background.set("size", size);
+    glBindVertexArray(nothing);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Camera& camera,
+                                     const Eigen::Vector2d& size,
+                                     const Eigen::Matrix4d& light_from_world, double texel) const {
+    const float furthest = 1;
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glClearBufferfv(GL_DEPTH, 0, &furthest);
+    const double distance = (camera.position - camera.look_at).norm();
+    surface.use();
+    surface.set("size", size);
+    surface.set("clip_from_world",
+                projection(camera, size.x() / size.y(), 0.05 * distance, distance + kPlaneSize));
+    surface.set("eye", camera.position);
+    surface.set("middle", start);
+    surface.set("light", light());
+    surface.set("light_from_world", light_from_world);
+    surface.set("texel", texel);
+    surface.set("shadowed", 1);
+    surface.set("moments", 0);
+    surface.set("alpha", 1.0);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, shadow_map.texture());
+    draw_models(frame, surface, [&](const Thing& thing) {
+        surface.set("albedo", thing.colour);
+        surface.set("gloss", thing.ground ? 0.25 : 1.0);
+        surface.set("grid", thing.ground ? 0.28 : 0.0);
+        surface.set("fade", thing.plane ? 1.2 : 0.0);
+    });
 }
 
 /// Seen through, so that what is in a target is seen.
@@ -329,77 +386,58 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Each twice: what is in front of the bodies as it is, what is hidden in or behind them faintly.
-void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) {
-    std::vector<gl::Model> made;
-    made.reserve(2 * frame.contacts.size() + 16 * overlays.workspaces.size() + 8);
-    std::vector<Drawing> drawings;
-    const auto add = [&](const Triangles& what, const Pose& X, const Vec3& tint) {
-        made.emplace_back(what);
-        drawings.push_back({&made.back(), gl::matrix(X), tint});
-    };
-    const auto add_line = [&](const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
-        add(tube(std::array{a, b}, radius), {}, tint);
-    };
-    if (!overlays.path.empty()) add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
+/// Where things touch, and forces on fingers.
+void SceneView::Parts::add_contacts(Solids& out, const servo::Frame& frame,
+                                    const Overlays& overlays) const {
     const auto first_finger = static_cast<int>(bodies.size());
     for (const servo::ContactFrame& contact : frame.contacts) {
         const bool a_finger = contact.a >= first_finger;
         const bool b_finger = contact.b >= first_finger;
         if (overlays.contacts)
-            drawings.push_back({&ball,
-                                placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
-                                ink("#ffffff")});
+            out.add(ball, placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
+                    ink("#ffffff"));
         const double newton = contact.f_B_W.norm();
         if (!overlays.forces || a_finger == b_finger || newton < 0.02) continue;
         const Vec3 f_W = b_finger ? contact.f_B_W : Vec3(-contact.f_B_W);
-        add(arrow(kArrowPerNewton * newton, 0.0011), along(contact.p_WC, contact.p_WC + f_W),
-            ink("#22262e"));
+        out.add(arrow(kArrowPerNewton * newton, 0.0011), along(contact.p_WC, contact.p_WC + f_W),
+                ink("#22262e"));
     }
-    if (overlays.grip_axis && fingers.size() > 1) {
-        Vec3 others = Vec3::Zero();
-        for (size_t i = 1; i < fingers.size(); ++i) others += servo::displayed_proxy(frame, i).p;
-        add_line(servo::displayed_proxy(frame, 0).p,
-                 others / static_cast<double>(fingers.size() - 1), 0.0006, ink("#7b4ea3"));
-    }
-    for (const Workspace& workspace : overlays.workspaces) {
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int corner = 0; corner < 4; ++corner) {
-                Vec3 a;
-                a[axis] = -0.5;
-                a[(axis + 1) % 3] = (corner & 1) - 0.5;
-                a[(axis + 2) % 3] = (corner >> 1) - 0.5;
-                Vec3 b = a;
-                b[axis] = 0.5;
-                add_line(workspace.X_WD * a.cwiseProduct(workspace.size),
-                         workspace.X_WD * b.cwiseProduct(workspace.size), 0.0005, ink("#5b6675"));
-            }
+}
+
+/// Each twice: what is in front of the bodies as it is, what is hidden in or behind them faintly.
+void SceneView::Parts::draw_solids(const Solids& solids) const {
+    if (solids.all().empty()) return;
+    surface.set("gloss", 0.4);
+    const auto draw_all = [&] {
+        for (const Solids::Solid& solid : solids.all()) {
+            surface.set("albedo", solid.colour);
+            surface.set("world_from_model", solid.world_from_model);
+            solid.model->draw();
         }
-    }
+    };
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_GREATER);
+    surface.set("alpha", 0.3);
+    draw_all();
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    surface.set("alpha", 1.0);
+    draw_all();
+}
+
+void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) const {
+    Solids solids;
+    if (!overlays.path.empty()) solids.add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
+    add_contacts(solids, frame, overlays);
+    if (overlays.grip_axis && fingers.size() > 1) add_grip_axis(solids, frame, fingers.size());
+    for (const Workspace& workspace : overlays.workspaces) add_workspace(solids, workspace);
     surface.set("shadowed", 0);
     surface.set("grid", 0.0);
     surface.set("fade", 0.0);
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     draw_targets(frame);
-    if (!drawings.empty()) {
-        surface.set("gloss", 0.4);
-        const auto draw_all = [&] {
-            for (const Drawing& drawing : drawings) {
-                surface.set("albedo", drawing.colour);
-                surface.set("world_from_model", drawing.world_from_model);
-                drawing.model->draw();
-            }
-        };
-        glDepthMask(GL_FALSE);
-        glDepthFunc(GL_GREATER);
-        surface.set("alpha", 0.3);
-        draw_all();
-        glDepthMask(GL_TRUE);
-        glDepthFunc(GL_LESS);
-        surface.set("alpha", 1.0);
-        draw_all();
-    }
+    draw_solids(solids);
     if (overlays.handles) draw_ghosts(frame);
     glDisable(GL_BLEND);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -275,25 +276,11 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     out.page.table(table, "Over people, of each person's median. " + origin);
 }
 
-}  // namespace
+std::array<Table*, 4> tables_of(PopulationPage& page) {
+    return {&page.people, &page.adaptation, &page.thresholds, &page.lifts};
+}
 
-PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
-                               const std::string& command) {
-    // figures of simulated people and of persons, or of two populations, are never of one sample
-    using Group = std::pair<std::string, std::string>;  // the title, and who moved the hands
-    std::set<std::string> titles;
-    std::map<Group, Sessions> groups;
-    Sessions all;
-    for (const SessionData& session : sessions) {
-        titles.insert(session.info.title);
-        groups[{session.info.title, session.info.moved_by.describe()}].push_back(&session);
-        all.push_back(&session);
-    }
-    PopulationPage out{
-        Page(titles.size() == 1 ? *titles.begin() : fmt::format("{} experiments", titles.size()),
-             who_moved(all),
-             fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
-                         recording::program_version(), command))};
+void set_columns(PopulationPage& out) {
     out.people.columns = {{"experiment", "title"}, {"ppid", "participant"}, {"round", ""}};
     const std::vector<Table::Column> landmarks = landmark_columns();
     out.people.columns.insert(out.people.columns.end(), landmarks.begin(), landmarks.end());
@@ -318,28 +305,54 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
     out.lifts.columns = {{"experiment", ""},   {"trials", ""},   {"figure", ""},
                          {"people", ""},       {"mean", ""},     {"sd", ""},
                          {"mean_low", "95 %"}, {"mean_high", ""}};
-    const std::vector<Table*> tables{&out.people, &out.adaptation, &out.thresholds, &out.lifts};
-    for (const auto& [group, list] : groups) {
-        const auto& [title, who] = group;
-        const std::string origin = origin_of(list, folder);
-        std::vector<size_t> first;
-        for (const Table* table : tables) first.push_back(table->rows.size());
-        out.page.heading(title);
-        std::set<std::string> people;
-        for (const SessionData* session : list) people.insert(session->participant());
-        const std::string of =
-            people.size() == 1 ? "one participant" : fmt::format("{} participants", people.size());
-        out.page.text(fmt::format("{} {} of {}: {}.", who,
-                                  counted(static_cast<int64_t>(list.size()), "session"), of,
-                                  fmt::join(people, ", ")));
-        add_not_measured(out, title, list);
-        add_adaptation(out, title, list, origin);
-        add_thresholds(out, title, list, origin);
-        add_lifts(out, title, list, origin);
-        for (size_t i = 0; i < tables.size(); ++i)
-            mark(*tables[i], first[i], list.front()->info.moved_by);
+}
+
+/// Sessions of one experiment, of the same kind of people.
+void add_group(PopulationPage& out, const std::string& title, const std::string& who,
+               const Sessions& sessions, const std::string& folder) {
+    const std::string origin = origin_of(sessions, folder);
+    std::vector<size_t> first;
+    for (const Table* table : tables_of(out)) first.push_back(table->rows.size());
+    out.page.heading(title);
+    std::set<std::string> people;
+    for (const SessionData* session : sessions) people.insert(session->participant());
+    const std::string of =
+        people.size() == 1 ? "one participant" : fmt::format("{} participants", people.size());
+    out.page.text(fmt::format("{} {} of {}: {}.", who,
+                              counted(static_cast<int64_t>(sessions.size()), "session"), of,
+                              fmt::join(people, ", ")));
+    add_not_measured(out, title, sessions);
+    add_adaptation(out, title, sessions, origin);
+    add_thresholds(out, title, sessions, origin);
+    add_lifts(out, title, sessions, origin);
+    const auto tables = tables_of(out);
+    for (size_t i = 0; i < tables.size(); ++i)
+        mark(*tables[i], first[i], sessions.front()->info.moved_by);
+}
+
+}  // namespace
+
+PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
+                               const std::string& command) {
+    // figures of simulated people and of persons, or of two populations, are never of one sample
+    using Group = std::pair<std::string, std::string>;  // the title, and who moved the hands
+    std::set<std::string> titles;
+    std::map<Group, Sessions> groups;
+    Sessions all;
+    for (const SessionData& session : sessions) {
+        titles.insert(session.info.title);
+        groups[{session.info.title, session.info.moved_by.describe()}].push_back(&session);
+        all.push_back(&session);
     }
-    for (Table* table : tables) {
+    PopulationPage out{
+        Page(titles.size() == 1 ? *titles.begin() : fmt::format("{} experiments", titles.size()),
+             who_moved(all),
+             fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
+                         recording::program_version(), command))};
+    set_columns(out);
+    for (const auto& [group, list] : groups)
+        add_group(out, group.first, group.second, list, folder);
+    for (Table* table : tables_of(out)) {
         table->columns.insert(table->columns.end(), recording::kMovedByColumns.begin(),
                               recording::kMovedByColumns.end());
     }

@@ -64,8 +64,15 @@ ReportResult report_folder(const std::string& folder, const std::string& command
     }
     std::erase_if(sessions, [&](const SessionData& session) {
         const std::string name = fs::path(session.folder.path()).filename().string();
-        if (!earlier.contains(name)) return false;
-        result.left_out.push_back(session.folder.path() + ": another session goes on with it");
+        if (earlier.contains(name)) {
+            result.left_out.push_back(session.folder.path() + ": another session goes on with it");
+        } else if (session.is_cut_short()) {
+            result.left_out.push_back(session.folder.path() +
+                                      ": it ended before its trials were done; dihaptic resume "
+                                      "goes on with it");
+        } else {
+            return false;
+        }
         return true;
     });
     if (sessions.empty()) {

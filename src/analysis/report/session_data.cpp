@@ -39,6 +39,14 @@ SessionData SessionData::read(const std::string& path) {
     return data;
 }
 
+bool SessionData::is_cut_short() const {
+    if (!is_there(folder.file("trial-list.csv"))) return false;
+    if (info.state == recording::SessionState::interrupted) return true;
+    // of one that was killed its last trial tells
+    return info.state == recording::SessionState::recovered &&
+           (trials.rows() == 0 || trials.text(trials.rows() - 1, "outcome") == "interrupted");
+}
+
 std::string SessionData::not_measured() const {
     std::string out;
     for (const auto& [name, what] : unmeasured)

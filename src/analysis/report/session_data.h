@@ -29,6 +29,9 @@ struct SessionData {
     /// Throws Error when it is no session, or has not ended.
     static SessionData read(const std::string& path);
 
+    /// The session ended before its trials were done: means over people are not for it.
+    bool is_cut_short() const;
+
     std::string participant() const {
         return info.participant.id.empty() ? "?" : info.participant.id;
     }

@@ -116,6 +116,92 @@ void add_windows(Page& page, const SessionData& session,
         page.table(rates, "Models fitted to the curves. " + origin_of(session));
 }
 
+std::vector<Table::Column> adaptation_columns() {
+    return {{"round", ""},
+            {"trial_num", "in the session"},
+            {"block", ""},
+            {"kind", ""},
+            {"unit", "of what follows"},
+            {"perturbation", "0 in a clamp"},
+            {"compensation", "of the hand"},
+            {"two_rate", "fitted"},
+            {"single_rate", "fitted"}};
+}
+
+std::vector<Table::Column> fit_columns() {
+    std::vector<Table::Column> out = landmark_columns();
+    out.insert(out.begin(), {"round", ""});
+    out.insert(out.end(), {{"A_fast", "retention a trial"},
+                           {"A_fast_95", "profile interval"},
+                           {"B_fast", "learning"},
+                           {"B_fast_95", ""},
+                           {"A_slow", ""},
+                           {"A_slow_95", ""},
+                           {"B_slow", ""},
+                           {"B_slow_95", ""},
+                           {"two_rate_sd", "of the residuals"},
+                           {"A", "single rate"},
+                           {"B", ""},
+                           {"single_rate_sd", "of the residuals"},
+                           {"note", "what is not measured"}});
+    return out;
+}
+
+/// Trial by trial: a chart, and rows of the table.
+void add_curve(SessionPage& out, const SessionData& session, const AdaptationCurve& curve,
+               const std::optional<AdaptationFits>& fits) {
+    Series measured{"compensation", Drawn::points, {}, {}, {}, {}, {}};
+    Series perturbation{"perturbation", Drawn::steps, {}, {}, {}, {}, {}};
+    Series two_rate{"two-rate fit", Drawn::line, {}, {}, {}, {}, {}};
+    std::vector<Mark> marks;
+    for (size_t i = 0; i < curve.trials.size(); ++i) {
+        const AdaptationCurve::Trial& trial = curve.trials[i];
+        const auto x = static_cast<double>(i + 1);
+        if (i == 0 || trial.block != curve.trials[i - 1].block) marks.push_back({x, trial.block});
+        measured.x.push_back(x);
+        measured.y.push_back(trial.compensation);
+        perturbation.x.push_back(x);
+        perturbation.y.push_back(trial.clamp ? AdaptationCurve::kNone : trial.perturbation);
+        const double bias = fits ? fits->bias : 0;
+        const double fitted = fits ? bias + fits->two_rate.predicted[i] : AdaptationCurve::kNone;
+        const double single = fits ? bias + fits->single_rate.predicted[i] : AdaptationCurve::kNone;
+        two_rate.x.push_back(x);
+        two_rate.y.push_back(fitted);
+        out.adaptation.rows.push_back({curve.round, static_cast<double>(trial.number), trial.block,
+                                       trial.kind, curve.unit, trial.perturbation,
+                                       trial.compensation, fitted, single});
+    }
+    Chart chart;
+    chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
+    chart.x_label = "trial";
+    chart.y_label = "compensation [" + curve.unit + "]";
+    chart.caption = origin_of(session);
+    chart.marks = marks;
+    chart.series = {perturbation, measured};
+    if (fits) chart.series.push_back(two_rate);
+    out.page.chart(chart);
+}
+
+std::vector<Table::Cell> fit_row(const AdaptationCurve& curve,
+                                 const std::optional<AdaptationFits>& fits, size_t columns) {
+    std::vector<Table::Cell> row{curve.round};
+    const std::vector<Table::Cell> landmarks = curve.landmark_cells();
+    row.insert(row.end(), landmarks.begin(), landmarks.end());
+    if (!fits) {
+        row.resize(columns - 1, AdaptationCurve::kNone);
+        row.emplace_back(curve.note());
+        return row;
+    }
+    const TwoRateFit& two = fits->two_rate;
+    row.insert(row.end(),
+               {two.rates.fast.retention, in_words(two.retention_fast), two.rates.fast.learning,
+                in_words(two.learning_fast), two.rates.slow.retention, in_words(two.retention_slow),
+                two.rates.slow.learning, in_words(two.learning_slow), two.residual_sd,
+                fits->single_rate.rate.retention, fits->single_rate.rate.learning,
+                fits->single_rate.residual_sd, curve.note()});
+    return row;
+}
+
 void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
@@ -125,83 +211,13 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         "less the baseline's mean, by least squares, with 95 % profile "
         "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
         "parameters.");
-    out.adaptation.columns = {{"round", ""},
-                              {"trial_num", "in the session"},
-                              {"block", ""},
-                              {"kind", ""},
-                              {"unit", "of what follows"},
-                              {"perturbation", "0 in a clamp"},
-                              {"compensation", "of the hand"},
-                              {"two_rate", "fitted"},
-                              {"single_rate", "fitted"}};
-    out.fits.columns = landmark_columns();
-    out.fits.columns.insert(out.fits.columns.begin(), {"round", ""});
-    out.fits.columns.insert(out.fits.columns.end(), {{"A_fast", "retention a trial"},
-                                                     {"A_fast_95", "profile interval"},
-                                                     {"B_fast", "learning"},
-                                                     {"B_fast_95", ""},
-                                                     {"A_slow", ""},
-                                                     {"A_slow_95", ""},
-                                                     {"B_slow", ""},
-                                                     {"B_slow_95", ""},
-                                                     {"two_rate_sd", "of the residuals"},
-                                                     {"A", "single rate"},
-                                                     {"B", ""},
-                                                     {"single_rate_sd", "of the residuals"},
-                                                     {"note", "what is not measured"}});
+    out.adaptation.columns = adaptation_columns();
+    out.fits.columns = fit_columns();
     std::vector<std::optional<AdaptationFits>> all_fits;
     for (const AdaptationCurve& curve : session.curves) {
         const auto& fits = all_fits.emplace_back(fit_adaptation(curve));
-        Series measured{"compensation", Drawn::points, {}, {}, {}, {}, {}};
-        Series perturbation{"perturbation", Drawn::steps, {}, {}, {}, {}, {}};
-        Series two_rate{"two-rate fit", Drawn::line, {}, {}, {}, {}, {}};
-        std::vector<Mark> marks;
-        for (size_t i = 0; i < curve.trials.size(); ++i) {
-            const AdaptationCurve::Trial& trial = curve.trials[i];
-            const auto x = static_cast<double>(i + 1);
-            if (i == 0 || trial.block != curve.trials[i - 1].block)
-                marks.push_back({x, trial.block});
-            measured.x.push_back(x);
-            measured.y.push_back(trial.compensation);
-            perturbation.x.push_back(x);
-            perturbation.y.push_back(trial.clamp ? AdaptationCurve::kNone : trial.perturbation);
-            const double bias = fits ? fits->bias : 0;
-            const double fitted =
-                fits ? bias + fits->two_rate.predicted[i] : AdaptationCurve::kNone;
-            const double single =
-                fits ? bias + fits->single_rate.predicted[i] : AdaptationCurve::kNone;
-            two_rate.x.push_back(x);
-            two_rate.y.push_back(fitted);
-            out.adaptation.rows.push_back({curve.round, static_cast<double>(trial.number),
-                                           trial.block, trial.kind, curve.unit, trial.perturbation,
-                                           trial.compensation, fitted, single});
-        }
-        Chart chart;
-        chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
-        chart.x_label = "trial";
-        chart.y_label = "compensation [" + curve.unit + "]";
-        chart.caption = origin_of(session);
-        chart.marks = marks;
-        chart.series = {perturbation, measured};
-        if (fits) chart.series.push_back(two_rate);
-        out.page.chart(chart);
-
-        std::vector<Table::Cell>& row = out.fits.rows.emplace_back();
-        const std::vector<Table::Cell> landmarks = curve.landmark_cells();
-        row = {curve.round};
-        row.insert(row.end(), landmarks.begin(), landmarks.end());
-        if (!fits) {
-            row.resize(out.fits.columns.size() - 1, AdaptationCurve::kNone);
-            row.emplace_back(curve.note());
-            continue;
-        }
-        const TwoRateFit& two = fits->two_rate;
-        row.insert(row.end(),
-                   {two.rates.fast.retention, in_words(two.retention_fast), two.rates.fast.learning,
-                    in_words(two.learning_fast), two.rates.slow.retention,
-                    in_words(two.retention_slow), two.rates.slow.learning,
-                    in_words(two.learning_slow), two.residual_sd, fits->single_rate.rate.retention,
-                    fits->single_rate.rate.learning, fits->single_rate.residual_sd, curve.note()});
+        add_curve(out, session, curve, fits);
+        out.fits.rows.push_back(fit_row(curve, fits, out.fits.columns.size()));
     }
     add_windows(out.page, session, all_fits);
     out.blocks = block_table(session.curves);
@@ -422,65 +438,85 @@ void thin(Series& series) {
     series = std::move(out);
 }
 
-/// Forces and height over the whole of a short session, or over the first complete lift of a long
-/// one.
-void add_course(SessionPage& out, const SessionData& session, recording::RawLogReader& log,
-                const std::function<void(double)>& progress) {
-    double from = 0;
+/// What is drawn over time.
+struct Excerpt {
+    double from = 0;  // [s]
     double to = kLongest;
     std::string what = "The session";
-    if (session.info.ticks * log.head().tick > kLongest) {
-        if (!session.lifts) return;
-        size_t i = 0;
-        while (i < session.lifts->rows() && session.lifts->text(i, "lift") != "complete") ++i;
-        if (i == session.lifts->rows()) return;
-        from = session.lifts->number(i, "touch_s") - 0.3;
-        to = session.lifts->number(i, "release_s") + 0.3;
-        what = fmt::format("Trial {}", session.lifts->text(i, "trial_num"));
-    }
-    const auto& bodies = log.head().bodies;
-    const auto found = std::find(bodies.begin(), bodies.end(), session.info.object);
-    const auto object = static_cast<size_t>(found - bodies.begin());
+};
+
+/// The whole of a short session, or the first complete lift of a long one; none of one without.
+std::optional<Excerpt> excerpt_of(const SessionData& session, const recording::LogHead& head) {
+    if (session.info.ticks * head.tick <= kLongest) return Excerpt{};
+    if (!session.lifts) return std::nullopt;
+    size_t i = 0;
+    while (i < session.lifts->rows() && session.lifts->text(i, "lift") != "complete") ++i;
+    if (i == session.lifts->rows()) return std::nullopt;
+    return Excerpt{session.lifts->number(i, "touch_s") - 0.3,
+                   session.lifts->number(i, "release_s") + 0.3,
+                   fmt::format("Trial {}", session.lifts->text(i, "trial_num"))};
+}
+
+/// Forces and height.
+struct Course {
     Series grip{"grip force", Drawn::line, {}, {}, {}, {}, palette::kGrip};
     Series load{"load force", Drawn::line, {}, {}, {}, {}, palette::kLoad};
     Series height{"height", Drawn::line, {}, {}, {}, {}, {}};
-    std::vector<Series> sent;
+    std::vector<Series> sent;  // by finger
+    std::vector<Mark> marks;   // of phases
+};
+
+Course read_course(const SessionData& session, recording::RawLogReader& log, const Excerpt& excerpt,
+                   const std::function<void(double)>& progress) {
+    const auto& bodies = log.head().bodies;
+    const auto found = std::find(bodies.begin(), bodies.end(), session.info.object);
+    const auto object = static_cast<size_t>(found - bodies.begin());
+    Course out;
     for (const std::string& finger : log.head().fingers)
-        sent.push_back({finger, Drawn::line, {}, {}, {}, {}, palette::finger(sent.size())});
-    std::vector<Mark> marks;
+        out.sent.push_back({finger, Drawn::line, {}, {}, {}, {}, palette::finger(out.sent.size())});
     int phase = -1;
     while (const servo::Frame* frame = log.next()) {
         const double t = seconds(frame->time);
         if (progress) progress(log.share());
-        if (t > to) break;
-        if (t < from) continue;
+        if (t > excerpt.to) break;
+        if (t < excerpt.from) continue;
         if (frame->phase != phase) {
             phase = frame->phase;
             const auto k = static_cast<size_t>(phase);
             if (phase >= 0 && k < session.info.phases.size())
-                marks.push_back({t, session.info.phases[k].name});
+                out.marks.push_back({t, session.info.phases[k].name});
         }
         const auto add = [&](Series& series, double y) {
             series.x.push_back(t);
             series.y.push_back(y);
         };
         if (log.head().fingers.size() > 1) {
-            add(grip, frame->grip_force);
-            add(load, frame->load_force);
+            add(out.grip, frame->grip_force);
+            add(out.load, frame->load_force);
         }
-        if (object < bodies.size()) add(height, 1e3 * frame->bodies[object].X_WB.p.z());
-        for (size_t f = 0; f < sent.size(); ++f) add(sent[f], frame->fingers[f].f_sent_W.norm());
+        if (object < bodies.size()) add(out.height, 1e3 * frame->bodies[object].X_WB.p.z());
+        for (size_t f = 0; f < out.sent.size(); ++f)
+            add(out.sent[f], frame->fingers[f].f_sent_W.norm());
     }
-    out.page.heading(what + " over time");
-    for (Series* series : {&grip, &load, &height}) thin(*series);
-    for (Series& series : sent) thin(series);
-    const std::string origin = origin_of(session);
-    if (!grip.x.empty())
-        out.page.chart({"Grip and load", "time [s]", "N", origin, {grip, load}, marks});
-    out.page.chart({"Force sent to each device", "time [s]", "N", origin, sent, marks});
-    if (!height.x.empty())
-        out.page.chart(
-            {"Height of the " + session.info.object, "time [s]", "mm", origin, {height}, marks});
+    for (Series* series : {&out.grip, &out.load, &out.height}) thin(*series);
+    for (Series& series : out.sent) thin(series);
+    return out;
+}
+
+void add_course(SessionPage& out, const SessionData& session, recording::RawLogReader& log,
+                const std::function<void(double)>& progress) {
+    const std::optional<Excerpt> excerpt = excerpt_of(session, log.head());
+    if (!excerpt) return;
+    const Course course = read_course(session, log, *excerpt, progress);
+    out.page.heading(excerpt->what + " over time");
+    const auto chart = [&](std::string title, const char* unit, std::vector<Series> series) {
+        out.page.chart({std::move(title), "time [s]", unit, origin_of(session), std::move(series),
+                        course.marks});
+    };
+    if (!course.grip.x.empty()) chart("Grip and load", "N", {course.grip, course.load});
+    chart("Force sent to each device", "N", course.sent);
+    if (!course.height.x.empty())
+        chart("Height of the " + session.info.object, "mm", {course.height});
 }
 
 /// What the log shows, and what is wrong with it: the tables were made when it may still have been

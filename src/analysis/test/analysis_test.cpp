@@ -58,6 +58,23 @@ TEST(FaultRecord, KeepsTheSecondBeforeTheFaultAndItsTick) {
     EXPECT_EQ(std::get<double>(table.rows[999].back()), 1.5);
 }
 
+TEST(FaultRecord, KeepsWhatLedToEachFaultOfASessionThatWentOn) {
+    FaultRecord record({"thumb", "index"});
+    for (int i = 0; i < 6000; ++i) {
+        servo::Frame frame = held(i);
+        // from the first fault to the remedy, and again after the second
+        const bool off = (i >= 2000 && i < 3000) || i >= 3500;
+        if (off) frame.status = servo::kForceOff;
+        if (i == 3000) frame.status = servo::kResumed;
+        record.add(frame);
+    }
+    const Table table = record.table();
+    ASSERT_EQ(table.rows.size(), 1001u + 501u);
+    EXPECT_EQ(std::get<double>(table.rows[1000][0]), 2);
+    EXPECT_EQ(std::get<double>(table.rows[1001][0]), 3);
+    EXPECT_EQ(std::get<double>(table.rows.back()[0]), 3.5);
+}
+
 TEST(FaultRecord, HasTorqueOfFingersThatTurn) {
     FaultRecord record({"thumb", "index"}, {"index"});
     for (int i = 0; i < 3; ++i) {

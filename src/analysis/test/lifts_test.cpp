@@ -47,6 +47,7 @@ struct Plan {
     double slides_at = -1;  // for 20 ms, at 50 mm/s
     double rise = 0.4;      // takes so long
     double pauses_at = -1;  // after which grip is thrice what it was
+    double unknown = 0;     // where the object is, until then: ticks are missing
     bool stands = false;    // contacts with the support are seen
     bool falls = false;
 };
@@ -82,7 +83,7 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
         }
         if (plan.slides_at >= 0 && t > plan.slides_at && t <= plan.slides_at + 0.02)
             slid += 0.05 * kTick;
-        frame.bodies[1].X_WB.p = {0, 0, 0.02 + h};
+        frame.bodies[1].X_WB.p = {0, 0, t < plan.unknown ? kUnmeasured : 0.02 + h};
         frame.bodies[1].v_WB = {0, 0, v};
         frame.bodies[1].awake = 1;
         if (paused && t < plan.pauses_at + 1.5 * kTick) frame.status |= servo::kResumed;
@@ -193,6 +194,15 @@ TEST(Lifts, OneWithAPauseIsMarkedAndHasNoFigures) {
     EXPECT_EQ(lift.mark, "paused");
     EXPECT_TRUE(std::isnan(lift.peak_grip));
     EXPECT_TRUE(std::isnan(lift.touch));
+}
+
+TEST(Lifts, OneThatBeginsWhereTicksAreMissingIsMeasuredFromWhereItIsKnown) {
+    Plan plan;
+    plan.unknown = 0.03;
+    EXPECT_EQ(lift_of(plan).mark, "complete");
+    EXPECT_NEAR(lift_of(plan).height, plan.height, 1e-3);
+    plan.unknown = 9;
+    EXPECT_EQ(lift_of(plan).mark, "place not known");
 }
 
 TEST(Lifts, ASlipIsCounted) {

@@ -168,14 +168,18 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
     if (status[kDhdForce] != 0 || stopped_.load(std::memory_order_relaxed)) return out;
     if (running.cause == kDhdByUsb) return kNotAnswering;
     running.off = true;
+    return out | drop_status(running, now);
+}
+
+uint32_t Group::drop_status(Running& running, Time now) noexcept {
     // in a pause nobody says anything, and nothing was taken from the hand
     if (running.cause == kDhdByWatchdog && running.quiet) {
         running.cause = 0;
-        return out;
+        return 0;
     }
     // as long as a person wishes it off it is no fault
-    if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return out | kForceDropped;
-    return out | running.drops.status(now, true);
+    if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
+    return running.drops.status(now, true);
 }
 
 void Group::do_read(Time now, std::span<Reading> readings) noexcept {

@@ -92,6 +92,8 @@ class Group final : public DeviceGroup {
     void set_watchdog(const Device& device) const;
     bool read_motion(const Device& device, Reading& reading) noexcept;
     uint32_t read(size_t i, Time now, Reading& reading) noexcept;
+    /// Of a device that has no force on.
+    static uint32_t drop_status(Running& running, Time now) noexcept;
     int tell(const Device& device, const Wrench& wrench_D) noexcept;
     void keep_last_error(Running& running) noexcept;
     Error error(const Device& device, const std::string& doing) const;

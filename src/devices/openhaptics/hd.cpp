@@ -3,6 +3,49 @@
 #include <fmt/format.h>
 
 namespace dihaptic::devices::openhaptics {
+namespace {
+
+constexpr const char* kLookAtCable =
+    "Look at its cable, its power and, of a parallel port, that it is in EPP mode";
+constexpr const char* kGently = "Soften the coupling, or move more slowly";
+constexpr const char* kMixedUp = "HD_FRAME_ERROR, its frames were mixed up";
+constexpr const char* kReportThis = "Report this, with the session's folder";
+constexpr const char* kNoCallback = "HD_SCHEDULER_FULL, the scheduler takes no callback";
+constexpr const char* kCloseOthers = "Close other programs that use OpenHaptics";
+
+struct HdErrorRow {
+    HdError code;
+    const char* what;
+    const char* remedy;
+};
+
+constexpr HdErrorRow kHdErrorRows[] = {
+    {kHdInvalidValue, "HD_INVALID_VALUE, a value that it cannot take", ""},
+    {kHdInvalidOperation, "HD_INVALID_OPERATION, not now", ""},
+    {kHdBadHandle, "HD_BAD_HANDLE, no such device",
+     "Switch it on, and look for its name in the driver's configuration"},
+    {kHdWarmMotors, "HD_WARM_MOTORS, its motors are hot", "Let them cool, and press less"},
+    {kHdExceededMaxForce, "HD_EXCEEDED_MAX_FORCE, more force than it bears", kGently},
+    {kHdExceededMaxImpulse, "HD_EXCEEDED_MAX_FORCE_IMPULSE, a force that rose too fast", kGently},
+    {kHdExceededMaxVelocity, "HD_EXCEEDED_MAX_VELOCITY, it moved too fast", kGently},
+    {kHdForceError, "HD_FORCE_ERROR, it cannot give force", "Switch it off and on"},
+    {kHdDeviceFault, "HD_DEVICE_FAULT", "Switch it off and on, and run its maker's diagnosis"},
+    {kHdAlreadyInitiated, "HD_DEVICE_ALREADY_INITIATED, it is in use",
+     "Close the other program that uses it, or correct options: name"},
+    {kHdCommError, "HD_COMM_ERROR, the connection to it failed", kLookAtCable},
+    {kHdCommConfigError, "HD_COMM_CONFIG_ERROR, the connection to it is set up wrongly",
+     kLookAtCable},
+    {kHdTimerError, "HD_TIMER_ERROR, the driver's clock failed", "Restart the machine"},
+    {kHdIllegalBegin, kMixedUp, kReportThis},
+    {kHdIllegalEnd, kMixedUp, kReportThis},
+    {kHdFrameError, kMixedUp, kReportThis},
+    {kHdInvalidPriority, kNoCallback, kCloseOthers},
+    {kHdSchedulerFull, kNoCallback, kCloseOthers},
+    {kHdInvalidLicence, "HD_INVALID_LICENSE, no valid licence was found",
+     "Name the licence's file in the environment variable OH_SDK_LICENSE_PATH"},
+};
+
+}  // namespace
 
 HdErrorClass error_class(unsigned code) {
     switch (code) {
@@ -26,55 +69,11 @@ HdErrorClass error_class(unsigned code) {
 }
 
 HdErrorText describe_error(unsigned code) {
-    const std::string cables =
-        "Look at its cable, its power and, of a parallel port, that it is in EPP mode";
-    const std::string gently = "Soften the coupling, or move more slowly";
-    switch (code) {
-        case kHdSuccess:
-            return {};
-        case kHdInvalidValue:
-            return {"HD_INVALID_VALUE, a value that it cannot take", ""};
-        case kHdInvalidOperation:
-            return {"HD_INVALID_OPERATION, not now", ""};
-        case kHdBadHandle:
-            return {"HD_BAD_HANDLE, no such device",
-                    "Switch it on, and look for its name in the driver's configuration"};
-        case kHdWarmMotors:
-            return {"HD_WARM_MOTORS, its motors are hot", "Let them cool, and press less"};
-        case kHdExceededMaxForce:
-            return {"HD_EXCEEDED_MAX_FORCE, more force than it bears", gently};
-        case kHdExceededMaxImpulse:
-            return {"HD_EXCEEDED_MAX_FORCE_IMPULSE, a force that rose too fast", gently};
-        case kHdExceededMaxVelocity:
-            return {"HD_EXCEEDED_MAX_VELOCITY, it moved too fast", gently};
-        case kHdForceError:
-            return {"HD_FORCE_ERROR, it cannot give force", "Switch it off and on"};
-        case kHdDeviceFault:
-            return {"HD_DEVICE_FAULT", "Switch it off and on, and run its maker's diagnosis"};
-        case kHdAlreadyInitiated:
-            return {"HD_DEVICE_ALREADY_INITIATED, it is in use",
-                    "Close the other program that uses it, or correct options: name"};
-        case kHdCommError:
-            return {"HD_COMM_ERROR, the connection to it failed", cables};
-        case kHdCommConfigError:
-            return {"HD_COMM_CONFIG_ERROR, the connection to it is set up wrongly", cables};
-        case kHdTimerError:
-            return {"HD_TIMER_ERROR, the driver's clock failed", "Restart the machine"};
-        case kHdIllegalBegin:
-        case kHdIllegalEnd:
-        case kHdFrameError:
-            return {"HD_FRAME_ERROR, its frames were mixed up",
-                    "Report this, with the session's folder"};
-        case kHdInvalidPriority:
-        case kHdSchedulerFull:
-            return {"HD_SCHEDULER_FULL, the scheduler takes no callback",
-                    "Close other programs that use OpenHaptics"};
-        case kHdInvalidLicence:
-            return {"HD_INVALID_LICENSE, no valid licence was found",
-                    "Name the licence's file in the environment variable OH_SDK_LICENSE_PATH"};
-        default:
-            return {fmt::format("HD error {:#x}", code), "Look it up in OpenHaptics' reference"};
+    if (code == kHdSuccess) return {};
+    for (const HdErrorRow& row : kHdErrorRows) {
+        if (row.code == code) return {row.what, row.remedy};
     }
+    return {fmt::format("HD error {:#x}", code), "Look it up in OpenHaptics' reference"};
 }
 
 Hd load_hd(const std::string& path, const Place& place) {

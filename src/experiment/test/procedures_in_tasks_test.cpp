@@ -62,11 +62,11 @@ constexpr double kSpread = 0.1;
 struct Answered {
     std::string procedure;
     double share;
-    int outcome;
+    Attempt attempt;
 };
 
 /// A director answered at once, until it stops or `most` trials are over.
-std::vector<Answered> answer(const Plan& plan, const std::vector<int>& done, Random& observer,
+std::vector<Answered> answer(const Plan& plan, const std::vector<Attempt>& done, Random& observer,
                              size_t most = 100000) {
     TaskDirector task(*plan.task, plan.seed, 1e-3, done);
     servo::Frame last;
@@ -88,7 +88,8 @@ std::vector<Answered> answer(const Plan& plan, const std::vector<int>& done, Ran
                 {trial.procedure < 0
                      ? ""
                      : plan.task->task.procedures[static_cast<size_t>(trial.procedure)].name,
-                 last.task.share, commands.task.outcome});
+                 last.task.share,
+                 {commands.trial - 1, commands.task.attempt, commands.task.outcome}});
         } else {
             const double z = (commands.task.share - kThreshold) / kSpread;
             const bool yes = observer.uniform(0, 1) < std::erfc(-z / std::sqrt(2)) / 2;
@@ -136,8 +137,8 @@ TEST(ProceduresInTasks, GoOnWhereASessionWasInterrupted) {
     const Plan plan = make_plan(files.request());
     Random observer(5, "observer");
     const auto all = answer(plan, {}, observer);
-    std::vector<int> done;
-    for (size_t i = 0; i < 70; ++i) done.push_back(all[i].outcome);
+    std::vector<Attempt> done;
+    for (size_t i = 0; i < 70; ++i) done.push_back(all[i].attempt);
     Random again(6, "observer");
     const auto rest = answer(plan, done, again, 1);
     ASSERT_EQ(rest.size(), 1u);

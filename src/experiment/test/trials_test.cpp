@@ -103,5 +103,25 @@ TEST(TrialQueue, DoesTrialsAgainWhereThePolicySays) {
     EXPECT_EQ(done(Redo::random, 1), done(Redo::random, 1));
 }
 
+TEST(TrialQueue, GoesThroughWhatWasDoneThoughSomeOfItIsLost) {
+    const std::vector<Trial> trials(4);
+    TrialQueue queue(trials, Redo::end_of_block, 3, 1);
+    const auto made = [&](int trial, int attempt, bool redo) {
+        EXPECT_TRUE(queue.go_to(trial, attempt));
+        EXPECT_EQ(queue.trial(), trial);
+        EXPECT_EQ(queue.attempt(), attempt);
+        queue.finish(redo);
+    };
+    made(0, 1, false);
+    made(2, 1, false);  // how the second trial ended is lost
+    EXPECT_EQ(queue.trial(), 1);
+    made(3, 2, true);  // its first attempt was interrupted by a pause
+    made(3, 3, true);  // and that was the last
+    EXPECT_EQ(queue.trial(), 1);
+    made(1, 1, false);
+    EXPECT_TRUE(queue.empty());
+    EXPECT_FALSE(queue.go_to(1, 1));
+}
+
 }  // namespace
 }  // namespace dihaptic::experiment::trials_test

@@ -120,8 +120,16 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
          {FaultKind::bad_reading, FaultKind::not_answering, FaultKind::not_finite}) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");
         EXPECT_NE(text.find("thumb"), std::string::npos) << text;
-        EXPECT_NE(text.find("1.234 s"), std::string::npos) << text;
-        EXPECT_EQ(text.find("  "), std::string::npos) << text;
+    }
+    // a text that cannot be made would throw just when force goes off
+    for (int i = 1; i <= static_cast<int>(FaultKind::stopped); ++i) {
+        for (const int device : {-1, 0}) {
+            const Fault fault{static_cast<FaultKind>(i), device, when, 2, 1};
+            const std::string text = describe(fault, "thumb", "Premium 1.0");
+            EXPECT_NE(text.find("1.234 s"), std::string::npos) << text;
+            EXPECT_EQ(text.find("  "), std::string::npos) << text;
+            EXPECT_TRUE(text.ends_with('.')) << text;
+        }
     }
 }
 

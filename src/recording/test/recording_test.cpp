@@ -291,6 +291,21 @@ TEST(RawLog, CountsTheTicksThatTheServoLeftOut) {
     EXPECT_EQ(describe_left_out(7, 1e-3).substr(0, 16), "7 ticks (7.0 ms)");
 }
 
+TEST(RawLog, CountsWholeTicksOfDevicesThatKeepAPeriodOfTheirOwn) {
+    const testing::TemporaryFolder folder;
+    Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
+    for (int i = 0; i < 100; ++i) {
+        servo::Frame f = frame(i);
+        f.time += std::chrono::microseconds(i % 2 == 0 ? 150 : -150);
+        if (i >= 50) f.time += std::chrono::milliseconds(3);
+        recorder.record(f);
+    }
+    recorder.finish();
+    RawLogReader reader(folder.file("raw.log"));
+    EXPECT_EQ(count(reader), 100);
+    EXPECT_EQ(reader.health().left_out, 3);
+}
+
 TEST(LogHealth, SaysWhereTicksAreMissingAndInProperGrammar) {
     LogHealth health;
     health.frames = 98;

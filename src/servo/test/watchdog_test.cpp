@@ -37,6 +37,21 @@ TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
     std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
 }
 
+/// As after SIGSTOP and SIGCONT, when both of its deadlines are long past.
+TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
+    std::promise<void> stopped;
+    std::atomic<bool> stuck{false};
+    {
+        Watchdog watchdog(
+            milliseconds(30), [&] { stopped.set_value(); }, [&] { stuck = true; });
+        watchdog.end_tick(Watchdog::Clock::now() - std::chrono::seconds(10));
+        stopped.get_future().wait();
+        std::this_thread::sleep_for(milliseconds(200));
+        watchdog.end_tick(Watchdog::Clock::now());
+    }
+    EXPECT_FALSE(stuck);
+}
+
 /// A servo that spins, on the only processor that it and its watchdog may use: with its priority
 /// alone, the watchdog would wait for ever.
 TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
@@ -84,6 +99,7 @@ class BlockingGroup final : public devices::DeviceGroup {
     }
     std::atomic<int> stops{0};
     std::atomic<bool> blocks{false};
+    int activations = 0;
 
   private:
     static devices::DeviceInfo info(bool simulated) {
@@ -91,7 +107,7 @@ class BlockingGroup final : public devices::DeviceGroup {
         out.simulated = simulated;
         return out;
     }
-    void do_activate() override {}
+    void do_activate() override { ++activations; }
     void do_deactivate() override {}
     void do_read(Time, std::span<devices::Reading> readings) noexcept override { readings[0] = {}; }
     void do_write(std::span<const Wrench>) noexcept override {
@@ -146,6 +162,18 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_GT(blocked.servo->fault().value, Settings{}.safety.max_pause);
     EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // a second after the fault
+}
+
+/// There is no fault then that would say so: the tick was the last before a pause.
+TEST(Watchdog, WhatItStoppedBeginsAnewAfterAPause) {
+    Blocked blocked(true);
+    blocked.servo->resume();
+    EXPECT_EQ(blocked.devices->activations, 1);
+    blocked.servo->stop_devices();
+    blocked.servo->resume();
+    EXPECT_EQ(blocked.devices->activations, 2);
+    blocked.servo->resume();
+    EXPECT_EQ(blocked.devices->activations, 2);
 }
 
 TEST(WatchdogInRealTime, TellsOfSimulatedDevicesThatWaitedAndLeavesThemAlone) {

@@ -1,0 +1,74 @@
+"""No function is long or tangled: at most 60 lines, and a cyclomatic complexity of at most 15.
+
+Those that read better whole are listed in functions_exceptions.txt, each with its reason. The complexity is
+1 + the number of if, for, while, case, catch, &&, || and ?: in the function's text.
+
+Usage: functions_test.py, from the project's folder.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import unittest
+
+MOST_LINES = 60
+MOST_COMPLEX = 15
+# what even an exception may not be
+MOST_LINES_EVER = 80
+MOST_COMPLEX_EVER = 20
+
+EXCEPTIONS = pathlib.Path(__file__).with_name("functions_exceptions.txt")
+
+
+def functions():
+    """(file, name, lines, complexity) of each function of the product."""
+    files = [str(file) for folder in ("src", "app") for file in pathlib.Path(folder).rglob("*")
+             if file.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(file.parts)]
+    tags = subprocess.run(["ctags", "--output-format=json", "--fields=+ne", "--kinds-C++=f", "--language-force=C++", "-f", "-", "-L", "-"],
+                          input="\n".join(files), capture_output=True, text=True, check=True).stdout
+    for line in tags.splitlines():
+        tag = json.loads(line)
+        if "end" not in tag:
+            continue
+        body = "\n".join(pathlib.Path(tag["path"]).read_text().split("\n")[tag["line"] - 1:tag["end"]])
+        body = re.sub(r"//.*|\"(\\.|[^\"\\])*\"|'(\\.|[^'\\])'", "", body)
+        branches = re.findall(r"\b(?:if|for|while|case|catch)\b|&&|\|\||\?", body)
+        scope = [part for part in tag.get("scope", "").split("::") if part and not part.startswith("__anon")]
+        name = "::".join([part for part in scope if part != "dihaptic"] + [tag["name"]])
+        yield tag["path"], name, tag["end"] - tag["line"] + 1, 1 + len(branches)
+
+
+class Functions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.all = list(functions())
+        cls.excepted = {}
+        for line in EXCEPTIONS.read_text().splitlines():
+            if line and not line.startswith("#"):
+                file, name, reason = line.split(None, 2)
+                cls.excepted[file, name] = reason
+
+    def test_are_found(self):
+        self.assertGreater(len(self.all), 3000)
+
+    def test_are_short_and_plain(self):
+        for file, name, lines, complexity in self.all:
+            if (file, name) in self.excepted:
+                continue
+            with self.subTest(f"{file}: {name}"):
+                self.assertLessEqual(lines, MOST_LINES, "lines: split it, or give the reason in functions_exceptions.txt")
+                self.assertLessEqual(complexity, MOST_COMPLEX, "complexity: split it, or give the reason there")
+
+    def test_exceptions_are_needed_and_bounded(self):
+        for file, name in self.excepted:
+            with self.subTest(f"{file}: {name}"):
+                found = [(lines, complexity) for f, n, lines, complexity in self.all if (f, n) == (file, name)]
+                self.assertTrue(found, "is listed, and not there")
+                lines, complexity = map(max, zip(*found))
+                self.assertTrue(lines > MOST_LINES or complexity > MOST_COMPLEX, "needs no exception any more")
+                self.assertLessEqual(lines, MOST_LINES_EVER)
+                self.assertLessEqual(complexity, MOST_COMPLEX_EVER)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
