@@ -2,6 +2,7 @@
 
 #include "analysis/recovery.h"
 #include "base/plural.h"
+#include "base/regular_file.h"
 #include "command.h"
 
 namespace dihaptic::cli {
@@ -33,8 +34,8 @@ void add_recover(CLI::App& app) {
         }
         if (figures.log.left_out > 0)
             fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
-        fmt::print("written: {}, trials.csv, phases.csv, episodes.csv, lifts.csv, events.csv\n",
-                   folder.nwb());
+        fmt::print("written: {}, trials.csv, phases.csv, episodes.csv, events.csv{}\n",
+                   folder.nwb(), is_there(folder.file("lifts.csv")) ? ", lifts.csv" : "");
         if (recovery.had_ended)
             fmt::print("(the session had its files before: they were made anew)\n");
     });

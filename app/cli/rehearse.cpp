@@ -73,6 +73,7 @@ int run_person(const RehearseOptions& options, const std::string& id) {
     try {
         experiment::Request request = options.request;
         request.participant = id;
+        request.order_number = options.population->number_in_group(id);
         experiment::Plan plan = experiment::make_plan(request);
         person::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
         experiment::RunOptions run;

@@ -457,12 +457,14 @@ SessionFigures write_tables(const recording::SessionFolder& folder,
     return out;
 }
 
-recording::NwbContent content_of(const Reading& reading, const recording::SessionInfo& info) {
+recording::NwbContent content_of(const Reading& reading, const recording::SessionInfo& info,
+                                 const recording::SessionFolder& folder) {
     recording::NwbContent content;
     content.info = info;
     const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
     content.trials =
         by(reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info));
+    if (reading.trials) number_session(content.trials, folder);
     content.phases = by(phase_table(reading.figures));
     return content;
 }
@@ -501,7 +503,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     if (!reading.why_no_facts.empty()) add_note(info, reading.why_no_facts);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 
-    recording::NwbContent content = content_of(reading, info);
+    recording::NwbContent content = content_of(reading, info, folder);
     const Table events = events_of(reading, folder, info);
     content.events = as_intervals(events);
     content.settings = settings_left(folder);
@@ -516,7 +518,7 @@ SessionFigures finish_tables(const recording::SessionFolder& folder,
     whole.last_tick = info.ticks - 1;
     reader.pass_->end(whole);
     const Reading& reading = reader.pass_->reading;
-    return write_tables(folder, info, reading, content_of(reading, info),
+    return write_tables(folder, info, reading, content_of(reading, info, folder),
                         events_of(reading, folder, info));
 }
 

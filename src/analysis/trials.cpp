@@ -203,6 +203,19 @@ std::vector<Table::Column> trial_columns() {
     return out;
 }
 
+void number_session(Table& own, const recording::SessionFolder& folder) {
+    if (!is_there(folder.file(kBefore))) return;
+    const CsvFile before(folder.file(kBefore));
+    double last = 1;
+    for (size_t i = 0; i < before.rows(); ++i)
+        last = std::fmax(last, before.number(i, "session_num"));
+    const auto number = static_cast<size_t>(
+        std::find_if(own.columns.begin(), own.columns.end(),
+                     [](const Table::Column& c) { return c.name == "session_num"; }) -
+        own.columns.begin());
+    for (std::vector<Table::Cell>& row : own.rows) row.at(number) = last + 1;
+}
+
 Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
     if (!is_there(folder.file(kBefore))) return own;
     const auto before = read_csv(folder.file(kBefore));
@@ -216,22 +229,14 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
     // an earlier version's table may lack a column, or have it elsewhere
     std::vector<size_t> places;
     for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
-    double session = 1;
     for (size_t i = 1; i < before.size(); ++i) {
         if (before[i].size() != before[0].size()) continue;
-        session = std::max(session, std::strtod(before[i][number].c_str(), nullptr));
         if (before[i][outcome] == kInterrupted) continue;  // done again here
         std::vector<Table::Cell>& row = table.rows.emplace_back();
         for (const size_t place : places)
             row.push_back(cell(place < before[i].size() ? before[i][place] : ""));
     }
-    const auto own_number = [](const Table::Column& c) { return c.name == "session_num"; };
-    const auto own_place = static_cast<size_t>(
-        std::find_if(own.columns.begin(), own.columns.end(), own_number) - own.columns.begin());
-    for (std::vector<Table::Cell> row : own.rows) {
-        row[own_place] = session + 1;
-        table.rows.push_back(std::move(row));
-    }
+    table.rows.insert(table.rows.end(), own.rows.begin(), own.rows.end());
     return table;
 }
 

@@ -83,6 +83,8 @@ class TrialFinder {
     std::vector<Row> rows_;
 };
 
+/// A session that goes on with others has the number after theirs.
+void number_session(Table& own, const recording::SessionFolder& folder);
 /// Puts the finished trials of the sessions that this one goes on with before its own.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 

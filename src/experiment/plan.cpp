@@ -143,7 +143,7 @@ void check_use_of_movement(const Plan& plan, const Request& request, const Exper
 /// The trials, and the hand that does them.
 void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnostics& diagnostics) {
     auto made = std::make_shared<TaskPlan>(plan_task(task, plan.scene, diagnostics));
-    const int number = participant_number(request.participant);
+    const int number = request.order_number.value_or(participant_number(request.participant));
     if (needs_number(task) && number < 0) {
         diagnostics.error(
             task.place, "participant",

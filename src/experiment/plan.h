@@ -26,7 +26,8 @@ struct Request {
     uint64_t seed = 1;
     bool mouse = false;       ///< somebody at a screen moves the simulated hand, not the file
     std::string participant;  ///< identifier: its number may order the trials
-    bool simulate = false;    ///< simulated devices, whatever the rig has
+    std::optional<int> order_number;  ///< orders the trials in its place
+    bool simulate = false;            ///< simulated devices, whatever the rig has
 };
 
 struct Plan {

@@ -353,6 +353,9 @@ class Planner {
         if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
             error(block.place, "perturb", "is missing in a perturbed block",
                   "Name a perturbation, or make it a baseline block.");
+        if (block.kind == TrialKind::error_clamp && block.perturb.empty())
+            error(block.place, "perturb", "is missing in a block of error clamps",
+                  "Name a perturbation with a line (toward), or a channel.");
         if (block.ramp > 0 && block.perturb.empty())
             error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
     }

@@ -274,6 +274,11 @@ std::string Population::group_of(const std::string& id) const {
     return groups[(number_of(id) + groups.size() - 1) % groups.size()].name;
 }
 
+int Population::number_in_group(const std::string& id) const {
+    const size_t each = std::max<size_t>(1, groups.size());
+    return static_cast<int>((number_of(id) + each - 1) / each);
+}
+
 Population read_population(const std::string& file) {
     return read_based({}, file);
 }

@@ -97,6 +97,9 @@ struct Population {
 
     /// The group of a person, by the number that ends `id`; empty without groups.
     std::string group_of(const std::string& id) const;
+    /// Number of a person among those of its group, from 1: by the identifier's own, orders that
+    /// are counterbalanced over people would differ from group to group.
+    int number_in_group(const std::string& id) const;
 };
 
 /// Reads a population file, with the one that it is based on. Throws Error with everything that is

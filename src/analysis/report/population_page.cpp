@@ -36,6 +36,7 @@ void mark(Table& table, size_t first, const recording::MovedBy& by) {
     for (size_t i = first; i < table.rows.size(); ++i) {
         table.rows[i].emplace_back(by.simulated());
         table.rows[i].emplace_back(by.name());
+        table.rows[i].emplace_back(by.population);
     }
 }
 
@@ -313,7 +314,8 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
     const std::string origin = origin_of(sessions, folder);
     std::vector<size_t> first;
     for (const Table* table : tables_of(out)) first.push_back(table->rows.size());
-    out.page.heading(title);
+    const std::string& population = sessions.front()->info.moved_by.population;
+    out.page.heading(population.empty() ? title : title + ": " + population);
     std::set<std::string> people;
     for (const SessionData* session : sessions) people.insert(session->participant());
     const std::string of =
@@ -321,6 +323,12 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
     out.page.text(fmt::format("{} {} of {}: {}.", who,
                               counted(static_cast<int64_t>(sessions.size()), "session"), of,
                               fmt::join(people, ", ")));
+    if (sessions.size() > people.size()) {
+        out.page.text(
+            "Several sessions are of the same participant: each counts as a person in the means "
+            "below, whose intervals are too narrow for that. Take one session of each, or means "
+            "of each participant from population-people.csv.");
+    }
     add_not_measured(out, title, sessions);
     add_adaptation(out, title, sessions, origin);
     add_thresholds(out, title, sessions, origin);
@@ -355,6 +363,7 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
     for (Table* table : tables_of(out)) {
         table->columns.insert(table->columns.end(), recording::kMovedByColumns.begin(),
                               recording::kMovedByColumns.end());
+        table->columns.push_back({"population", "of simulated people, with their group"});
     }
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "testing/files.h"
 
@@ -59,6 +60,19 @@ TEST(Population, HasGroupsInTurnThatDifferInWhatTheyName) {
     // who is drawn is the same with groups and without
     EXPECT_EQ(patient.tempo, draw_person(Objects::device, 1, "sim-002").tempo);
     EXPECT_EQ(control.slow_retention, draw_person(Objects::device, 1, "sim-001").slow_retention);
+}
+
+TEST(Population, CountsPeopleWithinTheirGroup) {
+    const Population grouped = File().read("groups:\n  - { name: a }\n  - { name: b }\n");
+    const Population plain = File().read("");
+    std::map<std::string, std::vector<int>> numbers;
+    for (const std::string id : {"sim-001", "sim-002", "sim-003", "sim-004", "sim-005"}) {
+        numbers[grouped.group_of(id)].push_back(grouped.number_in_group(id));
+        numbers["all"].push_back(plain.number_in_group(id));
+    }
+    EXPECT_EQ(numbers["a"], (std::vector<int>{1, 2, 3}));
+    EXPECT_EQ(numbers["b"], (std::vector<int>{1, 2}));
+    EXPECT_EQ(numbers["all"], (std::vector<int>{1, 2, 3, 4, 5}));
 }
 
 TEST(Population, DrawsWithItsSpreadsAndCorrelations) {

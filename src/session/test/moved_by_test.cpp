@@ -96,7 +96,7 @@ TEST(Report, OfAFolderNeverMixesASimulationWithAPerson) {
     EXPECT_EQ(people.text(2, "ppid").substr(0, 4),
               people.text(2, "moved_by") == "script" ? "S07" : "sim-");
     const std::string page = testing::read_file(report.page);
-    EXPECT_EQ(count(page, "<h2>Reaches</h2>"), 2u);
+    EXPECT_EQ(count(page, "<h2>Reaches"), 2u);
     EXPECT_NE(page.find("Simulated: a simulated person moved the hand"), std::string::npos);
 }
 

@@ -37,6 +37,12 @@ TEST(Staircase, StepsDifferUpAndDownAndByReversals) {
     EXPECT_EQ(staircase.reversals(), (std::vector<double>{6, 8, 7.5}));
 }
 
+TEST(Staircase, ComesBackToTheSameNumbers) {
+    Staircase staircase({.down_after = 1, .start = 0.8, .steps_up = {0.2}, .trials = 100});
+    EXPECT_EQ(levels(staircase, "11110000"),
+              (std::vector<double>{0.8, 0.6, 0.4, 0.2, 0, 0.2, 0.4, 0.6, 0.8}));
+}
+
 TEST(Staircase, StopsAtTheEndsOfItsRange) {
     Staircase staircase({.down_after = 1, .start = 1, .lowest = 0, .highest = 2, .trials = 100});
     EXPECT_EQ(levels(staircase, "111000"), (std::vector<double>{1, 0, 0, 0, 1, 2, 2}));
