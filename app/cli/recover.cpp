@@ -32,6 +32,8 @@ void add_recover(CLI::App& app) {
              recording::describe(figures.log, recovery.info.ticks, recovery.info.planned())) {
             fmt::print("  {}\n", line);
         }
+        for (const std::string& line : recording::describe_version(figures.log))
+            fmt::print("{}\n", line);
         if (figures.log.left_out > 0)
             fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
         fmt::print("written: {}, trials.csv, phases.csv, episodes.csv, events.csv{}\n",

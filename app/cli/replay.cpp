@@ -20,13 +20,14 @@ void add_replay(CLI::App& app) {
                                                 [&](double share) { line.show(share); });
         }
         print(result.warnings);
+        for (const std::string& line : result.version) fmt::print("note: {}\n", line);
         for (const std::string& line : result.log) fmt::print("{}\n", line);
         const std::string ticks = counted(result.ticks, "tick");
         if (result.different_ticks > 0) {
             fmt::print(
                 "{} of {} differ, the first at {:.3f} s: the session was recorded by another "
-                "version or build\n",
-                result.different_ticks, ticks, result.first_difference);
+                "version or build ({})\n",
+                result.different_ticks, ticks, result.first_difference, result.program);
         } else {
             fmt::print("{}{}, every force and position identical to the bit, in {:.2f} s\n",
                        result.good() ? "" : "the first ", ticks, result.elapsed);

@@ -34,7 +34,7 @@ Showing open_session(const std::string& file) {
     const auto folder = recording::SessionFolder::open(file);
     auto log = std::make_shared<recording::RawLogReader>(folder.raw_log());
     const recording::LogHead& head = log->head();
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(UnknownKeys::are_left_out);
     Showing out;
     out.title = head.title;
     out.recorded = true;

@@ -171,14 +171,12 @@ void print_summary(const analysis::SessionFigures& figures, const experiment::Pl
     } else {
         print_phases(figures);
     }
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        const int64_t ticks = figures.status_ticks[static_cast<size_t>(bit)];
-        if (ticks == 0) continue;
-        const servo::StatusText text = servo::describe(static_cast<servo::Status>(1u << bit));
-        fmt::print("{}: in {} of {} {}{}\n", (1u << bit) == servo::kNotFinite ? "WARNING" : "note",
-                   ticks, counted(figures.frames, "tick"), text.what,
+    servo::for_each_status(figures.status, [&](servo::Status bit) {
+        const servo::StatusText text = servo::describe(bit);
+        fmt::print("{}: in {} of {} {}{}\n", bit == servo::kNotFinite ? "WARNING" : "note",
+                   figures.ticks_with(bit), counted(figures.frames, "tick"), text.what,
                    text.remedy.empty() ? "" : ": " + text.remedy);
-    }
+    });
     if (!result.fault.empty()) fmt::print("WARNING: {}\n", result.fault);
     if (!result.stall.empty()) fmt::print("WARNING: {}\n", result.stall);
     const servo::Timing& timing = result.timing;

@@ -11,12 +11,7 @@ namespace {
 enum Column { kFinger, kModel, kForce, kBar, kStatus, kColumns };
 
 QString words(uint32_t status) {
-    QStringList out;
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        if ((status >> bit & 1u) == 0) continue;
-        out += QString::fromStdString(servo::describe(static_cast<servo::Status>(1u << bit)).what);
-    }
-    return out.isEmpty() ? "well" : out.join("; ");
+    return status == 0 ? "well" : QString::fromStdString(servo::words(status));
 }
 
 }  // namespace

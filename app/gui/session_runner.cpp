@@ -22,18 +22,14 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
             servo::describe(result.timing.refusals, plan.settings.real_time_priority));
     }
     const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // the fault says so
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        const auto status = static_cast<servo::Status>(1u << bit);
-        const bool usual =
-            status == servo::kPaused || status == servo::kResumed || status == servo::kSoftStarted;
-        if (usual) continue;
-        if (stopped && (status == servo::kStopped || status == servo::kForceOff)) continue;
-        const int64_t ticks = figures.ticks_with(status);
-        if (ticks == 0) continue;
-        const servo::StatusText text = servo::describe(status);
-        out += QString::fromStdString(fmt::format("In {} of {} ticks {}: {}.", ticks,
-                                                  figures.frames, text.what, text.remedy));
-    }
+    uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
+    if (stopped) told &= ~(servo::kStopped | servo::kForceOff);
+    servo::for_each_status(told, [&](servo::Status bit) {
+        const servo::StatusText text = servo::describe(bit);
+        out +=
+            QString::fromStdString(fmt::format("In {} of {} ticks {}: {}.", figures.ticks_with(bit),
+                                               figures.frames, text.what, text.remedy));
+    });
     if (result.dropped > 0)
         out +=
             QString("%1 frames could not be recorded: the disk is too slow.").arg(result.dropped);

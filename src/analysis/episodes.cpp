@@ -23,13 +23,11 @@ struct State {
 
 State state_of(const Sample& s) {
     if (!s.awake || !s.X_WB.p.allFinite()) return {};
-    const bool touched =
-        std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
     if (s.on_support) {
         if (!(s.v_sliding.norm() > kSlideSpeed)) return {};
         return {EpisodeKind::slide, s.touching};
     }
-    return {touched ? EpisodeKind::hold : EpisodeKind::flight, s.touching};
+    return {s.touched() ? EpisodeKind::hold : EpisodeKind::flight, s.touching};
 }
 
 struct Run {

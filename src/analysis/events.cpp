@@ -164,12 +164,10 @@ void EventFinder::add_settings(const servo::Frame& frame) {
 void EventFinder::add_status(const servo::Frame& frame) {
     if ((frame.status & servo::kPaused) != 0) say(frame, "paused", "force off");
     if ((frame.status & servo::kResumed) != 0) say(frame, "went on", "after a pause");
-    constexpr uint32_t kLimits = servo::kAllStatus & ~(servo::kPaused | servo::kResumed);
-    uint32_t begun = frame.status & ~status_ & kLimits;
-    for (; begun != 0; begun &= begun - 1) {
-        const uint32_t lowest = begun & ~(begun - 1);
-        say(frame, "limit", servo::describe(static_cast<servo::Status>(lowest)).what);
-    }
+    constexpr uint32_t kLimits = ~uint32_t{servo::kPaused | servo::kResumed};
+    servo::for_each_status(frame.status & ~status_ & kLimits, [&](servo::Status bit) {
+        say(frame, "limit", servo::describe(bit).what);
+    });
     status_ = frame.status;
 }
 

@@ -10,25 +10,14 @@ void add_vector(std::vector<Table::Cell>& row, const Vec3& value, double scale) 
     for (int axis = 0; axis < 3; ++axis) row.emplace_back(value[axis] * scale);
 }
 
-/// All that a finger or a tick has to say, in words.
-std::string words(uint32_t status) {
-    std::string out;
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        if ((status >> bit & 1u) == 0) continue;
-        if (!out.empty()) out += "; ";
-        out += servo::describe(static_cast<servo::Status>(1u << bit)).what;
-    }
-    return out;
-}
-
 }  // namespace
 
 void FaultRecord::add(const servo::Frame& frame) {
     if ((frame.status & servo::kResumed) != 0) ended_ = false;
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
-    if (!last_.empty() &&
-        old()) {  // its memory serves again: this is done for each tick of a session
+    if (!last_.empty() && old()) {
+        // Every tick of a session comes here: the oldest frame's memory serves again.
         last_.splice(last_.end(), last_, last_.begin());
     } else {
         last_.emplace_back();
@@ -72,8 +61,8 @@ Table FaultRecord::table() const {
                              "torque_asked_%_Nm", "torque_sent_%_Nm"});
     }
     for (const servo::Frame& frame : faults_) {
-        std::vector<Table::Cell> row{seconds(frame.time), words(frame.status), frame.lateness * 1e3,
-                                     frame.tick_duration * 1e3};
+        std::vector<Table::Cell> row{seconds(frame.time), servo::words(frame.status),
+                                     frame.lateness * 1e3, frame.tick_duration * 1e3};
         for (const servo::FingerFrame& finger : frame.fingers) {
             add_vector(row, finger.p_DH, 1e3);
             add_vector(row, finger.v_DH, 1);

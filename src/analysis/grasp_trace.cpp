@@ -106,12 +106,13 @@ Range GraspTrace::of_phase(int phase) const {
     return range;
 }
 
+bool GraspTrace::Sample::touched() const {
+    return std::any_of(touching.begin(), touching.end(), [](char t) { return t; });
+}
+
 size_t GraspTrace::lift_off() const {
     for (size_t i = 0; i < samples_.size(); ++i) {
-        const Sample& s = samples_[i];
-        const bool held =
-            std::any_of(s.touching.begin(), s.touching.end(), [](char t) { return t; });
-        if (held && !s.on_support) return i;
+        if (samples_[i].touched() && !samples_[i].on_support) return i;
     }
     return samples_.size();
 }

@@ -52,6 +52,9 @@ class GraspTrace {
         PerFinger<Vec3> f_tangential_W;  ///< on the finger [N]
         double friction_scale = 1;       ///< of the object's coefficients, over the scene's
         bool resumed = false;            ///< the session went on after a pause
+
+        /// Some finger presses the object.
+        bool touched() const;
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }

@@ -437,10 +437,6 @@ void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, R
     lift.height = mean(part(signals.height, hold));
 }
 
-bool any_touching(const GraspTrace::Sample& sample) {
-    return std::any_of(sample.touching.begin(), sample.touching.end(), [](char t) { return t; });
-}
-
 /// Replacement and release; the mark says which of them is not there, or else "complete".
 void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
     lift.mark = "not put down";
@@ -448,7 +444,7 @@ void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
     lift.replacement = trace.samples()[*events.replacement].time;
     lift.mark = "dropped";
     for (size_t i = events.lift_off; i < *events.replacement; ++i) {
-        if (!any_touching(trace.samples()[i])) return;
+        if (!trace.samples()[i].touched()) return;
     }
     lift.mark = "not released";
     size_t released = *events.replacement;

@@ -22,7 +22,7 @@ bool is_cut(const std::string& file) {
 void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
     servo::Settings settings;
     try {
-        Diagnostics unreadable;
+        Diagnostics unreadable(UnknownKeys::are_left_out);
         read_fields(settings, read_yaml(folder.file("settings.yaml")), unreadable);
         unreadable.throw_if_errors();
     } catch (const Error&) {

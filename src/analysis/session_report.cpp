@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -70,7 +69,7 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
         return {};
     }
     try {
-        Diagnostics diagnostics;
+        Diagnostics diagnostics(UnknownKeys::are_left_out);
         const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
         const int i = scene.find(name);
         if (diagnostics.has_errors() || i < 0 || !recording::fits(head, scene)) {
@@ -170,9 +169,7 @@ struct SessionReader::Pass {
         ++figures.frames;
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
-        // a later version's log may have more of them
-        for (uint32_t left = frame.status & servo::kAllStatus; left != 0; left &= left - 1)
-            ++figures.status_ticks[static_cast<size_t>(std::countr_zero(left))];
+        servo::for_each_status(frame.status, [&](servo::Status bit) { ++figures.ticks_with(bit); });
     }
 
     void end(const recording::LogHealth& log) {
@@ -500,6 +497,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     keep_longer_files(folder, figures, damage);
     if (figures.log.damaged(info.ticks)) info.state = recording::SessionState::recovered;
     for (const std::string& what : damage) add_note(info, what);
+    for (const std::string& what : recording::describe_version(figures.log)) add_note(info, what);
     if (!reading.why_no_facts.empty()) add_note(info, reading.why_no_facts);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 

@@ -50,11 +50,15 @@ struct SessionFigures {
     bool failed() const {
         return diverged() || ((status & servo::kForceOff) != 0 && (status & servo::kStopped) == 0);
     }
-    int64_t ticks_with(servo::Status bit) const {
-        return status_ticks[static_cast<size_t>(std::countr_zero(static_cast<uint32_t>(bit)))];
-    }
+    int64_t ticks_with(servo::Status bit) const { return status_ticks[place_of(bit)]; }
+    int64_t& ticks_with(servo::Status bit) { return status_ticks[place_of(bit)]; }
     /// The phase of that name, or null.
     const PhaseFigures* phase(const std::string& name) const;
+
+  private:
+    static size_t place_of(servo::Status bit) {
+        return static_cast<size_t>(std::countr_zero(static_cast<uint32_t>(bit)));
+    }
 };
 
 /// "thumb, index"

@@ -64,6 +64,15 @@ void Diagnostics::warning(Place place, std::string key, std::string what, std::s
         {Severity::warning, std::move(place), std::move(key), std::move(what), std::move(remedy)});
 }
 
+void Diagnostics::unknown_key(Place place, std::string key, std::string remedy) {
+    if (unknown_ == UnknownKeys::are_errors) {
+        error(std::move(place), std::move(key), "is not known here", std::move(remedy));
+    } else {
+        warning(std::move(place), std::move(key),
+                "is not known to this version of Dihaptic, and is left out", "");
+    }
+}
+
 void Diagnostics::add(const std::vector<Problem>& problems) {
     problems_.insert(problems_.end(), problems.begin(), problems.end());
 }

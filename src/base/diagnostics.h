@@ -41,11 +41,18 @@ class Error : public std::runtime_error {
     std::vector<Problem> problems_;
 };
 
+/// In what people write, a key that is not known is a mistake; in what another version of this
+/// program wrote, it is what that version had and this one has not.
+enum class UnknownKeys { are_errors, are_left_out };
+
 /// Collects problems while an input is read.
 class Diagnostics {
   public:
+    explicit Diagnostics(UnknownKeys unknown = UnknownKeys::are_errors) : unknown_(unknown) {}
+
     void error(Place place, std::string key, std::string what, std::string remedy);
     void warning(Place place, std::string key, std::string what, std::string remedy);
+    void unknown_key(Place place, std::string key, std::string remedy);
     void add(const std::vector<Problem>& problems);
 
     const std::vector<Problem>& problems() const { return problems_; }
@@ -54,6 +61,7 @@ class Diagnostics {
     void throw_if_errors() const;
 
   private:
+    UnknownKeys unknown_;
     std::vector<Problem> problems_;
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/text_file.h"
@@ -29,15 +28,8 @@ std::string origin_of(const Place& place) {
     return place.line > 0 ? fmt::format("{}:{}", place.file, place.line) : place.file;
 }
 
-std::optional<double> finite_number(const Node& node) {
-    if (node.kind != Node::Kind::scalar) return std::nullopt;
-    double value = 0;
-    const std::string& text = node.scalar;
-    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* last = text.data() + text.size();
-    const auto [end, status] = std::from_chars(first, last, value);
-    if (status != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
+std::optional<double> number_in(const Node& node) {
+    return node.kind == Node::Kind::scalar ? finite_number(node.scalar) : std::nullopt;
 }
 
 bool is_too_low(const Field& field, double si) {
@@ -118,7 +110,7 @@ void FieldReader::note_origin(std::string_view name, const Node& node) {
 
 std::optional<double> FieldReader::number(const Given& given, const Node& node,
                                           const Field& field) {
-    const auto value = finite_number(node);
+    const auto value = number_in(node);
     if (!value) {
         const std::string shown = node.kind == Node::Kind::scalar
                                       ? "'" + shortened(node.scalar) + "'"
@@ -321,9 +313,9 @@ void FieldReader::finish() {
             continue;
         }
         const std::string guess = nearest(key, known);
-        diagnostics_.error(node.place, key, "is not known here",
-                           guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
-                                         : fmt::format("Did you mean {}?", guess));
+        diagnostics_.unknown_key(node.place, key,
+                                 guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
+                                               : fmt::format("Did you mean {}?", guess));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -128,6 +129,15 @@ void write_file(const std::string& text, const std::string& file, Keep keep) {
     fs::remove(part, failed);
     throw Error({file, 0}, "", "cannot be written: " + why,
                 "Check the folder's permissions and the disk's space.");
+}
+
+std::optional<double> finite_number(std::string_view word) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0;
+    const char* const last = word.data() + word.size();
+    const auto [end, status] = std::from_chars(word.data(), last, value);
+    if (status != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 std::string shortened(const std::string& text) {

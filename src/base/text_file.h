@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace dihaptic {
 
@@ -30,6 +32,10 @@ void write_file(const std::string& text, const std::string& file, Keep keep = Ke
 std::string part_name(const std::string& file);
 /// Removes the parts of `file` whose programs ended before they were whole: those were killed.
 void remove_dead_parts(const std::string& file);
+
+/// The number that all of a word says, "+1e3" too; nothing when it says none, or one that is not
+/// finite.
+std::optional<double> finite_number(std::string_view word);
 
 /// A word of a file, short enough to be quoted in a message.
 std::string shortened(const std::string& text);

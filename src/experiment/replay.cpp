@@ -1,9 +1,9 @@
 #include "experiment/replay.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 
 #include "base/field_writer.h"
 #include "recording/log_scene.h"
@@ -14,33 +14,11 @@ namespace {
 using Wall = std::chrono::steady_clock;
 
 /// Equal to the bit, so that a NaN equals itself.
-template <class Vector>
-bool same_bits(const Vector& a, const Vector& b) {
-    for (Eigen::Index i = 0; i < a.size(); ++i) {
-        if (std::bit_cast<uint64_t>(a[i]) != std::bit_cast<uint64_t>(b[i])) return false;
-    }
-    return true;
-}
-
 bool same(const servo::Frame& frame, const servo::Frame& recorded) {
-    bool out = frame.sequence == recorded.sequence;
-    for (size_t i = 0; i < frame.fingers.size(); ++i) {
-        const servo::FingerFrame& a = frame.fingers[i];
-        const servo::FingerFrame& b = recorded.fingers[i];
-        out = out && same_bits(a.f_sent_W, b.f_sent_W) && same_bits(a.f_asked_W, b.f_asked_W) &&
-              same_bits(a.p_WP, b.p_WP) && same_bits(a.R_WP.coeffs(), b.R_WP.coeffs());
-    }
-    for (size_t i = 0; i < frame.turns.size(); ++i) {
-        const servo::TurnFrame& a = frame.turns[i];
-        const servo::TurnFrame& b = recorded.turns[i];
-        out = out && same_bits(a.t_sent_W, b.t_sent_W) && same_bits(a.t_asked_W, b.t_asked_W);
-    }
-    for (size_t i = 0; i < frame.bodies.size(); ++i) {
-        const Pose& a = frame.bodies[i].X_WB;
-        const Pose& b = recorded.bodies[i].X_WB;
-        out = out && same_bits(a.p, b.p) && same_bits(a.R.coeffs(), b.R.coeffs());
-    }
-    return out;
+    const std::vector<double> a = outcome_of(frame);
+    const std::vector<double> b = outcome_of(recorded);
+    return frame.sequence == recorded.sequence && a.size() == b.size() &&
+           std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 /// What a device had said that took its force away, from its finger's status.
@@ -152,16 +130,41 @@ void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
 
 }  // namespace
 
+std::vector<double> outcome_of(const servo::Frame& frame) {
+    std::vector<double> out;
+    out.reserve(13 * frame.fingers.size() + 6 * frame.turns.size() + 7 * frame.bodies.size());
+    const auto add = [&](const auto& vector) {
+        out.insert(out.end(), vector.data(), vector.data() + vector.size());
+    };
+    for (const servo::FingerFrame& finger : frame.fingers) {
+        add(finger.f_sent_W);
+        add(finger.f_asked_W);
+        add(finger.p_WP);
+        add(finger.R_WP.coeffs());
+    }
+    for (const servo::TurnFrame& turn : frame.turns) {
+        add(turn.t_sent_W);
+        add(turn.t_asked_W);
+    }
+    for (const servo::BodyFrame& body : frame.bodies) {
+        add(body.X_WB.p);
+        add(body.X_WB.R.coeffs());
+    }
+    return out;
+}
+
 ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,
                             const Progress& progress) {
     const auto folder = recording::SessionFolder::open(path);
     recording::RawLogReader log(folder.raw_log());
     const recording::LogHead& head = log.head();
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(UnknownKeys::are_left_out);
     const recording::SessionInfo info = folder.read_info(head, diagnostics);
     ReplayResult result;
-    result.warnings = diagnostics.problems();
     const Inputs inputs = read_inputs(folder, head, diagnostics);
+    result.warnings = diagnostics.problems();
+    result.version = recording::describe_version(log.health());
+    result.program = info.program;
 
     const servo::Frame* recorded = log.next();
     devices::Context context;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,15 +41,6 @@ bool is_missing(const std::string& cell) {
     for (const char c : cell)
         lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return lower.empty() || lower == "nan" || lower == "na";
-}
-
-std::optional<double> number(const std::string& cell) {
-    double value = 0;
-    const char* first = cell.data() + (cell.starts_with('+') ? 1 : 0);
-    const char* last = cell.data() + cell.size();
-    const auto [end, status] = std::from_chars(first, last, value);
-    if (status != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 /// Which cell of a line is what, from the header.
@@ -225,7 +215,7 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     const auto cell = [&](int i) {
         const std::string& text = cells[static_cast<size_t>(i)];
         if (is_missing(text)) return kUnmeasured;
-        if (const auto value = number(text)) return *value;
+        if (const auto value = finite_number(text)) return *value;
         problems.error(place, columns.key(i), fmt::format("'{}' is not a number", shortened(text)),
                        kLineRemedy);
         readable = false;

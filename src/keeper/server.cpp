@@ -149,6 +149,11 @@ void Server::write_zero() noexcept {
 void Server::take_force_away() noexcept {
     if (page_.off.load() != 0) return;
     write_zero();
+    switch_off();
+}
+
+/// A zero written is all that devices know that cannot be stopped.
+void Server::switch_off() noexcept {
     if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
 
@@ -179,7 +184,7 @@ bool Server::take_turn() noexcept {
         write();
     } else {
         write_zero();
-        if (ended() && (!devices_->can_stop() || devices_->stop())) page_.off.store(1);
+        if (ended()) switch_off();
     }
     return page_.closing.load() == 0;
 }
@@ -194,8 +199,7 @@ void Server::watch() noexcept {
         const bool wanted = ended() || hangs;
         if (wanted && !stopped) {
             if (ended()) std::this_thread::sleep_for(kOwnWay);
-            if (page_.off.load() == 0 && devices_->can_stop() && devices_->stop())
-                page_.off.store(1);
+            if (page_.off.load() == 0 && devices_->can_stop()) switch_off();
         } else if (ended()) {
             std::this_thread::sleep_for(kLook);
         }

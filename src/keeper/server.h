@@ -45,6 +45,7 @@ class Server {
     void write() noexcept;
     void write_zero() noexcept;
     void take_force_away() noexcept;
+    void switch_off() noexcept;
     void watch() noexcept;
     bool ended() const noexcept { return page_.ended.load(std::memory_order_acquire) != 0; }
 

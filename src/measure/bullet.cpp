@@ -47,7 +47,6 @@ void run(const Trial& trial, int steps, const Watch& watch) {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
     world.setGravity(to_bullet(trial.scene.gravity));
-    gContactBreakingThreshold = kBulletBreakingThreshold;
     std::vector<Body> bodies;
     for (const scene::Body& body : trial.scene.bodies) {
         bodies.push_back(make_body(body));

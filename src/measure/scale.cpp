@@ -47,7 +47,6 @@ class BareWorld {
           k_(setup.settings.coupling.stiffness),
           c_(haptics::damping(setup.settings.coupling, h_)) {
         world_.setGravity(vector(scene_.gravity));
-        gContactBreakingThreshold = kBulletBreakingThreshold;
         btContactSolverInfo& info = world_.getSolverInfo();
         const dynamics::Settings& settings = setup.settings.dynamics;
         info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;

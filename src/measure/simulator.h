@@ -34,10 +34,6 @@ struct Simulator {
     scene::ShapeKind slope = scene::ShapeKind::box;
 };
 
-/// How far two bodies' contact points may part before Bullet drops them, as it comes [m]. A global
-/// of Bullet's, which our World changes in every step: a bare Bullet world sets it back.
-constexpr double kBulletBreakingThreshold = 0.02;
-
 /// Our World. Nothing sleeps.
 Simulator world_simulator(dynamics::Settings settings);
 

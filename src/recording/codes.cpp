@@ -28,13 +28,12 @@ std::string listed() {
 }
 
 std::string bits() {
-    std::string out = "a sum of";
-    for (int bit = 0; bit < servo::kStatusBits; ++bit) {
-        const auto status = static_cast<servo::Status>(1u << bit);
-        out +=
-            fmt::format("{} {}: {}", bit == 0 ? "" : ";", 1u << bit, servo::describe(status).what);
-    }
-    return out;
+    std::vector<std::string> texts;
+    servo::for_each_status(servo::kAllStatus, [&](servo::Status bit) {
+        texts.push_back(
+            fmt::format("{}: {}", static_cast<uint32_t>(bit), servo::describe(bit).what));
+    });
+    return fmt::format("a sum of {}", fmt::join(texts, "; "));
 }
 
 std::string listed_or_none(const std::vector<std::string>& names) {

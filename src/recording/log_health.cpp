@@ -1,6 +1,7 @@
 #include "recording/log_health.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -126,6 +127,23 @@ std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double
     describe_gaps(out, health);
     for (const Stray& stray : health.strays) out.push_back(describe(stray));
     describe_end(out, health, ticks, planned);
+    return out;
+}
+
+std::vector<std::string> describe_version(const LogHealth& health) {
+    std::vector<std::string> out;
+    if (!health.not_recorded.empty()) {
+        out.push_back(fmt::format(
+            "another version recorded this: it did not record {}, which {} at the "
+            "default wherever it is shown",
+            fmt::join(health.not_recorded, ", "), health.not_recorded.size() == 1 ? "is" : "are"));
+    }
+    if (!health.passed_over.empty()) {
+        out.push_back(
+            fmt::format("another version recorded this: what it recorded of {} is left "
+                        "out",
+                        fmt::join(health.passed_over, ", ")));
+    }
     return out;
 }
 

@@ -50,6 +50,9 @@ struct LogHealth {
     bool unfinished = false;    ///< the tail is the beginning of a chunk, not a damaged one
     int64_t tail_ticks = 0;     ///< in the tail, about
     int64_t tail_chunks = 0;    ///< gone between the last tick and the end mark
+    /// Of a log of another version: what frames have today and had not then, and the reverse.
+    std::vector<std::string> not_recorded;
+    std::vector<std::string> passed_over;
 
     void note(Stray::Kind kind, int64_t count, int64_t bytes);
     /// Between the first tick and the last that is there.
@@ -62,6 +65,8 @@ struct LogHealth {
 /// In sentences: each gap, what does not belong there, and the end. `ticks` as in damaged();
 /// `planned`: how long the session was to be [s]; 0: not known.
 std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double planned);
+/// How a log of another version differs, in sentences; none of one of this version.
+std::vector<std::string> describe_version(const LogHealth& health);
 /// Ticks that the servo left out, in a sentence; "" without any. `period`: of a tick [s].
 std::string describe_left_out(int64_t ticks, double period);
 

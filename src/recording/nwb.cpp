@@ -1,6 +1,7 @@
 #include "recording/nwb.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -89,35 +90,44 @@ class Series {
     hdf5::Rows rows_;
 };
 
-/// One item of a list as numbers, with their names.
-class RowMaker {
+/// One item of a list as numbers.
+class Row {
   public:
     template <class T>
-    void operator()(const char* name, const T& value, const char* unit) {
-        const std::string with_unit =
-            unit == std::string("1") ? name : fmt::format("{} [{}]", name, unit);
+    void operator()(const char*, const T& value, const char*) {
         if constexpr (std::is_same_v<T, Vec3>) {
-            for (int i = 0; i < 3; ++i) row.push_back(value[i]);
-            names += ", " + with_unit + " x y z";
+            numbers.insert(numbers.end(), value.data(), value.data() + 3);
         } else if constexpr (std::is_same_v<T, Quat>) {
-            for (const double part : {value.w(), value.x(), value.y(), value.z()})
-                row.push_back(part);
-            names += ", " + with_unit + " w x y z";
+            numbers.insert(numbers.end(), {value.w(), value.x(), value.y(), value.z()});
         } else {
-            row.push_back(static_cast<double>(value));
-            names += ", " + with_unit;
+            numbers.push_back(static_cast<double>(value));
         }
     }
-    std::vector<double> row;
-    std::string names;
+    std::vector<double> numbers;
+};
+
+/// What these numbers are, in words.
+class RowNames {
+  public:
+    template <class T>
+    void operator()(const char* name, const T&, const char* unit) {
+        std::string text = unit == std::string("1") ? name : fmt::format("{} [{}]", name, unit);
+        if constexpr (std::is_same_v<T, Vec3>) text += " x y z";
+        if constexpr (std::is_same_v<T, Quat>) text += " w x y z";
+        names.push_back(text);
+    }
+    std::vector<std::string> names;
 };
 
 /// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
 /// them.
 class FrameExporter {
   public:
-    FrameExporter(hid_t acquisition, const LogHead& head)
-        : acquisition_(acquisition), head_(head), turning_(head.turning_fingers()) {}
+    FrameExporter(hid_t acquisition, const RawLogReader& log)
+        : acquisition_(acquisition),
+          head_(log.head()),
+          not_recorded_(log.health().not_recorded),
+          turning_(log.head().turning_fingers()) {}
 
     void add(const servo::Frame& frame) {
         next_ = 0;
@@ -129,7 +139,6 @@ class FrameExporter {
     void close() {
         for (Series& series : series_) series.close(head_.tick, regular_ ? nullptr : &times_);
         for (auto& [name, list] : lists_) list.series.close(head_.tick, &list.times);
-        if (contacts_) contacts_->close(head_.tick, &contact_times_);
     }
 
     // as a visitor
@@ -146,79 +155,66 @@ class FrameExporter {
             put(name, &number, 1, unit, whole ? hdf5::Numbers::whole : hdf5::Numbers::real);
         }
     }
-    void each(const char*, const std::vector<servo::FingerFrame>& fingers) {
+    void each(const char* name, const std::vector<servo::FingerFrame>& fingers) {
+        list_ = name;
         for (size_t i = 0; i < fingers.size(); ++i) {
             prefix_ = head_.fingers[i] + "_";
             servo::FingerFrame::visit(fingers[i], *this);
         }
         prefix_.clear();
+        list_ = nullptr;
     }
-    void each(const char*, const std::vector<servo::TurnFrame>& turns) {
+    void each(const char* name, const std::vector<servo::TurnFrame>& turns) {
+        list_ = name;
         for (size_t i = 0; i < turns.size(); ++i) {
             prefix_ = turning_[i] + "_";
             servo::TurnFrame::visit(turns[i], *this);
         }
         prefix_.clear();
+        list_ = nullptr;
     }
-    void changed(const char*, const std::vector<servo::BodyFrame>& bodies,
+    void changed(const char* name, const std::vector<servo::BodyFrame>& bodies,
                  const std::vector<uint16_t>&) {
+        list_ = name;
         for (size_t i = 0; i < bodies.size(); ++i) {
             prefix_ = head_.bodies[i] + "_";
             servo::BodyFrame::visit(bodies[i], *this);
         }
         prefix_.clear();
+        list_ = nullptr;
     }
-    /// Lists of a task: a series each, with a row an item, once there is one.
+    /// Lists of any length: a series each, with a row an item, once there is one.
     template <class T>
     void each(const char* name, const std::vector<T>& items) {
         for (const T& item : items) {
-            RowMaker maker;
-            T::visit(item, maker);
+            row_.numbers.clear();
+            T::visit(item, row_);
             auto found = lists_.find(name);
-            if (found == lists_.end()) {
-                const std::string what = fmt::format("A row for each item of the tick's {}: {}.",
-                                                     name, maker.names.substr(2));
-                found = lists_
-                            .emplace(name, List{Series(acquisition_, fmt::format("task_{}", name),
-                                                       maker.row.size(), "n/a", what, ""),
-                                                {}})
-                            .first;
-            }
-            found->second.series.add(maker.row.data());
+            if (found == lists_.end())
+                found = lists_.emplace(name, List{begin_list<T>(name), {}}).first;
+            found->second.series.add(row_.numbers.data());
             found->second.times.push_back(times_.back());
-        }
-    }
-    void each(const char*, const std::vector<servo::ContactFrame>& contacts) {
-        for (const servo::ContactFrame& c : contacts) {
-            const double row[14] = {static_cast<double>(c.a),
-                                    static_cast<double>(c.b),
-                                    static_cast<double>(c.points),
-                                    c.p_WC.x(),
-                                    c.p_WC.y(),
-                                    c.p_WC.z(),
-                                    c.n_W.x(),
-                                    c.n_W.y(),
-                                    c.n_W.z(),
-                                    c.gap,
-                                    c.normal_force,
-                                    c.f_B_W.x(),
-                                    c.f_B_W.y(),
-                                    c.f_B_W.z()};
-            if (!contacts_) {
-                contacts_.emplace(acquisition_, "contacts", 14, "n/a",
-                                  "A row a contact: body a, body b (0 up: the scene's bodies in "
-                                  "order, then the fingers), "
-                                  "points, centre of pressure x y z [m], normal x y z from a to b, "
-                                  "smallest gap [m], "
-                                  "normal force [N], force on b x y z [N]. In the world's axes.",
-                                  "");
-            }
-            contacts_->add(row);
-            contact_times_.push_back(times_.back());
         }
     }
 
   private:
+    template <class T>
+    Series begin_list(const std::string& name) const {
+        RowNames columns;
+        const T item{};
+        T::visit(item, columns);
+        const bool of_contacts = std::is_same_v<T, servo::ContactFrame>;
+        std::string what = fmt::format("A row for each of the tick's {}: {}.", name,
+                                       fmt::join(columns.names, ", "));
+        if (of_contacts) {
+            what +=
+                " Bodies are counted from 0: the scene's in order, then the fingers. The "
+                "position is the centre of pressure, the normal points from a to b, the gap is "
+                "the smallest. In the world's axes.";
+        }
+        return Series(acquisition_, of_contacts ? name : "task_" + name, row_.numbers.size(), "n/a",
+                      what, "");
+    }
     void put(const std::string& name, const double* value, size_t columns, const char* unit,
              hdf5::Numbers numbers) {
         if (next_ == series_.size()) {
@@ -245,13 +241,19 @@ class FrameExporter {
                 name.starts_with("device_") ? " In the device's axes." : " In the world's axes.";
         if (columns == 4) words += " Columns: w, x, y, z.";
         const std::string codes = codes_of(name, head_);
-        return codes.empty() ? words : words + " " + codes + ".";
+        if (!codes.empty()) words += " " + codes + ".";
+        const std::string field = list_ ? name + " of " + list_ : name;
+        if (std::find(not_recorded_.begin(), not_recorded_.end(), field) != not_recorded_.end())
+            words += " The version that recorded this session did not record it: a default.";
+        return words;
     }
 
     hid_t acquisition_;
     const LogHead& head_;
+    std::vector<std::string> not_recorded_;
     std::vector<std::string> turning_;
     std::string prefix_;
+    const char* list_ = nullptr;  // that is visited
     std::vector<Series> series_;
     size_t next_ = 0;
     std::vector<double> times_;
@@ -261,8 +263,7 @@ class FrameExporter {
         std::vector<double> times;
     };
     std::map<std::string, List> lists_;
-    std::optional<Series> contacts_;
-    std::vector<double> contact_times_;
+    Row row_;
 };
 
 /// Columns that count or number something.
@@ -368,7 +369,7 @@ void write_file(const std::string& name, RawLogReader& log, const NwbContent& co
         write_general(file, content.info);
 
         const Id acquisition = create_group(file, "acquisition");
-        FrameExporter exporter(acquisition, log.head());
+        FrameExporter exporter(acquisition, log);
         while (const servo::Frame* frame = log.next()) {
             exporter.add(*frame);
             if (progress && frame->sequence % 1000 == 0) progress(0.99 * log.share());

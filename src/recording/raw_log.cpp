@@ -13,6 +13,7 @@
 #include "base/field_reader.h"
 #include "base/field_writer.h"
 #include "recording/frame_check.h"
+#include "recording/schema.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -132,18 +133,13 @@ void RawLogReader::read_head() {
     const std::vector<std::byte>& bytes = chunks_.head();
     const Node text =
         parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
-    const Node* recorded = text.find("schema");
-    const std::optional<MissingFields> missing =
-        recorded == nullptr ? std::nullopt : missing_fields(recorded->scalar);
-    if (!missing) {
-        throw Error({file_, 0}, "",
-                    "was written by another version of Dihaptic, whose frames differ",
-                    "Read it with that version; session.yaml names it.");
-    }
-    missing_ = *missing;
+    const Node* const schema = text.find("schema");
+    decoder_.emplace(schema == nullptr ? "" : schema->scalar, file_);
+    health_.not_recorded = decoder_->missing();
+    health_.passed_over = decoder_->unknown();
     Node fields = text;
     std::erase_if(fields.entries, [](const auto& entry) { return entry.key == "schema"; });
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(UnknownKeys::are_left_out);
     read_fields(head_, fields, diagnostics);
     diagnostics.throw_if_errors();
 }
@@ -251,7 +247,7 @@ bool RawLogReader::read_frame() {
     uint32_t length = 0;
     if (rest_.size() >= sizeof(length)) std::memcpy(&length, rest_.data(), sizeof(length));
     const bool fits = rest_.size() >= sizeof(length) + length;
-    if (!fits || !decode(rest_.subspan(sizeof(length), length), layout_, frame_, missing_) ||
+    if (!fits || !decoder_->decode(rest_.subspan(sizeof(length), length), layout_, frame_) ||
         !is_possible(frame_, layout_)) {
         health_.note(Stray::Kind::no_frame, 1, static_cast<int64_t>(rest_.size()));
         rest_ = {};

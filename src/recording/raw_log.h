@@ -3,7 +3,7 @@
 // after it, and nothing else is taken for it.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
-//           data: records, each u32 length and a frame (codec.h)
+//           data: records, each u32 length and a frame (codec.h, schema.h)
 //           done: i64 number of frames                   last chunk of a session that ended
 //
 // A damaged chunk is left out: the reader goes on at the next one. The first frame of a chunk that
@@ -21,6 +21,7 @@
 #include "base/field.h"
 #include "recording/chunk_reader.h"
 #include "recording/codec.h"
+#include "recording/decoder.h"
 #include "recording/log_health.h"
 #include "recording/setup.h"
 
@@ -87,7 +88,7 @@ class RawLogWriter {
 
 class RawLogReader {
   public:
-    /// Throws Error when the file is no log, or one whose frames differ.
+    /// Throws Error when the file is no log, or does not say what its frames are made of.
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
@@ -114,7 +115,7 @@ class RawLogReader {
     ChunkReader chunks_;
     LogHead head_;
     Layout layout_;
-    MissingFields missing_;
+    std::optional<FrameDecoder> decoder_;
     std::span<const std::byte> rest_;  // of the chunk's records
     bool ended_ = false;
     servo::Frame frame_;

@@ -113,7 +113,7 @@ SessionInfo SessionFolder::read_info() const {
     const std::string name = file("session.yaml");
     const Node root = read_yaml(name);
     SessionInfo info;
-    Diagnostics diagnostics;
+    Diagnostics diagnostics(UnknownKeys::are_left_out);
     if (!text_of(name).ends_with(kEnd)) {
         diagnostics.error({name, 0}, "", "is cut off: it does not end with '...'",
                           "Recover the session with 'dihaptic recover'.");

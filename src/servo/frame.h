@@ -54,6 +54,16 @@ struct StatusText {
 };
 /// Text for one bit.
 StatusText describe(Status bit);
+/// What each set bit says, "; " between them.
+std::string words(uint32_t status);
+
+/// Calls `use` with each set Status, lowest bit first; a later version's log may have bits beyond
+/// them, which are passed over.
+template <class Use>
+void for_each_status(uint32_t status, Use use) {
+    for (uint32_t left = status & kAllStatus; left != 0; left &= left - 1)
+        use(static_cast<Status>(left & ~(left - 1)));
+}
 
 struct FingerFrame {
     Vec3 p_DH = Vec3::Zero();  ///< as read from the device

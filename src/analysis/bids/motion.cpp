@@ -77,7 +77,7 @@ std::vector<size_t> moving_bodies(const recording::SessionFolder& session,
     std::vector<size_t> out;
     std::optional<scene::Scene> scene;
     try {
-        Diagnostics diagnostics;
+        Diagnostics diagnostics(UnknownKeys::are_left_out);
         scene = scene::read_scene(session.file("scene.yaml"), diagnostics);
         if (diagnostics.has_errors() || !recording::fits(head, *scene)) scene.reset();
     } catch (const Error&) {

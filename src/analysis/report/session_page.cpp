@@ -527,6 +527,7 @@ void add_log(SessionPage& out, const SessionData& session,
     session.folder.check_log(session.info, log.head());
     add_course(out, session, log, progress);
     const recording::LogHealth& health = log.read_to_end();
+    for (const std::string& what : recording::describe_version(health)) out.page.text(what + ".");
     if (!health.damaged(session.info.ticks)) return;
     out.log = recording::describe(health, session.info.ticks, log.head().planned());
     out.page.heading("The log is not whole");

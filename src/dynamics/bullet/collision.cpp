@@ -245,7 +245,7 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     // round shapes are met ahead of touch: Bullet asks for the distance in three places
     const double margin =
         std::min(kMostRoundMargin, kRoundMargin + approach(a_wrap, b_wrap, step_));
-    gContactBreakingThreshold = margin;  // of manifolds to come
+    dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm == nullptr) {
         pair.m_algorithm =

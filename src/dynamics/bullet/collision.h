@@ -92,11 +92,20 @@ class Collision {
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out);
 
     btDefaultCollisionConfiguration configuration_;
-    struct ReservedDispatcher : btCollisionDispatcher {
-        ReservedDispatcher(btCollisionConfiguration* configuration, int manifolds)
+    /// Has memory for its manifolds, and gives new ones a breaking threshold of this world:
+    /// Bullet's own is one for all worlds of the program.
+    struct Dispatcher : btCollisionDispatcher {
+        Dispatcher(btCollisionConfiguration* configuration, int manifolds)
             : btCollisionDispatcher(configuration) {
             m_manifoldsPtr.reserve(manifolds);
         }
+        btPersistentManifold* getNewManifold(const btCollisionObject* a,
+                                             const btCollisionObject* b) override {
+            btPersistentManifold* const manifold = btCollisionDispatcher::getNewManifold(a, b);
+            if (manifold != nullptr) manifold->setContactBreakingThreshold(margin);
+            return manifold;
+        }
+        btScalar margin = 0;  ///< of the pair that is looked at [m]
     } dispatcher_;
     double step_ = 1e-3;
     PolyhedronAlgorithms polyhedra_;

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "recording/recorder.h"
+#include "recording/schema.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 
@@ -16,6 +17,8 @@ LogHead head() {
     out.bodies = {"table", "block", "ball"};
     return out;
 }
+
+const FrameDecoder kDecoder(schema(), "raw.log");
 
 servo::Frame frame(int64_t sequence) {
     servo::Frame f;
@@ -39,9 +42,9 @@ TEST(Codec, GivesBackEveryFieldAndCarriesOverBodiesThatDidNotChange) {
     first.bodies[1].X_WB.p = {7, 8, 9};
     size_t size = encode(first, bytes);
     ASSERT_GT(size, 0u);
-    ASSERT_TRUE(decode(std::span(bytes).first(size), head().layout(), out));
+    ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), head().layout(), out));
     size = encode(frame(5), bytes);
-    ASSERT_TRUE(decode(std::span(bytes).first(size), head().layout(), out));
+    ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), head().layout(), out));
     EXPECT_EQ(out.sequence, 5);
     EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
     EXPECT_EQ(out.bodies[2].X_WB.p.z(), 5e-3);
@@ -65,10 +68,10 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
     ASSERT_GT(size, encode(frame(1), bytes));
     encode(in, bytes);
     servo::Frame out;
-    ASSERT_TRUE(decode(std::span(bytes).first(size), turning.layout(), out));
+    ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), turning.layout(), out));
     EXPECT_EQ(out.turns[0].R_WH.coeffs(), in.turns[0].R_WH.coeffs());
     EXPECT_EQ(out.turns[0].t_sent_W, Vec3(1, 2, 3));
-    EXPECT_FALSE(decode(std::span(bytes).first(size), head().layout(), out));
+    EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), head().layout(), out));
 }
 
 TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
@@ -77,9 +80,9 @@ TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
     const size_t size = encode(frame(1), bytes);
     servo::Frame out;
-    EXPECT_FALSE(decode(std::span(bytes).first(size - 1), head().layout(), out));
-    EXPECT_FALSE(decode(std::span(bytes).first(size), {1, 3}, out));
-    EXPECT_FALSE(decode(std::span(bytes).first(size), {2, 2}, out));
+    EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size - 1), head().layout(), out));
+    EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), {1, 3}, out));
+    EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), {2, 2}, out));
 }
 
 TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
@@ -89,47 +92,129 @@ TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
     }
 }
 
-TEST(Codec, ReadsFramesFromBeforeAFieldWasAdded) {
-    const std::string field = "solver_route int32 1";
-    const std::string whole = schema();
-    std::string older = whole;
-    older.erase(older.find(field), field.size() + 1);
-    const std::optional<MissingFields> missing = missing_fields(older);
-    ASSERT_TRUE(missing);
-    EXPECT_EQ(*missing, MissingFields{field});
-    EXPECT_EQ(missing_fields(whole), MissingFields{});
-
-    // where the field stands is where the bytes differ
-    servo::Frame in = frame(5);
+/// The bytes of a frame.
+std::vector<std::byte> encoded(const servo::Frame& in) {
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
     bytes.resize(encode(in, bytes));
-    in.solver_route = 3;
-    std::vector<std::byte> other(bytes.size());
-    encode(in, other);
-    const auto at = std::mismatch(bytes.begin(), bytes.end(), other.begin()).first;
-    bytes.erase(at, at + sizeof(in.solver_route));
-    servo::Frame out;
-    EXPECT_FALSE(decode(bytes, head().layout(), out));
-    out = {};
-    ASSERT_TRUE(decode(bytes, head().layout(), out, *missing));
-    EXPECT_EQ(out.solver_route, 0);
-    EXPECT_EQ(out.sequence, 5);
-    EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
-    EXPECT_EQ(out.contacts.size(), 2u);
+    return bytes;
 }
 
-TEST(Codec, DoesNotReadFramesThatDifferOtherwise) {
-    const std::string ours = schema();
-    const auto without = [&](const std::string& line) {
-        std::string out = ours;
-        return out.erase(out.find(line), line.size() + 1);
+/// The same without what differs in the other, whose `size` bytes begin at the first difference;
+/// from each of so many items.
+std::vector<std::byte> without(const servo::Frame& in, const servo::Frame& other, size_t size,
+                               size_t items = 1) {
+    std::vector<std::byte> bytes = encoded(in);
+    std::vector<std::byte> differs = encoded(other);
+    for (size_t n = 0; n < items; ++n) {
+        const auto at = std::mismatch(bytes.begin(), bytes.end(), differs.begin()).first;
+        const auto from = at - bytes.begin();
+        bytes.erase(at, at + static_cast<std::ptrdiff_t>(size));
+        differs.erase(differs.begin() + from,
+                      differs.begin() + from + static_cast<std::ptrdiff_t>(size));
+    }
+    return bytes;
+}
+
+/// This program's schema without a line.
+std::string schema_without(const std::string& line) {
+    std::string out = schema();
+    return out.erase(out.find(line), line.size() + 1);
+}
+
+void expect_as_in_frame_5(const servo::Frame& out) {
+    EXPECT_EQ(out.sequence, 5);
+    EXPECT_EQ(out.grip_force, 0.5);
+    EXPECT_EQ(out.bodies[2].X_WB.p.z(), 5e-3);
+    EXPECT_EQ(out.changed, std::vector<uint16_t>{2});
+    ASSERT_EQ(out.contacts.size(), 2u);
+    EXPECT_EQ(out.contacts[1].b, 2);
+}
+
+TEST(Decoder, ReadsFramesFromBeforeAFieldWasAdded) {
+    const FrameDecoder decoder(schema_without("solver_route int32 1"), "raw.log");
+    EXPECT_EQ(decoder.missing(), std::vector<std::string>{"solver_route"});
+    EXPECT_TRUE(decoder.unknown().empty());
+    servo::Frame in = frame(5);
+    in.solver_route = -1;
+    const std::vector<std::byte> bytes = without(frame(5), in, sizeof(in.solver_route));
+    servo::Frame out;
+    EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
+    out = {};
+    ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
+    EXPECT_EQ(out.solver_route, 0);
+    EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
+    expect_as_in_frame_5(out);
+}
+
+TEST(Decoder, ReadsFramesFromBeforeAFingerHadAField) {
+    const FrameDecoder decoder(schema_without("  buttons uint32 1"), "raw.log");
+    EXPECT_EQ(decoder.missing(), std::vector<std::string>{"buttons of fingers"});
+    servo::Frame in = frame(5);
+    for (servo::FingerFrame& finger : in.fingers) finger.buttons = ~0u;
+    const std::vector<std::byte> bytes = without(frame(5), in, sizeof(in.fingers[0].buttons), 2);
+    servo::Frame out;
+    ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
+    EXPECT_EQ(out.fingers[0].buttons, 0u);
+    EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
+    expect_as_in_frame_5(out);
+}
+
+TEST(Decoder, PassesOverWhatALaterVersionRecorded) {
+    const std::string list = "  colour uint8 1\n  glow float32[2] cd\n";
+    const FrameDecoder decoder(schema() + "marks uint16 count, then each:\n" + list +
+                                   "lamps uint16 count, then uint16 index and item of each that "
+                                   "changed:\n" +
+                                   list + "mood int64 1\n",
+                               "raw.log");
+    EXPECT_TRUE(decoder.missing().empty());
+    EXPECT_EQ(decoder.unknown(), (std::vector<std::string>{"marks", "lamps", "mood"}));
+    std::vector<std::byte> bytes = encoded(frame(5));
+    const size_t ours = bytes.size();
+    const auto add = [&](uint16_t count, size_t size) {
+        bytes.push_back(static_cast<std::byte>(count));
+        bytes.push_back(std::byte{0});
+        bytes.resize(bytes.size() + size, std::byte{0xee});
     };
-    EXPECT_FALSE(missing_fields(ours + "colour int32 1\n"));
-    EXPECT_FALSE(missing_fields(without("  force_sent float64[3] N")));
-    std::string renamed = ours;
-    renamed.replace(renamed.find("grip_force"), 10, "grip_farce");
-    EXPECT_FALSE(missing_fields(renamed));
-    EXPECT_FALSE(missing_fields(""));
+    add(3, 3 * 9);
+    add(2, 2 * (2 + 9));
+    bytes.resize(bytes.size() + 8);
+    servo::Frame out;
+    ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
+    expect_as_in_frame_5(out);
+    bytes.pop_back();
+    EXPECT_FALSE(decoder.decode(bytes, head().layout(), out));
+    bytes.resize(ours);
+    EXPECT_FALSE(decoder.decode(bytes, head().layout(), out));
+}
+
+TEST(Decoder, TakesAFieldOfAnotherUnitOrTypeForAnotherField) {
+    std::string other = schema();
+    other.replace(other.find("grip_force float64 N"), 20, "grip_force float64 g");
+    const FrameDecoder decoder(other, "raw.log");
+    EXPECT_EQ(decoder.missing(), std::vector<std::string>{"grip_force"});
+    EXPECT_EQ(decoder.unknown(), std::vector<std::string>{"grip_force"});
+    servo::Frame out;
+    ASSERT_TRUE(decoder.decode(encoded(frame(5)), head().layout(), out));
+    EXPECT_TRUE(std::isnan(out.grip_force));
+    EXPECT_EQ(out.load_force, 0);
+}
+
+TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
+    for (const std::string& text :
+         {std::string(), std::string("nonsense"), schema_without("time int64 ns"),
+          schema_without("sequence int64 1"), schema() + "colour chars 1\n",
+          schema() + "colour int7 1\n", schema() + "colour int8[3 1\n",
+          schema() + "colour int8[99999999999999999999] 1\n", "  colour int32 1\n" + schema()}) {
+        EXPECT_THROW(FrameDecoder(text, "raw.log"), Error) << text;
+    }
+}
+
+TEST(Decoder, TakesNoMemoryForItemsThatAreNotThere) {
+    std::vector<std::byte> bytes = encoded(frame(3));  // without contacts: their number ends it
+    bytes[bytes.size() - 1] = bytes[bytes.size() - 2] = std::byte{0xff};
+    servo::Frame out;
+    EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
+    EXPECT_EQ(out.contacts.capacity(), 0u);
 }
 
 /// Reads a log to its end; returns the number of frames, each checked to be the next.

@@ -1,0 +1,48 @@
+// The schema of a log: a line for each field of its frames, in the order of their bytes, with name,
+// type and unit. A log carries it in its head, and is read by it (decoder.h).
+//
+//   grip_force float64 N
+//   fingers uint16 count, then each:
+//     force_sent float64[3] N
+//   bodies uint16 count, then uint16 index and item of each that changed:
+//     position float64[3] m
+#pragma once
+
+#include <string>
+#include <type_traits>
+
+#include "base/clock.h"
+#include "base/geometry.h"
+
+namespace dihaptic::recording {
+
+/// How the items of a list are announced.
+constexpr const char* kEachFollows = "uint16 count, then each:";
+constexpr const char* kChangedFollow =
+    "uint16 count, then uint16 index and item of each that changed:";
+
+template <class T>
+constexpr const char* type_name() {
+    if constexpr (std::is_same_v<T, double>) return "float64";
+    if constexpr (std::is_same_v<T, Vec3>) return "float64[3]";
+    if constexpr (std::is_same_v<T, Quat>) return "float64[4] (x, y, z, w)";
+    if constexpr (std::is_same_v<T, int64_t>) return "int64";
+    if constexpr (std::is_same_v<T, int32_t>) return "int32";
+    if constexpr (std::is_same_v<T, uint32_t>) return "uint32";
+    if constexpr (std::is_same_v<T, Time>) return "int64";
+    return "";
+}
+
+/// The line of a field, and of a list, without its indentation.
+template <class T>
+std::string schema_line(const char* name, const char* unit) {
+    return std::string(name) + " " + type_name<T>() + " " + unit;
+}
+inline std::string schema_line(const char* list, bool changed) {
+    return std::string(list) + " " + (changed ? kChangedFollow : kEachFollows);
+}
+
+/// Of the frames that this program writes.
+std::string schema();
+
+}  // namespace dihaptic::recording

@@ -1,0 +1,122 @@
+// The first seconds of every shipped scene and experiment, with every solver, come out as they did
+// when golden.txt was written: to the bit, whatever the build.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "experiment/replay.h"
+#include "person/person.h"
+#include "person/population.h"
+#include "testing/files.h"
+
+namespace dihaptic::session::golden_test {
+namespace {
+
+constexpr const char* kFile = "src/session/test/golden.txt";
+constexpr int64_t kTicks = 3000;
+
+/// "FILE SOLVER" to the hash of what was computed.
+using Hashes = std::map<std::string, std::string>;
+
+Hashes read() {
+    Hashes out;
+    std::istringstream lines(testing::read_file(kFile));
+    std::string file, solver, hash;
+    while (lines >> file >> solver >> hash) out[file + " " + solver] = hash;
+    return out;
+}
+
+void write(const Hashes& hashes) {
+    std::ofstream out(kFile);
+    for (const auto& [name, hash] : hashes) out << name << " " << hash << "\n";
+}
+
+/// FNV-1a, number by number.
+class Hash {
+  public:
+    void add(const std::vector<double>& numbers) {
+        for (const double number : numbers)
+            value_ = (value_ ^ std::bit_cast<uint64_t>(number)) * 0x100000001b3;
+    }
+    std::string text() const { return fmt::format("{:016x}", value_); }
+
+  private:
+    uint64_t value_ = 0xcbf29ce484222325;
+};
+
+experiment::Plan plan_of(const std::string& file, dynamics::Solver solver) {
+    experiment::Request request;
+    request.file = file;
+    request.participant = "S07";
+    request.set = {fmt::format("dynamics.solver={}", enum_name(solver))};
+    experiment::Plan plan = experiment::make_plan(request);
+    if (plan.task != nullptr && plan.driver == nullptr)
+        person::sit_down(plan, person::draw_person(person::Objects::device, 1, "S07"));
+    return plan;
+}
+
+std::string hash_of(const std::string& file, dynamics::Solver solver) {
+    const testing::TemporaryFolder folder;
+    Hash hash;
+    std::atomic<bool> stop{false};
+    experiment::RunOptions options;
+    options.out = folder.path();
+    options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> servo::FrameSink {
+        return [&](const servo::Frame& frame) {
+            if (frame.sequence < kTicks) hash.add(experiment::outcome_of(frame));
+            stop = frame.sequence >= kTicks;
+        };
+    };
+    experiment::run_session(plan_of(file, solver), options, stop, {});
+    return hash.text();
+}
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> out;
+    for (const char* folder : {"experiments", "scenes"}) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (entry.path().extension() == ".yaml") out.push_back(entry.path().string());
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+class Golden : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, HashesAreThoseThatWereKept) {
+    if (!__builtin_cpu_supports("fma"))
+        GTEST_SKIP() << "without FMA the C library's sines differ in their last bit";
+    const bool renews = std::getenv("DIHAPTIC_RENEW_GOLDEN") != nullptr;
+    Hashes hashes = read();
+    for (size_t i = 0; i < enum_names(dynamics::Solver{}).size(); ++i) {
+        const auto solver = static_cast<dynamics::Solver>(i);
+        const std::string name = GetParam() + " " + std::string(enum_name(solver));
+        const std::string hash = hash_of(GetParam(), solver);
+        if (renews) {
+            hashes[name] = hash;
+        } else {
+            EXPECT_EQ(hashes[name], hash)
+                << name << " computes something else than it did. When that is meant, renew "
+                << kFile << " in the same commit: DIHAPTIC_RENEW_GOLDEN=1 "
+                << "build/release/src/session/session_test --gtest_filter='*Golden*'";
+        }
+    }
+    if (renews) write(hashes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Golden, ::testing::ValuesIn(shipped()), [](const auto& info) {
+    std::string name = std::filesystem::path(info.param).replace_extension("");
+    for (char& c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    }
+    return name;
+});
+
+}  // namespace
+}  // namespace dihaptic::session::golden_test
