@@ -26,14 +26,15 @@ endfunction()
 # A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and
 # its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus beside it; test/support/fuzz.h).
 #
-#   dihaptic_room(haptics USES dynamics LINKS Foo::foo)
+#   dihaptic_room(haptics DOORS proxy.h kinds/*.h USES dynamics LINKS Foo::foo)
 #
-# USES names the rooms that it may include, LINKS the outside libraries, which stay private, SOURCES
-# generated files.
-# Each room's headers are reached through an include folder of their own, so that including a room
-# that is not named (or used by one that is named) does not compile: arrows point down only.
+# DOORS names the headers that other rooms may include, with all that these include of the room; USES the rooms
+# that it may include; LINKS the outside libraries, which stay private; SOURCES generated files.
+# A room's doors are reached through an include folder of their own, so that to include another header, or a room that is
+# not named (or used by one that is named), does not compile: arrows point down only, and end at doors. Tests may
+# look into every room.
 function(dihaptic_room name)
-    cmake_parse_arguments(ROOM "" "" "USES;LINKS;SOURCES;TEST_USES" ${ARGN})
+    cmake_parse_arguments(ROOM "" "" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
     # relative: the folder that holds the project may be called test itself
@@ -50,10 +51,22 @@ function(dihaptic_room name)
         set(scope INTERFACE)
     endif()
 
-    set(include_root ${PROJECT_BINARY_DIR}/rooms/${name})
-    file(MAKE_DIRECTORY ${include_root})
-    file(CREATE_LINK ${folder} ${include_root}/${name} SYMBOLIC)
-    target_include_directories(${room} ${scope} ${include_root})
+    set(inside ${PROJECT_BINARY_DIR}/rooms/${name})
+    file(MAKE_DIRECTORY ${inside})
+    file(CREATE_LINK ${folder} ${inside}/${name} SYMBOLIC)
+    set(outside ${PROJECT_BINARY_DIR}/doors/${name})
+    file(REMOVE_RECURSE ${outside})
+    list(TRANSFORM ROOM_DOORS PREPEND ${folder}/)
+    file(GLOB doors RELATIVE ${folder} CONFIGURE_DEPENDS ${ROOM_DOORS})
+    foreach(door ${doors})
+        get_filename_component(subfolder ${outside}/${name}/${door} DIRECTORY)
+        file(MAKE_DIRECTORY ${subfolder})
+        file(CREATE_LINK ${folder}/${door} ${outside}/${name}/${door} SYMBOLIC)
+    endforeach()
+    target_include_directories(${room} INTERFACE ${outside})
+    if(sources)
+        target_include_directories(${room} PRIVATE ${inside})
+    endif()
     list(TRANSFORM ROOM_USES PREPEND dihaptic_)
     target_link_libraries(${room} ${scope} dihaptic_flags ${ROOM_USES})
     if(sources)
@@ -85,6 +98,7 @@ function(dihaptic_room name)
         string(REGEX REPLACE "_fuzz.cpp$" "_corpus" corpus ${fuzzer})
         add_executable(${target} ${fuzzer})
         target_link_libraries(${target} PRIVATE ${room} ${ROOM_LINKS})
+        target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
         if(DIHAPTIC_SANITIZE MATCHES fuzzer)
             target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/rooms/testing)
             target_link_options(${target} PRIVATE -fsanitize=fuzzer)

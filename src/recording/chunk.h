@@ -1,15 +1,17 @@
 // What raw.log is made of, byte for byte: the file's first line, then chunks.
 //
-//   "DIHAPTIC LOG 2\n"
+//   "DIHAPTIC LOG 3\n"
 //   chunk   u32 kind, u32 bytes of payload, u64 session, u32 number, u32 CRC-32, payload
 //
-// The kind is spelt out (HEAD, DATA, DONE). `session` is the FNV-1a hash of the head's payload, and
-// chunks are numbered from 0, the head: so a chunk that is another session's, or not in its place,
-// is told from one that is. The CRC-32 is of all before it and of the payload.
+// The kind is spelt out (HEAD, PACK, DATA, DONE). `session` is the FNV-1a hash of the head's
+// payload, and chunks are numbered from 0, the head: so a chunk that is another session's, or not
+// in its place, is told from one that is. The CRC-32 is of all before it and of the payload.
 //
-// Version 1 had neither session nor number: u32 kind, u32 bytes of payload, u32 CRC-32, payload.
+// Version 2 had no packed chunks. Version 1 had neither session nor number: u32 kind, u32 bytes of
+// payload, u32 CRC-32, payload.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,12 +19,15 @@
 
 namespace dihaptic::recording {
 
-constexpr std::string_view kFirstLine = "DIHAPTIC LOG 2\n";
+constexpr std::string_view kFirstLine = "DIHAPTIC LOG 3\n";
+constexpr std::string_view kFirstLine2 = "DIHAPTIC LOG 2\n";
 constexpr std::string_view kFirstLine1 = "DIHAPTIC LOG 1\n";
 
-constexpr uint32_t kHead = 0x44414548;  // "HEAD"
-constexpr uint32_t kData = 0x41544144;  // "DATA"
-constexpr uint32_t kDone = 0x454E4F44;  // "DONE"
+constexpr uint32_t kHead = 0x44414548;    // "HEAD"
+constexpr uint32_t kData = 0x41544144;    // "DATA"
+constexpr uint32_t kPacked = 0x4B434150;  // "PACK"
+constexpr uint32_t kDone = 0x454E4F44;    // "DONE"
+constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 /// Bytes of a payload, at most: what claims more is no chunk.
 constexpr uint32_t kMostPayload = 1u << 28;
 /// The same of a head, which is text.

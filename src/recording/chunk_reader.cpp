@@ -22,11 +22,13 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     std::array<std::byte, kFirstLine.size()> line{};
     const size_t size = file_.read(0, line);
     const std::string_view first(reinterpret_cast<const char*>(line.data()), size);
-    if (first != kFirstLine && first != kFirstLine1) {
+    const std::array lines{kFirstLine1, kFirstLine2, kFirstLine};
+    const auto line_of = std::find(lines.begin(), lines.end(), first);
+    if (line_of == lines.end()) {
         throw Error({file, 0}, "", file_.size() == 0 ? "is empty" : "is not a log of Dihaptic",
                     "Give a session's folder, or its raw.log.");
     }
-    version_ = first == kFirstLine ? 2 : 1;
+    version_ = static_cast<int>(line_of - lines.begin()) + 1;
     end_ = static_cast<int64_t>(first.size());
     ChunkHeader header;
     if (!header_at(end_, header) || header.kind != kHead || header.size > kMostHead ||
@@ -64,7 +66,7 @@ bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
 bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     if (!header_at(at, out)) return false;
     if (out.size > kMostPayload || out.size > file_.size() - at - header_size()) return false;
-    if (out.kind != kHead && out.kind != kData && out.kind != kDone) return false;
+    if (std::find(kKinds.begin(), kKinds.end(), out.kind) == kKinds.end()) return false;
     chunk_.payload.resize(out.size);
     const bool whole = file_.read(at + header_size(), chunk_.payload) == out.size;
     const uint32_t sum = version_ > 1
@@ -97,7 +99,7 @@ int64_t ChunkReader::find_kind(int64_t from) const {
         block.resize(static_cast<size_t>(std::min(kBlock, file_.size() - from)));
         block.resize(file_.read(from, std::as_writable_bytes(std::span(block))));
         size_t found = std::string::npos;
-        for (const uint32_t kind : {kHead, kData, kDone}) {
+        for (const uint32_t kind : kKinds) {
             const std::string_view letters(reinterpret_cast<const char*>(&kind), sizeof(kind));
             found = std::min(found, block.find(letters));
         }
@@ -181,7 +183,8 @@ bool ChunkReader::tail_is_unfinished(int64_t& bytes) const {
     ChunkHeader header;
     bytes = 0;
     if (!header_at(end_, header)) return tail() > 0;
-    if ((header.kind != kData && header.kind != kDone) || header.size > kMostPayload) return false;
+    const bool follows = header.kind == kData || header.kind == kPacked || header.kind == kDone;
+    if (!follows || header.size > kMostPayload) return false;
     if (header.size <= tail() - header_size()) return false;
     bytes = header.size;
     return true;

@@ -68,7 +68,7 @@ class ChunkReader {
 
     std::string name_;
     RegularFile file_;
-    int version_ = 2;
+    int version_ = 3;
     uint64_t session_ = 0;
     std::vector<std::byte> head_;
     int64_t end_ = 0;     // of the last whole chunk in the file so far

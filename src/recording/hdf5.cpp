@@ -169,7 +169,7 @@ Rows::Rows(hid_t parent, const std::string& name, size_t columns, Numbers number
     check(H5Pset_chunk(create, rank, chunk));
     check(H5Pset_shuffle(create));
     check(H5Pset_deflate(create, kDeflate));
-    const hid_t type = numbers == Numbers::whole ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
+    const hid_t type = numbers == Numbers::whole ? H5T_NATIVE_INT64 : H5T_NATIVE_FLOAT;
     dataset_ = Id(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, create, H5P_DEFAULT));
     buffer_.reserve(kChunkRows * columns);
 }

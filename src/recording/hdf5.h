@@ -57,7 +57,7 @@ Id write_dataset(hid_t parent, const std::string& name, double value);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<double>& values);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_t>& values);
 
-enum class Numbers { real, whole };  ///< double, or 64-bit integers
+enum class Numbers { real, whole };  ///< of 32 bits, or integers of 64
 
 /// A compressed dataset of rows that grows as they are added. One column: one-dimensional.
 class Rows {

@@ -90,18 +90,13 @@ RawLogWriter::~RawLogWriter() {
 }
 
 void RawLogWriter::add(std::span<const std::byte> frame) {
-    const auto length = static_cast<uint32_t>(frame.size());
-    const auto bytes = std::as_bytes(std::span(&length, 1));
-    chunk_.insert(chunk_.end(), bytes.begin(), bytes.end());
-    chunk_.insert(chunk_.end(), frame.begin(), frame.end());
+    packer_.add(frame);
     ++frames_;
-    if (chunk_.size() >= kLongChunk) flush();
+    if (packer_.size() >= kLongChunk) flush();
 }
 
 void RawLogWriter::flush() {
-    if (chunk_.empty()) return;
-    write_chunk(kData, chunk_);
-    chunk_.clear();
+    if (packer_.size() > 0) write_chunk(kPacked, packer_.pack());
 }
 
 void RawLogWriter::sync() const {
@@ -173,10 +168,22 @@ bool RawLogReader::read_chunk() {
         if (chunk->kind == kDone) {
             note_done(*chunk);
         } else {
-            rest_ = chunk->payload;
+            begin_records(*chunk);
         }
     }
     return true;
+}
+
+void RawLogReader::begin_records(const Chunk& chunk) {
+    std::optional<std::span<const std::byte>> records = chunk.payload;
+    if (chunk.kind == kPacked) records = unpacker_.unpack(chunk.payload);
+    if (records) {
+        rest_ = *records;
+        read_bytes_ += chunk.bytes;
+    } else {
+        health_.note(Stray::Kind::no_frame, 1, chunk.bytes);
+        forget_bodies(true);
+    }
 }
 
 void RawLogReader::note_done(const Chunk& chunk) {
@@ -207,7 +214,7 @@ void RawLogReader::note_end() {
 }
 
 int64_t RawLogReader::ticks_in(int64_t bytes) const {
-    return health_.frames == 0 ? 0 : bytes * health_.frames / frame_bytes_;
+    return read_bytes_ == 0 ? 0 : bytes * health_.frames / read_bytes_;
 }
 
 /// What is not known of bodies is NaN: of all, or of those that this frame does not have.
@@ -254,7 +261,6 @@ bool RawLogReader::read_frame() {
         return false;
     }
     rest_ = rest_.subspan(sizeof(length) + length);
-    frame_bytes_ += static_cast<int64_t>(sizeof(length) + length);
     if (health_.frames == 0 ||
         (frame_.sequence > health_.last_tick && frame_.time > health_.last_time))
         return true;

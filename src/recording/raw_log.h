@@ -4,6 +4,7 @@
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
+//           pack: the same, packed (pack.h); what is written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
 // A damaged chunk is left out: the reader goes on at the next one. The first frame of a chunk that
@@ -23,6 +24,7 @@
 #include "recording/codec.h"
 #include "recording/decoder.h"
 #include "recording/log_health.h"
+#include "recording/pack.h"
 #include "recording/setup.h"
 
 namespace dihaptic::recording {
@@ -82,7 +84,7 @@ class RawLogWriter {
     int descriptor_ = -1;
     uint64_t session_ = 0;
     uint32_t number_ = 0;  // of the next chunk
-    std::vector<std::byte> chunk_;
+    Packer packer_;
     int64_t frames_ = 0;
 };
 
@@ -104,6 +106,7 @@ class RawLogReader {
   private:
     void read_head();
     bool read_chunk();
+    void begin_records(const Chunk& chunk);
     bool read_frame();
     void note_done(const Chunk& chunk);
     void note_end();
@@ -116,13 +119,14 @@ class RawLogReader {
     LogHead head_;
     Layout layout_;
     std::optional<FrameDecoder> decoder_;
+    Unpacker unpacker_;
     std::span<const std::byte> rest_;  // of the chunk's records
     bool ended_ = false;
     servo::Frame frame_;
     LogHealth health_;
-    int64_t damaged_ = 0;      // bytes since the last frame
-    int64_t gone_ = 0;         // chunks since the last frame
-    int64_t frame_bytes_ = 0;  // of all frames read
+    int64_t damaged_ = 0;     // bytes since the last frame
+    int64_t gone_ = 0;        // chunks since the last frame
+    int64_t read_bytes_ = 0;  // of the chunks whose frames were read
 };
 
 }  // namespace dihaptic::recording

@@ -65,16 +65,22 @@ void Recorder::record(const servo::Frame& frame) {
 
 void Recorder::drain() {
     while (ring_.pop(received_)) log_.add(received_);
-    log_.flush();
 }
 
 void Recorder::run() {
+    using Wall = std::chrono::steady_clock;
     try {
+        Wall::time_point flushed = Wall::now();
         while (!done_.load()) {
             drain();
-            std::this_thread::sleep_for(kWriteEvery);
+            if (Wall::now() - flushed >= kFlushEvery) {
+                log_.flush();
+                flushed = Wall::now();
+            }
+            std::this_thread::sleep_for(kDrainEvery);
         }
         drain();
+        log_.flush();
     } catch (...) {
         error_ = std::current_exception();
         failed_.store(true);

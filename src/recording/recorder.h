@@ -17,13 +17,12 @@ namespace dihaptic::recording {
 
 enum class Writing { in_place, in_thread };
 
-/// A chunk is handed to the operating system at least this often: more than that a crash cannot
-/// lose. As often a frame has all bodies, whether they changed or not: what follows a damaged chunk
-/// can be read.
+/// A chunk is packed and handed to the operating system this often: little more than that a crash
+/// can lose. As often a frame has all bodies, whether they changed or not: what follows a damaged
+/// chunk can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
-/// How often the thread does. While the system takes a piece it may keep a servo of several
-/// kilohertz waiting: the smaller, the shorter.
-constexpr Time kWriteEvery = std::chrono::milliseconds(5);
+/// How often the thread empties the ring.
+constexpr Time kDrainEvery = std::chrono::milliseconds(5);
 
 class Recorder {
   public:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recording/chunk.h"
+#include "recording/pack.h"
 
 namespace dihaptic::testing {
 
@@ -38,12 +39,22 @@ inline Bytes chunk_of(ChunkHeader header, const Bytes& payload) {
     return Bytes(reinterpret_cast<const char*>(&header), sizeof(header)) + payload;
 }
 
-/// The chunks of an undamaged log; the head is the first.
+/// A packed chunk as one of records that can be read, and changed, byte by byte.
+inline Bytes unpacked(const Bytes& chunk) {
+    ChunkHeader header = header_of(chunk);
+    if (header.kind != recording::kPacked) return chunk;
+    recording::Unpacker unpacker;
+    const auto records = unpacker.unpack(bytes_of(payload_of(chunk))).value();
+    header.kind = recording::kData;
+    return chunk_of(header, Bytes(reinterpret_cast<const char*>(records.data()), records.size()));
+}
+
+/// The chunks of an undamaged log, unpacked; the head is the first.
 inline std::vector<Bytes> take_apart(const Bytes& log) {
     std::vector<Bytes> out;
     for (size_t at = recording::kFirstLine.size(); at < log.size();) {
         const size_t size = sizeof(ChunkHeader) + header_of(log.substr(at)).size;
-        out.push_back(log.substr(at, size));
+        out.push_back(unpacked(log.substr(at, size)));
         at += size;
     }
     return out;
@@ -186,8 +197,8 @@ inline Bytes crafted(const Bytes& log, std::mt19937_64& random) {
                 header.number = static_cast<uint32_t>(random());
                 break;
             case 1:
-                header.kind = std::array{recording::kHead, recording::kData, recording::kDone,
-                                         0u}[pick(0, 4)];
+                header.kind = std::array{recording::kHead, recording::kData, recording::kPacked,
+                                         recording::kDone, 0u}[pick(0, 5)];
                 break;
             case 2:
                 payload.resize(pick(0, payload.size() + 100));

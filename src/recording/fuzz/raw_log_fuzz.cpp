@@ -12,6 +12,7 @@
 
 #include "recording/chunk.h"
 #include "testing/fuzz.h"
+#include "testing/log_chunks.h"
 
 namespace {
 
@@ -51,6 +52,13 @@ Bytes written() {
     }
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The same log with its records as they are: there nonsense in a frame is found.
+Bytes unpacked(const Bytes& log) {
+    const auto chunks = testing::take_apart({log.begin(), log.end()});
+    const testing::Bytes out = testing::put_together(chunks);
+    return {out.begin(), out.end()};
 }
 
 /// What an edit does at the place that its bytes 1 and 2 give, with its bytes 3 and 4.
@@ -116,15 +124,17 @@ void read(const Bytes& log) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    static const Bytes whole = written();
+    static const Bytes packed = written();
+    static const Bytes plain = unpacked(packed);
     constexpr size_t kMostEdits = 64;
-    Bytes log(data, data + size);
-    if (size == 0 || data[0] != 'D') {
-        log = whole;
-        for (size_t i = 0; i + 5 <= size && i < 5 * kMostEdits; i += 5) apply({data + i, 5}, log);
+    const bool is_log = size > 0 && data[0] == 'D';
+    for (const Bytes& whole : {packed, plain}) {
+        Bytes log = is_log ? Bytes(data, data + size) : whole;
+        for (size_t i = 0; !is_log && i + 5 <= size && i < 5 * kMostEdits; i += 5)
+            apply({data + i, 5}, log);
+        read(log);
+        make_checksums_right(log);
+        read(log);
     }
-    read(log);
-    make_checksums_right(log);
-    read(log);
     return 0;
 }
