@@ -16,7 +16,7 @@ constexpr size_t kFew = 8;
 
 using Trial = AdaptationCurve::Trial;
 
-/// Compensations of the trials that are meant, in their order.
+/// Compensations of the trials that `meant` selects, in their order.
 template <class Meant>
 std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     std::vector<double> out;
@@ -31,7 +31,7 @@ double in_percent(double a, double b) {
     return a > 0 && b > 0 ? 100 * std::log(a / b) : kUnmeasured;
 }
 
-/// Perturbations that differ by less are the same [deg], [%].
+/// Perturbations that differ by less than this count as the same [deg], [%].
 constexpr double kSame = 0.5;
 
 using Stretch = AdaptationCurve::Stretch;
@@ -50,7 +50,7 @@ std::span<const double> last_of(const std::vector<double>& x, size_t count) {
     return std::span(x).last(std::min(count, x.size()));
 }
 
-/// The mean of a less that of b, with Welch's interval.
+/// Mean of a minus mean of b, with Welch's interval.
 Window difference(std::span<const double> a, std::span<const double> b, double sign) {
     const Sample of_a = sample(a);
     const Sample of_b = sample(b);
@@ -82,14 +82,14 @@ bool only_catches(const Stretch& s) {
                        [](const Trial& t) { return of_kind(t, "catch"); });
 }
 
-/// What its perturbed trials were under that nothing measures.
+/// Trial::under of its perturbed trials; "" if there is none.
 std::string under(const Stretch& s) {
     for (const Trial& t : s.trials)
         if (of_kind(t, "perturbed") && !t.under.empty()) return t.under;
     return "";
 }
 
-/// One perturbation, as far as is known.
+/// Whether both have the same perturbation, as far as is known.
 bool alike(const Stretch& a, const Stretch& b) {
     return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
 }
@@ -98,7 +98,7 @@ Window savings(const std::vector<Stretch>& stretches) {
     const auto learned = [](const Stretch& s) { return std::abs(s.perturbation) > kSame; };
     const auto first = std::find_if(stretches.begin(), stretches.end(), learned);
     if (first == stretches.end()) return {};
-    bool between = false;  // something else was done
+    bool between = false;  // whether there was another perturbation, or none, since
     for (auto later = first + 1; later != stretches.end(); ++later) {
         const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
         if (same && between) {
@@ -112,7 +112,7 @@ Window savings(const std::vector<Stretch>& stretches) {
 }
 
 Window rebound(const std::vector<Stretch>& stretches) {
-    constexpr size_t kLast = 2;  // a reversal is short, and goes on changing
+    constexpr size_t kLast = 2;  // few, because compensation still changes at a reversal's end
     double first = 0;
     for (size_t i = 1; i < stretches.size(); ++i) {
         const Stretch& before = stretches[i - 1];
@@ -124,7 +124,7 @@ Window rebound(const std::vector<Stretch>& stretches) {
     return {};
 }
 
-/// The last attempt of each trial, which counts: the others were to be done again.
+/// The last attempt at each trial, which alone counts: the others were to be done again.
 std::map<int, int> last_attempts(const CsvFile& trials) {
     std::map<int, int> out;
     for (size_t i = 0; i < trials.rows(); ++i) {
@@ -319,14 +319,14 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
             trial.compensation = in_percent(trials.number(i, "wanted_extent_mm"), way);
             shown = in_percent(trials.number(i, "shown_extent_mm"), way);
         }
-        // what was not reached was not seen to be wrong, and a clamp shows what it likes
+        // a reach that fell short was not seen to err, and a clamp does not show the true error
         trial.clamp = trial.kind == "error_clamp" || std::isnan(trial.compensation);
         trial.perturbation = trial.clamp ? 0 : shown;
-        // what was seen in an attempt that is done again was seen, but does not count
+        // the error seen in an attempt that is done again stays; its compensation does not count
         if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
         const auto under = unmeasured.find(trials.text(i, "perturbation"));
-        // what has no share of it is as it was without
+        // with share 0 the perturbation does not act
         if (under != unmeasured.end() && trials.number(i, "share") != 0) {
             trial.under = under->second;
             trial.clamp = true;
@@ -346,7 +346,7 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
     constexpr size_t kLeast = 10;
     const auto all = [](const Trial&) { return true; };
-    if (!curve.note().empty()) return std::nullopt;  // what taught them is not known
+    if (!curve.note().empty()) return std::nullopt;  // some of the errors are not known
     if (std::abs(curve.perturbation()) < 1e-6 || measured(curve.trials, all).size() < kLeast)
         return std::nullopt;
     AdaptationFits fits;

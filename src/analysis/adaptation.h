@@ -1,10 +1,11 @@
-// Adaptation, told from a session's trials.csv: what of a perturbation was compensated for in each
-// reach, and the models that describe it.
+// Computes adaptation from a session's trials.csv: how much of a perturbation each reach
+// compensated for, and the models that describe it.
 //
 // With the handle at angle a from the target's direction, and shown at angle s, the perturbation is
-// f = s - a and the compensation x = -a: the error e = f - x is what is seen. In an error clamp it
-// is not. Of extents the same holds in logarithms: with the handle gone h, shown to have gone s,
-// and w wanted, f = ln(s / h), x = ln(w / h), in percent (of small changes; a doubling is 69 %).
+// f = s - a and the compensation x = -a: the error e = f - x is what is seen, except in an error
+// clamp, where it is not seen. Extents are treated alike in logarithms: with the handle gone h,
+// shown to have gone s, and w wanted, f = ln(s / h), x = ln(w / h), in percent (of small changes; a
+// doubling is 69 %).
 #pragma once
 
 #include <limits>
@@ -18,32 +19,32 @@
 
 namespace dihaptic::analysis {
 
-/// One stretch of trials under one kind of perturbation: a round of the task, or all of it.
+/// The trials of one round of the task, or all trials of a task without rounds.
 struct AdaptationCurve {
     struct Trial {
-        int number = 0;  ///< in the session, from 1
+        int number = 0;  ///< number in the session, from 1
         std::string block;
-        std::string kind;         ///< of the trial, as in trials.csv
-        double perturbation = 0;  ///< f 0 in a clamp
+        std::string kind;         ///< kind of trial, as in trials.csv
+        double perturbation = 0;  ///< f; 0 in a clamp
         bool clamp = false;       ///< no error was seen
         double compensation = 0;  ///< x; NaN where it was not measured
-        /// What it was under that nothing measures: perturbation and compensation are NaN. Empty:
-        /// nothing of the kind.
+        /// Perturbation in the trial whose learning has no measure, in words; perturbation and
+        /// compensation are then NaN. Empty if there was none.
         std::string under;
     };
 
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-    std::string round;         ///< its name; empty without rounds
-    std::string unit = "deg";  ///< of f and x; "%" of extents
+    std::string round;         ///< name of the round; empty without rounds
+    std::string unit = "deg";  ///< unit of f and x; "%" for extents
     std::vector<Trial> trials;
 
-    /// Trials of one block that followed one another.
+    /// Consecutive trials of one block.
     struct Stretch {
         std::string block;
-        double perturbation = 0;           ///< of its perturbed trials, the largest by size
-        bool clamp = false;                ///< all of it
-        std::vector<double> compensation;  ///< as far as measured, without catch trials
+        double perturbation = 0;           ///< largest by size among its perturbed trials
+        bool clamp = false;                ///< whether all of its trials are clamps
+        std::vector<double> compensation;  ///< measured values, without catch trials
         std::vector<Trial> trials;
     };
     std::vector<Stretch> stretches() const;
@@ -57,28 +58,28 @@ struct AdaptationCurve {
         double high = kNone;
         int trials = 0;
     };
-    /// What was measured of one block, in windows of at most eight trials.
+    /// Means of one block's measured trials.
     struct Block {
         std::string name;
-        Window first, last;      ///< eight, without catch trials and clamps that were put in
-        Window catch_trials;     ///< all of them
-        Window inserted_clamps;  ///< all of them, in a block that has other trials, too
+        Window first, last;      ///< at most eight trials, without catch trials or inserted clamps
+        Window catch_trials;     ///< all catch trials
+        Window inserted_clamps;  ///< all clamps, in a block that also has other trials
     };
     std::vector<Block> blocks() const;
 
-    /// What papers name, each of trials of one block; empty where there are none:
+    /// The means that papers report; empty where there are no such trials:
     ///
     /// baseline       all baseline trials before the first perturbed block
     /// early          the first eight trials of the first perturbed block
-    /// late           the last eight of the last block that follows it with the same perturbation
+    /// late           the last eight trials of the last block that follows with that perturbation
     /// catch          all catch trials from the first of these blocks to the last
-    /// clamp          the first and the last eight of the first later block that is a clamp
-    /// washout_first  the first eight of the first later washout block
+    /// clamp          the first and the last eight trials of the first later clamp block
+    /// washout_first  the first eight trials of the first later washout block
     ///
-    /// And, toward what was learned first:
+    /// And, positive in the direction that was learned first:
     ///
-    /// savings   the first eight trials of the first later block with the same perturbation, less
-    ///           those of the block that had it first
+    /// savings   the first eight trials of the first later block with the same perturbation, after
+    ///           another, less those of the block that had it first
     /// rebound   the last eight trials of a clamp that follows a block with the opposite
     ///           perturbation, less that block's last two: what was learned first comes back
     struct Windows {
@@ -86,7 +87,7 @@ struct AdaptationCurve {
             rebound;
     };
     Windows windows() const;
-    /// Why what was learned is not measured, or only of a part; empty: it is.
+    /// Why learning is not measured, or only in part; empty if it is measured.
     std::string note() const;
     /// The perturbation and the windows, for a table with landmark_columns().
     std::vector<Table::Cell> landmark_cells() const;
@@ -94,20 +95,20 @@ struct AdaptationCurve {
 
 std::vector<Table::Column> landmark_columns();
 
-/// The table of blocks(): a row each.
+/// Table with a row for each of blocks().
 Table block_table(const std::vector<AdaptationCurve>& curves);
 
-/// By round, in the order in which they were done. Empty where no reaches were measured.
+/// The curves by round, in the order in which rounds were done. Empty if no reach was measured.
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
                                                const Unmeasured& unmeasured = {});
 
-/// Both models, fitted to the curve less its baseline's mean; none where too little was measured,
-/// or nothing perturbed.
+/// Both models, fitted to the curve less its baseline's mean.
 struct AdaptationFits {
     SingleRateFit single_rate;
     TwoRateFit two_rate;
-    double bias = 0;  ///< the baseline's mean, which was taken off
+    double bias = 0;  ///< the baseline's mean, which was subtracted
 };
+/// Returns nullopt when too little was measured or nothing was perturbed.
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve);
 
 }  // namespace dihaptic::analysis

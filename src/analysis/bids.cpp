@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using bids::label;
 using bids::TrackingSystem;
 
-/// A folder for files in the making: what a killed export left there goes with the next one.
+/// A folder for unfinished files. What a killed export left is removed by the next export.
 class Staging {
   public:
     explicit Staging(const std::string& folder) : path_(part_name(folder + "/.export")) {
@@ -73,7 +73,7 @@ class Exporter {
                         "Give another session.");
         }
         systems_ = bids::tracking_systems(session_, info_, log.head());
-        data_set_.check();  // before the work
+        data_set_.check();  // before the long work
         const Staging staging(folder_);
         making_ = staging.path();
         write_motion(log, progress);
@@ -97,7 +97,7 @@ class Exporter {
     }
 
   private:
-    /// Of the run's files, in the subject's folder.
+    /// First part of the path of each of the run's files, in the subject's folder.
     std::string stem() const {
         return fmt::format("{}/{}_task-{}", folder_, data_set_.subject(), label(task_));
     }
@@ -107,7 +107,7 @@ class Exporter {
     std::string events_file(const char* extension) const {
         return fmt::format("{}_run-{:02}_events.{}", stem(), run_, extension);
     }
-    /// The same while it is made.
+    /// Path of such a file while it is written.
     std::string making(const TrackingSystem& system, const std::string& what) const {
         return fmt::format("{}/{}_{}", making_, label(system.name), what);
     }
@@ -147,7 +147,7 @@ class Exporter {
         }
     }
 
-    /// Of all tracking systems, on their common time; false without any.
+    /// Writes the events, which all tracking systems share. Returns false if there are none.
     bool write_events() const {
         const auto events = bids::events_of(session_, info_);
         if (!events) return false;
@@ -156,7 +156,8 @@ class Exporter {
         return true;
     }
 
-    /// Tasks whose labels are the same would be taken for runs of one.
+    /// Throws Error when another task in the data set has the same label: the two would look like
+    /// runs of one task.
     void check_task() const {
         for (int run = 1; run < run_; ++run) {
             const std::string there = fmt::format("{}_tracksys-{}_run-{:02}_motion.json", stem(),
@@ -167,7 +168,7 @@ class Exporter {
                 json.is_object() && json.contains("TaskName") && json["TaskName"].is_string()
                     ? json["TaskName"].get<std::string>()
                     : "";
-            // earlier programs wrote the label
+            // earlier versions wrote the label as the task's name
             if (name.empty() || name == task_ || name == label(task_)) continue;
             throw Error({there, 0}, "TaskName",
                         fmt::format("is {}, and {} would have the same label in file names: {}",
@@ -176,7 +177,8 @@ class Exporter {
         }
     }
 
-    /// The first finger's motion is last: where it is, all of the run is.
+    /// Renames the files. The first finger's motion comes last: if it is there, the run is
+    /// complete.
     void give_names(bool events) const {
         const auto name = [](const std::string& from, const std::string& to) {
             std::error_code failed;
@@ -199,9 +201,9 @@ class Exporter {
     recording::SessionInfo info_;
     std::string folder_of_set_;
     bids::DataSet data_set_;
-    std::string task_;    // name
-    std::string folder_;  // of motion
-    std::string making_;  // folder of files in the making
+    std::string task_;    // name of the task
+    std::string folder_;  // folder of the motion files
+    std::string making_;  // folder of unfinished files
     int run_ = 1;
     std::vector<TrackingSystem> systems_;
     double tick_ = 1e-3;  // [s]

@@ -1,7 +1,7 @@
-// A session as a part of a BIDS data set (Motion-BIDS 1.x; Jeung et al. 2024): for each finger, as
-// a tracking system of its own, motion.tsv with a row a tick, its channels and its description;
-// the session's events; the participant's row. Nothing that is there is replaced: a second session
-// of the same task is another run.
+// Exports a session into a BIDS data set (Motion-BIDS 1.x; Jeung et al. 2024): for each finger, as
+// a tracking system of its own, motion.tsv with a row per tick, its channels and its description;
+// the session's events; the participant's row. Existing files are not replaced: a second session of
+// the same task becomes another run.
 #pragma once
 
 #include <functional>
@@ -13,13 +13,13 @@
 namespace dihaptic::analysis {
 
 struct Exported {
-    std::string folder;            ///< of the session's files
+    std::string folder;            ///< folder of the exported files
     std::vector<std::string> log;  ///< what is wrong with raw.log, in sentences
 };
 
-/// The files get their names when all of them are whole, that of the first finger's motion last:
-/// without it there is no such run. Throws Error when the session has not ended, or a file cannot
-/// be written.
+/// Exports the session to the folder `data_set`. The files get their final names once all are
+/// whole, the first finger's motion last: a run without that file is not complete. Throws Error
+/// when the session has not ended, or a file cannot be written.
 Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
                      const std::function<void(double)>& progress);
 

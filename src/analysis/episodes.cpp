@@ -10,11 +10,11 @@ namespace {
 using Sample = GraspTrace::Sample;
 
 constexpr double kShortest = 0.02;     // [s]
-constexpr double kLettingGo = 0.05;    // fingers that pressed so shortly before let it go [s]
-constexpr double kSlideSpeed = 0.001;  // below, it creeps or rests [m/s]
-constexpr double kHandSpeed = 0.05;    // below, the hand stands still [m/s]
+constexpr double kLettingGo = 0.05;    // fingers that pressed within this time let it go [s]
+constexpr double kSlideSpeed = 0.001;  // below it, the object creeps or rests [m/s]
+constexpr double kHandSpeed = 0.05;    // below it, the hand stands still [m/s]
 
-/// What one sample is part of, if anything.
+/// The kind of episode that a sample is part of, if any.
 struct State {
     std::optional<EpisodeKind> kind;
     PerFinger<char> touching;
@@ -35,8 +35,8 @@ struct Run {
     Range range;
 };
 
-/// Stretches of one state that last; of holds and slides, those that are only broken by shorter
-/// ones are one.
+/// Stretches of one state that last long enough. Holds, or slides, that are separated only by
+/// shorter stretches count as one.
 std::vector<Run> runs_of(const GraspTrace& trace) {
     const std::vector<Sample>& samples = trace.samples();
     const auto shortest = static_cast<size_t>(std::ceil(kShortest / trace.tick()));
@@ -94,10 +94,10 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
     double closed_form = 0;
     for (size_t i = out.range.first + 1; i < out.range.last; ++i) {
         const Sample& s = samples[i];
-        // a step's force times the mean of the velocities around it is its change of energy
+        // a step's force times the mean of the velocities before and after is the change of energy
         const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
         out.distance += h * v.norm();
-        if (s.support < 0) continue;  // it left its support for less than an episode
+        if (s.support < 0) continue;  // the object left its support for less than an episode
         Vec3 load = object.mass * object.gravity;
         for (const size_t finger : out.fingers) load -= s.f_sent_W[finger];
         const double mu = object.friction.empty() ? Episode::kNone
@@ -117,7 +117,7 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
     const double h = trace.tick();
     const size_t first = out.range.first;
     const Vec3 p0 = samples[first].X_WB.p;
-    // of a parabola through the first two positions
+    // initial velocity of the parabola through the first two positions
     const Vec3 v0 = (samples[first + 1].X_WB.p - p0) / h - object.gravity * h / 2;
     out.rise = out.off_path = 0;
     for (size_t i = first; i < out.range.last; ++i) {

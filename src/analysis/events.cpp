@@ -24,17 +24,17 @@ std::string number(double value) {
     return fmt::format("{:g}", value);
 }
 
-/// What can be changed while a session runs, as settings have it.
+/// A setting that can be changed while a session runs.
 struct Knob {
     const char* key;
-    double (*of)(const servo::Frame& frame);  ///< enums by their index
+    double (*of)(const servo::Frame& frame);  ///< value; an enum gives its index
     std::string (*said)(double value);
 };
 const Knob kKnobs[] = {
     {"coupling.kind", [](const servo::Frame& f) { return static_cast<double>(f.coupling); },
      choice<haptics::CouplingKind>},
     {"coupling.stiffness_N_m", [](const servo::Frame& f) { return f.stiffness; }, number},
-    // not a number where it is k h / 2, which would look like a change in each tick
+    // the damping is NaN where it is k h / 2, and would look like a change in each tick
     {"coupling.damping_Ns_m",
      [](const servo::Frame& f) { return std::isnan(f.damping) ? -1 : f.damping; },
      [](double value) { return value < 0 ? "k h / 2" : number(value); }},
@@ -77,7 +77,7 @@ void EventFinder::say(const servo::Frame& frame, const char* what, std::string d
 }
 
 void EventFinder::add_trial(const servo::Frame& frame) {
-    // a task's trials begin with their first state: before it the last one's feedback is seen
+    // a task's trial begins with its first state: before it, the last trial's feedback is shown
     const bool begun = frame.phase > 0 || frame.task.attempt == 0;
     if (!begun || (frame.trial == trial_ && frame.task.attempt == attempt_)) return;
     trial_ = frame.trial;
@@ -151,7 +151,7 @@ void EventFinder::add_settings(const servo::Frame& frame) {
         const double value = knob.of(frame);
         Tuned& tuned = tuned_[i];
         if (!seen_) tuned = {value, value};  // the first ticks may be lost
-        // what is eased in is told of when it has arrived
+        // a change that is eased in is reported once the value has stopped changing
         if (value == tuned.last && value != tuned.told) {
             say(frame, "setting",
                 fmt::format("{}: {} -> {}", knob.key, knob.said(tuned.told), knob.said(value)));

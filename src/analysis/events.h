@@ -1,4 +1,4 @@
-// What happened in a session, from its frames: touches and releases, lift-off and replacement of
+// Finds the events of a session in its frames: touches and releases, lift-off and replacement of
 // the object, phases, and what the servo could not do as asked.
 #pragma once
 
@@ -14,14 +14,14 @@ struct Event {
     double time = 0;  ///< [s]
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
-                       ///< "went on"; of a task "trial", "perturbation", "marker", "message",
+                       ///< "went on"; with a task "trial", "perturbation", "marker", "message",
                        ///< "put back", "outcome"
-    std::string detail;  ///< who, whom, or what
+    std::string detail;  ///< fingers, bodies or values concerned
 };
 
 class EventFinder {
   public:
-    /// `object`: index of the body whose lift-off counts, or -1. `phases` names the phases.
+    /// `object`: index of the body whose lift-off counts; -1 if none. `phases`: their names.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
     void add(const servo::Frame& frame);
@@ -30,7 +30,7 @@ class EventFinder {
   private:
     std::string name(int body) const;
     void say(const servo::Frame& frame, const char* what, std::string detail);
-    // what began or ended in this frame
+    // each adds the events of its kind that are in this frame
     void add_trial(const servo::Frame& frame);
     void add_task(const servo::Frame& frame);
     void add_phase(const servo::Frame& frame);
@@ -38,16 +38,16 @@ class EventFinder {
     void add_support(const servo::Frame& frame);
     void add_settings(const servo::Frame& frame);
     void add_status(const servo::Frame& frame);
-    /// The object presses on something that is no finger.
+    /// Whether the object presses on another body than a finger.
     bool on_support(const servo::Frame& frame) const;
 
     recording::LogHead head_;
     int object_;
     std::vector<std::string> phases_;
     std::vector<char> touching_;      // in the last frame: by finger, by body
-    std::vector<char> now_touching_;  // in this one
-    bool seen_ = false;               // a frame before this one
-    bool supported_ = false;          // in it, the object pressed on something that is no finger
+    std::vector<char> now_touching_;  // in this frame
+    bool seen_ = false;               // there was a frame before this one
+    bool supported_ = false;          // on_support() in the last frame
     int trial_ = 0;
     int attempt_ = 0;
     int message_ = -1;
@@ -55,10 +55,10 @@ class EventFinder {
     int phase_ = -1;
     uint32_t status_ = 0;
     struct Tuned {
-        double told = 0;
-        double last = 0;  // in the last frame
+        double told = 0;  // value in the last event
+        double last = 0;  // value in the last frame
     };
-    std::vector<Tuned> tuned_;  // what can be changed while a session runs
+    std::vector<Tuned> tuned_;  // settings that can be changed while a session runs
     std::vector<Event> events_;
 };
 

@@ -17,7 +17,7 @@ void FaultRecord::add(const servo::Frame& frame) {
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
     if (!last_.empty() && old()) {
-        // Every tick of a session comes here: the oldest frame's memory serves again.
+        // This runs in each tick of a session: the oldest frame's memory is used again.
         last_.splice(last_.end(), last_, last_.begin());
     } else {
         last_.emplace_back();

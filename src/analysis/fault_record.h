@@ -1,5 +1,5 @@
-// What led to a session's faults: the second before force went off, tick by tick, as a table that a
-// person can read. All of it is in raw.log too.
+// Records what led to a session's faults: the second before force went off, tick by tick, as a
+// table that people can read. All of it is in raw.log too.
 #pragma once
 
 #include <list>
@@ -13,14 +13,14 @@ namespace dihaptic::analysis {
 
 class FaultRecord {
   public:
-    /// `turning`: those of the fingers whose devices measure orientation.
+    /// `turning`: the fingers whose devices measure orientation.
     explicit FaultRecord(std::vector<std::string> fingers, std::vector<std::string> turning = {})
         : fingers_(std::move(fingers)), turning_(std::move(turning)) {}
 
-    /// Frames in their order.
+    /// Takes the frames in their order.
     void add(const servo::Frame& frame);
-    /// Rows from kBefore before each fault to its tick; none without a fault. An operator who
-    /// stops a session is none.
+    /// Rows from kBefore before each fault to its tick; empty without a fault. A stop by the
+    /// operator is not a fault.
     Table table() const;
 
     static constexpr Time kBefore = std::chrono::seconds(1);
@@ -29,8 +29,8 @@ class FaultRecord {
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
     std::list<servo::Frame> last_;    // without bodies and contacts
-    bool ended_ = false;              // until the session goes on
-    std::list<servo::Frame> faults_;  // what led to each, one after the other
+    bool ended_ = false;              // force is off, until the session goes on
+    std::list<servo::Frame> faults_;  // frames that led to each fault, one after the other
 };
 
 }  // namespace dihaptic::analysis

@@ -22,7 +22,7 @@ struct Mean {
     double value() const { return count == 0 ? kUnmeasured : sum / count; }
 };
 
-/// A condition in a round.
+/// The reaches of one condition in a round.
 struct Direction {
     Vec3 along_W = Vec3::Zero();
     bool trained = false;
@@ -32,10 +32,10 @@ struct Direction {
 struct Round {
     std::map<std::string, Direction> directions;  // by condition
     Mean baseline;                                // compensation [deg]
-    bool trained = false;                         // something was perturbed by now
+    bool trained = false;                         // whether a trial was perturbed so far
 };
 
-/// Unit vector of the reach that a trial asks for; `number`: in the session, from 1.
+/// Unit vector of the reach that a trial asks for; `number`: the trial's in the session, from 1.
 Vec3 direction_of(const CsvFile& list, int number) {
     const auto i = static_cast<size_t>(number - 1);
     if (number < 1 || i >= list.rows()) return Vec3::Constant(kUnmeasured);
@@ -68,7 +68,7 @@ std::map<std::string, Round> rounds_of(const CsvFile& trials, const CsvFile& lis
     return rounds;
 }
 
-/// From the nearest trained direction [deg].
+/// Angle from the nearest trained direction [deg].
 double angle_from_trained(const Direction& direction, const Round& round) {
     double nearest = kUnmeasured;
     for (const auto& [name, other] : round.directions) {
@@ -79,7 +79,7 @@ double angle_from_trained(const Direction& direction, const Round& round) {
     return nearest * 180 / std::numbers::pi;
 }
 
-/// What a round shows, by rising angle; nothing unless it has probes in directions not trained.
+/// Results of a round, by rising angle; empty unless it has probes in untrained directions.
 std::vector<Generalisation> generalisation_of(const std::string& name, const Round& round) {
     std::vector<Generalisation> out;
     const double bias = round.baseline.count == 0 ? 0 : round.baseline.value();

@@ -1,5 +1,5 @@
-// How far what was learned in one direction of reaching carries to others: told by trials in which
-// no error was seen (clamps and catch trials), in conditions that were not trained.
+// Generalisation: how far learning in one direction of reaching carries over to other directions,
+// from trials without seen errors (clamps and catch trials) in conditions that were not trained.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace dihaptic::analysis {
 struct Generalisation {
     std::string round;
     std::string condition;
-    double angle = 0;         ///< from the nearest trained direction [deg]
-    double compensation = 0;  ///< mean of its probes, less the baseline's mean [deg]
-    double share = 0;         ///< of that in the trained directions; NaN where none was probed
+    double angle = 0;         ///< angle from the nearest trained direction [deg]
+    double compensation = 0;  ///< mean over these trials, less the baseline's mean [deg]
+    double share = 0;  ///< compensation over that in trained directions; NaN if none was probed
     int trials = 0;
 };
 
-/// By round, then angle; none where no untrained condition was probed. `trials`: trials.csv;
+/// Results by round, then angle; empty if no untrained condition was probed. `trials`: trials.csv;
 /// `list`: trial-list.csv, which has the reaches' directions.
 std::vector<Generalisation> find_generalisation(const CsvFile& trials, const CsvFile& list);
 

@@ -18,7 +18,7 @@ Vec3 velocity_at(const servo::BodyFrame& body, const Vec3& p_W) {
     return body.v_WB + body.w_WB.cross(p_W - body.X_WB.p);
 }
 
-/// What fingers and supports do to the object.
+/// Adds the contacts of fingers and supports with the object to the sample.
 void add_contacts(GraspTrace::Sample& sample, const servo::Frame& frame, int object) {
     const int first_proxy = static_cast<int>(frame.bodies.size());
     const auto body = [&](int i) -> const servo::BodyFrame& {
@@ -187,7 +187,7 @@ double GraspTrace::axis_tilt_rms(Range range) const {
 }
 
 double GraspTrace::turn_at(size_t reference, size_t sample) const {
-    // the twist about the grasp axis (swing-twist decomposition)
+    // twist about the grasp axis (swing-twist decomposition)
     const Sample& a = samples_[reference];
     const Sample& b = samples_[sample];
     const Vec3 axis = axis_of(a);

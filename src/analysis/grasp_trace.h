@@ -1,5 +1,5 @@
-// What a grasp looked like, tick by tick, and the figures that follow from it. Summaries of
-// sessions and benchmarks use the same ones.
+// The trace of a grasp, tick by tick, and the figures that follow from it, which both sessions'
+// summaries and benchmarks use.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -16,18 +16,18 @@ struct Range {
     size_t size() const { return last > first ? last - first : 0; }
 };
 
-/// One of each finger; of up to three without memory of its own, for there is one a tick.
+/// One value per finger; up to three need no heap memory, since there is one of these per tick.
 template <class T>
 using PerFinger = boost::container::small_vector<T, 3>;
 
-/// Keeps of each Frame what the figures need.
+/// Keeps from each Frame what the figures need.
 class GraspTrace {
   public:
-    /// `object`: the body that is held; `tick`: seconds a sample.
+    /// `object`: index of the body that is held; `tick`: time between samples [s].
     GraspTrace(int object, double tick) : object_(object), tick_(tick) {}
 
     void add(const servo::Frame& frame);
-    /// Forgets the samples, and keeps their memory for the next trial's.
+    /// Removes the samples, and keeps their memory for the next trial.
     void restart() noexcept { samples_.clear(); }
 
     struct Sample {
@@ -35,22 +35,22 @@ class GraspTrace {
         int phase;
         double grip;      ///< [N]
         double load;      ///< [N]
-        bool on_support;  ///< the object presses on something that is no finger
-        int support;      ///< which body most; -1: none
-        Vec3 n_support;   ///< of that, into the object
-        Vec3 v_sliding;   ///< of the object's point there, along the support [m/s]
-        bool awake;       ///< the object is
-        Pose X_WB;        ///< object
+        bool on_support;  ///< the object presses on another body than a finger
+        int support;      ///< body that it presses most; -1: none
+        Vec3 n_support;   ///< normal of that contact, into the object
+        Vec3 v_sliding;   ///< velocity of the object's point there, along the support [m/s]
+        bool awake;       ///< the object is awake
+        Pose X_WB;        ///< pose of the object
         Vec3 v_WB;
         PerFinger<Vec3> p_WP;
         PerFinger<Vec3> v_WH;
-        PerFinger<Vec3> f_sent_W;  ///< on the handle
+        PerFinger<Vec3> f_sent_W;  ///< force on the handle
         double torque;             ///< largest on any handle; NaN without orientation [N*m]
-        PerFinger<char> touching;  ///< presses the object
-        // of what each finger and the object do to each other
+        PerFinger<char> touching;  ///< the finger presses the object
+        // contact forces between each finger and the object
         PerFinger<double> normal_force;  ///< [N]
         PerFinger<Vec3> f_tangential_W;  ///< on the finger [N]
-        double friction_scale = 1;       ///< of the object's coefficients, over the scene's
+        double friction_scale = 1;       ///< factor on the object's coefficients in the scene
         bool resumed = false;            ///< the session went on after a pause
 
         /// Some finger presses the object.
@@ -60,14 +60,14 @@ class GraspTrace {
     double tick() const { return tick_; }
     size_t fingers() const { return samples_.empty() ? 0 : samples_.front().p_WP.size(); }
 
-    /// Samples in [from, to) seconds; of one phase.
+    /// Samples in [from, to) [s].
     Range between(double from, double to) const;
     Range of_phase(int phase) const;
 
-    /// First sample from which the object presses on nothing but the fingers; samples().size() if
-    /// none.
+    /// First sample in which the object presses on nothing but the fingers; samples().size() if
+    /// there is none.
     size_t lift_off() const;
-    /// Every finger presses the object in every sample.
+    /// Whether every finger presses the object in every sample.
     bool all_touching(Range range) const;
     /// Largest distance of a proxy's origin, in the object's frame, from where it was at the
     /// range's start [m].
@@ -76,14 +76,14 @@ class GraspTrace {
     /// Root mean square, and peak to peak, of the object's height about its mean [m].
     double height_rms(Range range) const;
     double height_range(Range range) const;
-    /// Lowest height over the range, relative to that at its start [m].
+    /// Lowest height over the range, relative to the height at its start [m].
     double sag(Range range) const;
     /// RMS angle of the grasp axis (model/grasp.h) about its mean direction [rad].
     double axis_tilt_rms(Range range) const;
-    /// Largest turn of the object about that axis, since the range's start [rad]; at a sample.
+    /// Largest turn of the object about the grasp axis since the range's start [rad].
     double turn(Range range) const;
     double turn_at(size_t reference, size_t sample) const;
-    /// RMS of the force on a handle above 5 Hz (zero-phase Butterworth), of the worst finger [N].
+    /// RMS of the force on a handle above 5 Hz (zero-phase Butterworth), for the worst finger [N].
     double force_above_5_hz(Range range) const;
     /// Mean of the vertical handle forces, summed over the fingers, downward [N].
     double weight_felt(Range range) const;
@@ -93,7 +93,8 @@ class GraspTrace {
     /// Largest force sent to any handle, and mean force of the busiest finger [N].
     double peak_force(Range range) const;
     double mean_force(Range range) const;
-    /// The same of torque; NaN when no device measures orientation [N*m].
+    /// Largest torque on any handle, and the mean of these torques over the samples; NaN when no
+    /// device measures orientation [N*m].
     double peak_torque(Range range) const;
     double mean_torque(Range range) const;
 

@@ -12,17 +12,17 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kWindow = 0.062;      // of rates [s]
-constexpr double kQuiet = 0.1;         // before anything happens [s]
-constexpr double kLeastHeight = 0.01;  // of a lift [m]
+constexpr double kWindow = 0.062;      // window of the rates [s]
+constexpr double kQuiet = 0.1;         // time at the start, before anything happens [s]
+constexpr double kLeastHeight = 0.01;  // least height of a lift [m]
 constexpr double kRising = 0.01;       // [m/s]
 constexpr double kSinking = -0.02;     // [m/s]
 constexpr double kLoaded = 0.2;        // [N]
 constexpr double kLagMost = 0.1;       // [s]
 constexpr double kSlipSpeed = 5e-3;    // [m/s]
-constexpr double kLeastRate = 0.2;     // without noise the quiet window has no spread [N/s]
-constexpr double kBounce = 0.05;       // parts a digit and the object for less [s]
-constexpr double kLoadShare = 0.02;    // of the load at lift-off: less is none
+constexpr double kLeastRate = 0.2;     // least threshold, as a window without noise has no SD [N/s]
+constexpr double kBounce = 0.05;       // a bounce parts a digit from the object for less [s]
+constexpr double kLoadShare = 0.02;    // a smaller share of the load at lift-off counts as no load
 
 using Signal = std::vector<double>;
 
@@ -86,13 +86,13 @@ struct Signals {
             height.push_back(-down.dot(s.X_WB.p));
             rise.push_back(-down.dot(s.v_WB));
         }
-        // after missing ticks it is not known where the object lies
+        // after missing ticks the object's place is not known
         const auto known =
             std::find_if(height.begin(), height.end(), [](double h) { return std::isfinite(h); });
         const double rest = known == height.end() ? kUnmeasured : *known;
         for (double& h : height) h -= rest;
     }
-    /// Largest height; NaN: it is never known.
+    /// Largest height; NaN if it is never known.
     double top() const {
         double out = kUnmeasured;
         for (const double h : height) out = std::fmax(out, h);
@@ -103,18 +103,18 @@ struct Signals {
 
     double tick;
     Signal grip, load;                           // [N]
-    Signal height, rise;                         // above where the object lay [m], [m/s]
+    Signal height, rise;                         // above where the object lay [m], and rate [m/s]
     std::vector<Signal> digit_grip, digit_load;  // by finger [N]
 };
 
-/// The threshold that a rate crosses when something happens.
+/// Threshold of a force's rate, from its mean and SD in the quiet time.
 double threshold(const Signals& signals, const Signal& rate) {
     const auto quiet = std::span(rate).first(std::min(rate.size(), signals.samples(kQuiet)));
     return std::max(kLeastRate, mean(quiet) + 4 * spread(quiet));
 }
 
-/// When a digit touches, by the force of all of its samples or of the first of them; none: it does
-/// not.
+/// Sample of a digit's touch. `force` has all of the digit's samples, or only the first ones.
+/// Nullopt if the digit does not touch.
 std::optional<size_t> touch(const Signals& signals, std::span<const double> force,
                             const Signal& rate) {
     const auto largest = std::max_element(force.begin(), force.end());
@@ -127,7 +127,7 @@ std::optional<size_t> touch(const Signals& signals, std::span<const double> forc
     return i;
 }
 
-/// When a digit lets go after `replaced`; none: it does not.
+/// Sample in which a digit lets go after `replaced`; nullopt if it does not.
 std::optional<size_t> release(const Signals& signals, const Signal& force, const Signal& rate,
                               size_t replaced) {
     const double limit = threshold(signals, rate);
@@ -147,7 +147,7 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
     return i;
 }
 
-/// How often, and how far at most, digits slid on the object.
+/// Finds how often digits slid on the object, and how far at most.
 void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
     lift.slip = 0;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -170,7 +170,7 @@ void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
     }
 }
 
-/// What the digits did while they loaded the object.
+/// Coupling of grip and load while the digits loaded the object.
 void find_coupling(Lift& lift, const Signals& signals, const Signal& grip_rate,
                    const Signal& load_rate, Range loading) {
     if (loading.size() < signals.samples(0.02)) return;
@@ -198,8 +198,7 @@ void find_coupling(Lift& lift, const Signals& signals, const Signal& grip_rate,
     lift.offset = mean_grip - lift.slope * mean_load;
 }
 
-/// Load over grip at which the digits slip together: the sum of their coefficients over their
-/// number, for the mean grip.
+/// Ratio of load to mean grip, per digit, at which all digits slip: the mean of their coefficients.
 double friction_of(const GraspTrace::Sample& sample, std::span<const double> friction) {
     double sum = 0;
     int count = 0;
@@ -211,12 +210,13 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
     return count > 0 ? sum / count : Lift::kNone;
 }
 
-/// The object presses on something that is no finger. What sleeps stands, and shows no contact.
+/// Whether the object presses on another body than a finger. A sleeping object stands too, though
+/// it has no contacts.
 bool stands(const GraspTrace::Sample& s) {
     return s.on_support || !s.awake;
 }
 
-/// Samples of the events; of the digits', one for each that has it.
+/// Sample numbers of the events; a digit's event has one for each digit in which it happened.
 struct Events {
     size_t lift_off = 0;
     std::vector<size_t> touches;
@@ -225,7 +225,8 @@ struct Events {
     std::vector<std::optional<size_t>> releases;
 };
 
-/// The object's first and last samples at half of its height or above.
+/// Range from the first to the last sample in which the object is at half of its top height or
+/// above.
 Range high_of(const Signals& signals, double top) {
     const auto high = [&](double h) { return h >= top / 2; };
     const auto first = std::find_if(signals.height.begin(), signals.height.end(), high);
@@ -234,7 +235,7 @@ Range high_of(const Signals& signals, double top) {
             signals.size() - static_cast<size_t>(last - signals.height.rbegin())};
 }
 
-/// By the rules for data without contacts.
+/// Finds events by the rules for data without contacts.
 class ByForce {
   public:
     ByForce(const GraspTrace& trace, const Signals& signals, Range high)
@@ -266,8 +267,8 @@ class ByForce {
     }
 
   private:
-    /// Before the object rises fast; where it left its support before that, since it was lifted
-    /// slowly, then.
+    /// The sample before the object rises fast; if it left its support earlier, because it was
+    /// lifted slowly, that sample.
     size_t lift_off() const {
         size_t lifted = high_.first;
         while (lifted > 0 && signals_.rise[lifted] > kRising) --lifted;
@@ -282,13 +283,13 @@ class ByForce {
     std::vector<Signal> rates_;
 };
 
-/// By contact: each event is the sample in which it happened.
+/// Finds events by contact: each is the sample in which it happened.
 class ByContact {
   public:
     ByContact(const GraspTrace& trace, const Signals& signals, Range high)
         : trace_(trace), signals_(signals), high_(high) {}
 
-    /// None where it is not seen how the object left what it stood on.
+    /// Nullopt if the trace does not show the object leave what it stood on.
     std::optional<Events> find() const {
         Events out;
         out.lift_off = high_.first;
@@ -311,7 +312,7 @@ class ByContact {
   private:
     const GraspTrace::Sample& sample(size_t i) const { return trace_.samples()[i]; }
 
-    /// When the pressing began that goes on to lift-off.
+    /// Sample in which the pressing that lasts until lift-off began.
     std::optional<size_t> touch(size_t f, size_t lift_off) const {
         std::optional<size_t> began;
         const size_t bounce = signals_.samples(kBounce);
@@ -335,7 +336,7 @@ class ByContact {
     }
 
     std::optional<size_t> release(size_t f, size_t replaced) const {
-        size_t last = replaced;  // pressed
+        size_t last = replaced;  // last sample in which the digit pressed
         const size_t bounce = signals_.samples(kBounce);
         for (size_t i = replaced; i < signals_.size(); ++i) {
             if (sample(i).touching[f]) {
@@ -352,7 +353,7 @@ class ByContact {
     Range high_;
 };
 
-/// Fills in what the events are called, and which rule found them.
+/// Finds the events, and sets the rule that found them.
 Events find_events(Lift& lift, const GraspTrace& trace, const Signals& signals, Range high,
                    std::optional<EventRule> rule) {
     const auto& samples = trace.samples();
@@ -372,14 +373,14 @@ bool was_paused(const GraspTrace& trace) {
                        [](const GraspTrace::Sample& s) { return s.resumed; });
 }
 
-/// Where the object begins to sink to where it is put down; not before lift-off.
+/// Sample in which the object begins to be lowered; not before lift-off.
 size_t lowering_of(const Signals& signals, Range high, size_t lift_off) {
     size_t lowered = high.last - 1;
     while (lowered > lift_off && signals.rise[lowered] < kSinking) --lowered;
     return lowered;
 }
 
-/// From touch to lift-off.
+/// Times and durations from touch to lift-off.
 void find_start(Lift& lift, const GraspTrace& trace, const Signals& signals, const Events& events) {
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
     lift.lift_off = time(events.lift_off);
@@ -391,7 +392,7 @@ void find_start(Lift& lift, const GraspTrace& trace, const Signals& signals, con
     lift.loading = lift.lift_off - time(*last);
 }
 
-/// Of the forces from touch to lowering.
+/// Peaks of the forces from touch to lowering.
 void find_peaks(Lift& lift, const GraspTrace& trace, const Signals& signals, Range up) {
     const auto grip = part(signals.grip, up);
     const auto peak = std::max_element(grip.begin(), grip.end());
@@ -402,7 +403,7 @@ void find_peaks(Lift& lift, const GraspTrace& trace, const Signals& signals, Ran
     lift.peak_load = *std::max_element(load.begin(), load.end());
 }
 
-/// How fast the forces grew before lift-off, and how well together.
+/// Largest rates of the forces before lift-off, and their coupling.
 void find_rates(Lift& lift, const Signals& signals, const Events& events, size_t touched) {
     const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
     const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
@@ -418,7 +419,7 @@ void find_rates(Lift& lift, const Signals& signals, const Events& events, size_t
     find_coupling(lift, signals, grip_rate, load_rate, {loaded, end});
 }
 
-/// The stretch before lowering in which forces and height have settled; none of shorter lifts.
+/// Range before lowering in which forces and height have settled; nullopt if the lift is too short.
 std::optional<Range> hold_of(const Signals& signals, size_t lift_off, size_t lowered) {
     const size_t early = signals.samples(0.6);
     const size_t late = signals.samples(0.2);
@@ -437,7 +438,7 @@ void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, R
     lift.height = mean(part(signals.height, hold));
 }
 
-/// Replacement and release; the mark says which of them is not there, or else "complete".
+/// Finds replacement and release; the mark says which is missing, or "complete".
 void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
     lift.mark = "not put down";
     if (!events.replacement) return;

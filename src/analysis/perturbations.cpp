@@ -9,7 +9,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// One mass for each axis, and not the same.
+/// Whether the body has a mass for each axis, and they differ.
 bool differs_by_direction(const Node& body) {
     const Node* scale = body.find("mass_scale");
     if (scale == nullptr || scale->items.size() < 2) return false;
@@ -19,7 +19,7 @@ bool differs_by_direction(const Node& body) {
                        [&](const Node& node) { return value(node) != first; });
 }
 
-/// What it is, if its learning is not measured.
+/// Description of the perturbation if its learning is not measured; otherwise "".
 std::string what_of(const Node& perturbation) {
     if (const Node* field = perturbation.find("field")) {
         const Node* kind = field->find("kind");
@@ -30,7 +30,8 @@ std::string what_of(const Node& perturbation) {
     return body != nullptr && differs_by_direction(*body) ? "a mass that differs by direction" : "";
 }
 
-/// Those of the task, and those that its rounds and conditions put in their places.
+/// Collects the perturbations of the task, and those with which its rounds and conditions replace
+/// them.
 void collect(const Node& node, Unmeasured& out) {
     if (const Node* list = node.find("perturbations")) {
         for (const Node& perturbation : list->items) {

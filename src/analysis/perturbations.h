@@ -1,6 +1,5 @@
-// What a session's perturbations are, told from its frozen task.yaml. There is no measure yet of
-// what is learned of some of them: of these, figures are left empty with a reason, rather than
-// wrong.
+// Finds a session's perturbations for whose learning there is no measure yet, from its frozen
+// task.yaml: their figures are left empty, with a reason, rather than wrong.
 #pragma once
 
 #include <map>
@@ -8,9 +7,9 @@
 
 namespace dihaptic::analysis {
 
-/// By the name of a perturbation whose learning is not measured, what it is: "a force field
-/// (curl)", "a force channel", "a mass that differs by direction". The others are measured by
-/// reaches, by lifts or by thresholds. Empty where the file is not there, or cannot be read.
+/// Maps the name of each perturbation whose learning is not measured to a description: "a force
+/// field (curl)", "a force channel", "a mass that differs by direction". The others are measured by
+/// reaches, by lifts or by thresholds. Empty if the file is missing or cannot be read.
 using Unmeasured = std::map<std::string, std::string>;
 Unmeasured unmeasured_perturbations(const std::string& task_file);
 

@@ -13,12 +13,12 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// A file whose last line does not end.
+/// Whether the file's last line is cut off.
 bool is_cut(const std::string& file) {
     return is_there(file) && !read_bytes(file, kMostTable).ends_with('\n');
 }
 
-/// Every setting of settings.yaml, with the origin that settings.csv still has for it.
+/// Makes settings.csv anew from settings.yaml, with the origins that settings.csv still has.
 void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
     servo::Settings settings;
     try {
@@ -26,7 +26,7 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
         read_fields(settings, read_yaml(folder.file("settings.yaml")), unreadable);
         unreadable.throw_if_errors();
     } catch (const Error&) {
-        return;  // said where the inputs' checksums are
+        return;  // reported with the inputs' checksums
     }
     Table was;
     try {

@@ -1,21 +1,21 @@
-// Sessions that were killed, and sessions whose files were damaged: what can be had of them is made
-// anew, and what is lost is said.
+// Recovers sessions that were killed or whose files were damaged: makes anew what can be made, and
+// reports what is lost.
 #pragma once
 
 #include "analysis/session_report.h"
 
 namespace dihaptic::analysis {
 
-/// What became of a session that was left behind.
+/// Result of recovering a session.
 struct Recovery {
     SessionFigures figures;
     recording::SessionInfo info;
-    bool had_ended = false;         ///< its files were there before
-    std::vector<Problem> warnings;  ///< what was lost or changed, beside the log
+    bool had_ended = false;         ///< the session had ended, and had its files already
+    std::vector<Problem> warnings;  ///< what was lost or changed, apart from the log
 };
 
-/// Makes the files of a session that was killed, or anew those of one that has them, from its log
-/// and what else there is. Throws Error when it cannot, or while the session runs.
+/// Makes the files of a session, or makes them anew if it has them, from its log and whatever else
+/// is left. Throws Error when it cannot, or while the session runs.
 Recovery recover_session(const recording::SessionFolder& folder,
                          const std::function<void(double)>& progress);
 

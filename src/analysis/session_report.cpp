@@ -26,14 +26,14 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// What reading the log once gives.
+/// Results of reading the log once.
 struct Reading {
     SessionFigures figures;
     std::vector<Event> events;
     Table fault;
-    std::optional<TrialFinder> trials;  ///< of a task
+    std::optional<TrialFinder> trials;  ///< if the session has a task
     std::vector<Lift> lifts;
-    std::string why_no_facts;  ///< of the object; empty: they are known
+    std::string why_no_facts;  ///< why ObjectFacts are not known; empty if they are
 };
 
 PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -51,15 +51,14 @@ PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
     bool carried = held && weight > 0;
     for (size_t i = range.first; i < range.last && carried; ++i)
         carried = !trace.samples()[i].on_support;
-    // after damage to the log it may not be known where the object was
+    // after damage to the log the object's pose may not be known
     const bool known = trace.samples()[range.first].X_WB.p.allFinite();
     out.slip = held && known ? trace.slip(range) : kUnmeasured;
     out.weight_felt = carried ? trace.weight_felt(range) / weight : kUnmeasured;
     return out;
 }
 
-/// Of the object; nothing is known, and `why` is said, when scene.yaml is not what it was or cannot
-/// be read.
+/// Facts of the object. Without them, sets `why`: scene.yaml has changed or cannot be read.
 ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
                      const recording::LogHead& head, std::string& why) {
     if (name.empty()) return {};
@@ -97,7 +96,7 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
 
 }  // namespace
 
-/// What one pass over the frames needs and gives.
+/// Working data and results of one pass over the frames.
 struct SessionReader::Pass {
     Pass(const recording::SessionFolder& folder, const recording::SessionInfo& info,
          const recording::LogHead& head)
@@ -155,7 +154,7 @@ struct SessionReader::Pass {
                                 (reading.trials && phase == 0 && frame.phase != 0);
         if (frame.phase != phase || next_trial) {
             close_phase();
-            if (next_trial) end_trial();  // objects are put back
+            if (next_trial) end_trial();  // a new trace, since objects are put back
             phase = frame.phase;
             attempt = frame.task.attempt;
             trial = frame.trial;
@@ -180,7 +179,7 @@ struct SessionReader::Pass {
         reading.fault = fault.table();
     }
 
-    std::vector<std::string> names;  // of phases
+    std::vector<std::string> names;  // names of the phases
     int object;
     double tick;
     Reading reading;
@@ -191,7 +190,7 @@ struct SessionReader::Pass {
     int trial = 0;
     int attempt = 0;
     int phase = -1;
-    size_t first = 0;  // sample of the phase
+    size_t first = 0;  // first sample of the phase
 };
 
 SessionReader::SessionReader(const recording::SessionFolder& folder,
@@ -304,7 +303,7 @@ Table event_table(const std::vector<Event>& events, const recording::Showings& s
                      {"event", "what happened"},
                      {"detail", "to whom, or what"},
                      {"shown_s", "when the first picture of it came to the screen; empty: none"}};
-    // a message is seen in pictures from before the next one's
+    // a message is seen only in pictures from before the next message
     int64_t gone = recording::Showings::kStays;
     for (size_t i = events.size(); i-- > 0;) {
         const Event& event = events[i];
@@ -319,7 +318,7 @@ Table event_table(const std::vector<Event>& events, const recording::Showings& s
     return table;
 }
 
-/// The same as NWB has tables: of intervals, which begin and end.
+/// The table of events in NWB's form: intervals, with a start and an end.
 Table as_intervals(const Table& events) {
     Table table;
     table.columns = {{"start_time", "s"}, {"stop_time", "s"}};
@@ -332,7 +331,7 @@ Table as_intervals(const Table& events) {
     return table;
 }
 
-/// The latest time that a table of a session tells of [s].
+/// Latest time in a column of a session's table [s]; 0 if the table cannot be read.
 double last_time(const std::string& file, const std::string& column) {
     try {
         const CsvFile table(file);
@@ -341,11 +340,12 @@ double last_time(const std::string& file, const std::string& column) {
         for (size_t i = 0; i < table.rows(); ++i) last = std::max(last, table.number(i, column));
         return last;
     } catch (const Error&) {
-        return 0;  // what cannot be read tells of nothing
+        return 0;
     }
 }
 
-/// What was made of a log before it was damaged is worth more than what can be made of it now.
+/// Throws Error when existing files, made before the log was damaged, hold more than the log can
+/// give now.
 void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures,
                        const std::vector<std::string>& damage) {
     std::vector<Problem> problems;
@@ -367,7 +367,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
                                                           {"lifts.csv", "release_s"},
                                                           {"events.csv", "time_s"}};
     for (const auto& [name, column] : tables) {
-        // it also has the times of the sessions that this one goes on with
+        // trials.csv also has the times of the sessions that this one resumes
         if (std::string_view(name) == "trials.csv" && has_trials(folder)) continue;
         const double last = last_time(folder.file(name), column);
         if (last > figures.duration + figures.tick / 2) {
@@ -398,7 +398,7 @@ Table no_settings() {
     return table;
 }
 
-/// Of a damaged session they may be lost: the rest of it is not.
+/// The settings; no rows if they cannot be read, so that the rest of a damaged session is not lost.
 Table settings_left(const recording::SessionFolder& folder) {
     try {
         return read_settings(folder);
@@ -436,7 +436,7 @@ const PhaseFigures* SessionFigures::phase(const std::string& name) const {
 
 namespace {
 
-/// Every table but NWB's.
+/// Writes all tables except NWB's.
 SessionFigures write_tables(const recording::SessionFolder& folder,
                             const recording::SessionInfo& info, const Reading& reading,
                             const recording::NwbContent& content, const Table& events) {
@@ -449,7 +449,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder,
     if (!reading.lifts.empty()) write_csv(by(lift_table(reading.lifts)), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
-    folder.sync();  // all of them are on the disk before the state says so
+    folder.sync();  // all files are on the disk before the state says so
     folder.write_info(info);
     return out;
 }

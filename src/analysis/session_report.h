@@ -1,5 +1,5 @@
-// From raw.log to what a lab reads: trials.csv, phases.csv, episodes.csv, lifts.csv,
-// events.csv and session.nwb. A session that ended and one that was killed go the same way.
+// Makes the files that a lab reads from raw.log: trials.csv, phases.csv, episodes.csv, lifts.csv,
+// events.csv and session.nwb. A session that was killed is treated like one that ended.
 #pragma once
 
 #include <bit>
@@ -25,34 +25,34 @@ struct PhaseFigures {
     double end = 0;
     double mean_grip = 0, peak_grip = 0;      ///< [N]; NaN with one finger
     double mean_load = 0;                     ///< [N]
-    double mean_force = 0, peak_force = 0;    ///< on the busiest finger; on any [N]
-    double mean_torque = 0, peak_torque = 0;  ///< on any [N*m]; NaN without orientation
+    double mean_force = 0, peak_force = 0;    ///< mean on the busiest finger; peak on any [N]
+    double mean_torque = 0, peak_torque = 0;  ///< on any finger [N*m]; NaN without orientation
     double slip = 0;         ///< [m]; NaN unless every finger holds the object throughout
-    double weight_felt = 0;  ///< share of the object's weight; NaN unless it is carried
+    double weight_felt = 0;  ///< share of the object's weight; NaN unless the object is carried
 };
 
 struct SessionFigures {
     std::vector<PhaseFigures> phases;
-    std::optional<Table> trials;       ///< of a task, those of earlier parts of the session too
-    std::vector<Episode> episodes;     ///< of the object
+    std::optional<Table> trials;    ///< a task's trials, with those of the session's earlier parts
+    std::vector<Episode> episodes;  ///< the object's episodes
     std::vector<std::string> fingers;  ///< names
     int64_t frames = 0;
-    recording::LogHealth log;           ///< what is missing
+    recording::LogHealth log;           ///< what is missing from the log
     double tick = 0;                    ///< period of the clock [s]
     double duration = 0;                ///< [s]
     uint32_t status = 0;                ///< all status bits that occurred
-    std::vector<int64_t> status_ticks;  ///< by bit
+    std::vector<int64_t> status_ticks;  ///< number of ticks with each status bit
 
-    /// Something was not a number: no figure can be trusted.
+    /// Whether something was not a number, so that no figure can be trusted.
     bool diverged() const { return (status & servo::kNotFinite) != 0; }
-    /// Diverged, or force was off after another fault: what was felt is not what was planned. That
-    /// an operator stopped it is no failure, but an interruption.
+    /// Whether the session diverged, or force was off after another fault, so that what was felt is
+    /// not what was planned. A stop by the operator is an interruption, not a failure.
     bool failed() const {
         return diverged() || ((status & servo::kForceOff) != 0 && (status & servo::kStopped) == 0);
     }
     int64_t ticks_with(servo::Status bit) const { return status_ticks[place_of(bit)]; }
     int64_t& ticks_with(servo::Status bit) { return status_ticks[place_of(bit)]; }
-    /// The phase of that name, or null.
+    /// The phase of that name; null if there is none.
     const PhaseFigures* phase(const std::string& name) const;
 
   private:
@@ -61,20 +61,21 @@ struct SessionFigures {
     }
 };
 
-/// "thumb, index"
+/// Names of an episode's fingers, e.g. "thumb, index".
 std::string finger_list(const Episode& episode, const std::vector<std::string>& names);
 
 /// Writes session.nwb, trials.csv, phases.csv, episodes.csv, lifts.csv, events.csv and, after a
-/// fault, fault.csv; at last session.yaml with `info`, whose state they have then; it is
-/// `recovered` when the log is damaged. Throws Error when it cannot, or when those that are there
-/// tell of more than the log does now.
+/// fault, fault.csv; and last session.yaml with `info` and its state, which becomes `recovered`
+/// when the log is damaged. Throws Error when it cannot, or when existing files hold more than the
+/// log can give now.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
 
-/// Reads a session's frames, each in turn, as they arise or out of its log.
+/// Takes a session's frames in turn, while it runs or from its log, and computes what the files
+/// need.
 class SessionReader {
   public:
-    /// `folder` has the frozen inputs; of `info` its phases, object and participant are known.
+    /// `folder` must have the frozen inputs, and `info` the phases, object and participant.
     SessionReader(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                   const recording::LogHead& head);
     SessionReader(SessionReader&&) noexcept;
@@ -90,15 +91,16 @@ class SessionReader {
     std::unique_ptr<Pass> pass_;
 };
 
-/// The same as finish_session() of a session that was read while it ran, and has no log: all tables
-/// and session.yaml, no session.nwb.
+/// Does what finish_session() does for a session without a log that was read while it ran: writes
+/// all tables and session.yaml, but no session.nwb.
 SessionFigures finish_tables(const recording::SessionFolder& folder,
                              const recording::SessionInfo& info, SessionReader reader);
 
-/// Adds a note, unless it is there: a session may be recovered more than once.
+/// Adds a note unless `info` has it already: a session may be recovered more than once.
 void add_note(recording::SessionInfo& info, const std::string& note);
 
-/// Every setting of the session, with its origin: settings.csv, or no row when it is gone.
+/// Every setting of the session with its origin, from settings.csv; no rows if that file is
+/// missing.
 Table read_settings(const recording::SessionFolder& folder);
 
 }  // namespace dihaptic::analysis

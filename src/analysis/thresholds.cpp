@@ -63,7 +63,7 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     }
     try {
         out.fit = fit_psychometric(counts, track.model);
-    } catch (const Error& e) {  // of these answers alone: others can be fitted
+    } catch (const Error& e) {  // other tracks may still be fitted
         out.note = "not possible: " + e.problems().front().what;
         return out;
     }

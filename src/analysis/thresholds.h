@@ -1,5 +1,5 @@
-// Thresholds, told from a session's trials.csv and procedures.csv: for each adaptive procedure what
-// was shown and said, and the psychometric function that makes the answers most likely.
+// Computes thresholds from a session's trials.csv and procedures.csv: for each adaptive procedure
+// the levels and answers, and the psychometric function that makes the answers most likely.
 #pragma once
 
 #include <optional>
@@ -17,26 +17,28 @@ struct ThresholdTrack {
     std::string perturbation;
     bool logarithmic = false;       ///< levels are log10 of shares
     std::vector<Answer> answers;    ///< in their order
-    std::vector<int> trials;        ///< of each, its number in the session
-    PsychometricFitSettings model;  ///< that is fitted
+    std::vector<int> trials;        ///< trial number of each answer in the session
+    PsychometricFitSettings model;  ///< model that is fitted
 
-    double share(double level) const;  ///< of the perturbation
+    double share(double level) const;  ///< share of the perturbation at a level
 };
 
-/// By procedure. Answers that are neither yes nor no, and trials of none, are left out.
+/// One track per procedure. Answers that are neither yes nor no, and trials without a procedure,
+/// are left out.
 std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures);
 
 /// The fit of a track, or why there is none.
 struct ThresholdFit {
     std::optional<PsychometricFit> fit;
-    /// What is to be known of it: why there is none, or that its threshold lies outside of the
-    /// levels that were shown, where nobody was asked. Empty: nothing.
+    /// Why there is no fit, or that its threshold lies outside of the levels that were shown; empty
+    /// if there is nothing to note.
     std::string note;
-    bool outside = false;
+    bool outside = false;  ///< the threshold lies outside of the levels that were shown
 };
-/// None of less than ten answers, of one level, or of levels that the sigmoid cannot take.
+/// There is no fit for fewer than ten answers, for a single level, or for levels that the sigmoid
+/// cannot take.
 ThresholdFit fit_threshold(const ThresholdTrack& track);
-/// Of its fit, from 500 bootstrap samples.
+/// Intervals of a fit, from 500 bootstrap samples.
 PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
                                           uint64_t seed);
 

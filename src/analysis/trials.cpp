@@ -39,7 +39,7 @@ const std::vector<Table::Column> kMeasureColumns = {
     {"shown_extent_mm", "the same of where the handle was shown"},
     {"wanted_extent_mm", "that would have led to the target"}};
 
-/// What the list's column is.
+/// Description of a column of the list.
 std::string listed_as(const std::string& name) {
     for (const Table::Column& c : recording::kTrialListColumns) {
         if (c.name == name) return c.description;
@@ -47,7 +47,7 @@ std::string listed_as(const std::string& name) {
     return "of trial-list.csv";
 }
 
-/// Index of the list's column, or its width.
+/// Index of the list's column; its number of columns if there is no such column.
 size_t column(const std::vector<std::vector<std::string>>& list, const std::string& name) {
     return static_cast<size_t>(std::find(list[0].begin(), list[0].end(), name) - list[0].begin());
 }
@@ -118,7 +118,7 @@ void TrialFinder::add(const servo::Frame& frame) {
     Row& row = rows_.back();
     row.end = seconds(frame.time);
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
-    // where it does not act in all of the trial
+    // kept, since the perturbation may not act in all of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
     row.peak_grip = std::fmax(row.peak_grip, frame.grip_force);
     for (const servo::FingerFrame& finger : frame.fingers)
@@ -144,8 +144,8 @@ void TrialFinder::measure_angle(Row& row, const ReachPlan& reach, const servo::F
     row.shown_angle = angle_about(reach.axis_W, way, shown);
 }
 
-/// A finger that holds something is not where the hand is: the ways are from where it set out, and
-/// what is wanted is what was left to go of the way from the first region to the other.
+/// Extents are measured from where the handle set out, since a finger that holds something is not
+/// at the hand's middle. The wanted extent is what is then left of the way from region to region.
 void TrialFinder::measure_extent(Row& row, const ReachPlan& reach,
                                  const servo::Frame& frame) const {
     const servo::FingerFrame& finger = frame.fingers[reach.finger];
@@ -175,7 +175,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         const auto i = static_cast<size_t>(r.trial);
         for (size_t k = 0; k < listed; ++k) {
             const bool known = i < list_.size() && k < list_[i].size();
-            // a procedure's share is known when the trial is done
+            // a procedure's share is only known once the trial is done
             if (known && list_[0][k] == "share" && list_[i][k].empty()) {
                 row.emplace_back(r.share);
             } else {
@@ -226,7 +226,7 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
                     "Put the trials.csv of the session that this one goes on with in its place.");
     }
     Table table{own.columns, {}};
-    // an earlier version's table may lack a column, or have it elsewhere
+    // an earlier version's table may lack a column, or have it in another place
     std::vector<size_t> places;
     for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
     for (size_t i = 1; i < before.size(); ++i) {

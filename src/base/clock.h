@@ -1,4 +1,5 @@
-// Time since the session's activation, in whole nanoseconds: sums of ticks stay exact.
+// Time since the session's activation is counted in whole nanoseconds, so that sums of ticks stay
+// exact.
 #pragma once
 
 #include <chrono>
@@ -7,12 +8,12 @@ namespace dihaptic {
 
 using Time = std::chrono::nanoseconds;
 
-/// Seconds as a number, for arithmetic.
+/// A time in seconds, for arithmetic.
 constexpr double seconds(Time time) {
     return std::chrono::duration<double>(time).count();
 }
 
-/// The nearest whole nanosecond to a number of seconds.
+/// A number of seconds as the nearest whole nanosecond.
 constexpr Time from_seconds(double s) {
     return Time(static_cast<Time::rep>(s * 1e9 + (s < 0 ? -0.5 : 0.5)));
 }

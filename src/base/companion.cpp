@@ -24,7 +24,8 @@ namespace {
 
 constexpr int kOutOfMemory = 3;  // exit status
 
-/// Those that run. Guarded, so that nobody ends another program that has got a number of theirs.
+/// The companions that are running. The list is guarded, so that cancelling never ends a program
+/// that was given the number of an ended companion.
 struct Running {
     std::string name;
     pid_t process;
@@ -32,7 +33,7 @@ struct Running {
 std::mutex running_guard;
 std::vector<Running> running;
 
-/// A file in memory, which needs no name and no folder.
+/// A file in memory, which needs neither a name nor a folder.
 class MemoryFile {
   public:
     explicit MemoryFile(const std::string& text)
@@ -71,8 +72,8 @@ class MemoryFile {
     bool good_ = false;
 };
 
-/// Starts a program; what goes wrong is an error number. It has none of our files, which may be
-/// devices, and neither what we do about signals nor which of them we block.
+/// Starts a program; returns 0 or an error number. The program inherits neither our open files,
+/// which may be devices, nor our signal handlers and blocked signals.
 int start(const std::string& path, const CompanionTask& task, int in, int out, pid_t& process) {
     std::vector<char*> words{const_cast<char*>(path.c_str())};
     for (const std::string& word : task.arguments) words.push_back(const_cast<char*>(word.c_str()));
@@ -102,7 +103,7 @@ bool limit(pid_t process, const CompanionLimits& limits) {
     const auto set = [&](__rlimit_resource which, uint64_t soft, uint64_t hard) {
         rlimit now{};
         if (prlimit(process, which, nullptr, &now) != 0) return errno == ESRCH;  // it has ended
-        // who has less already may not have more
+        // a process whose hard limit is lower already cannot be given more
         const rlimit value{std::min(soft, now.rlim_max), std::min(hard, now.rlim_max)};
         return prlimit(process, which, &value, nullptr) == 0 || errno == ESRCH;
     };
@@ -111,7 +112,8 @@ bool limit(pid_t process, const CompanionLimits& limits) {
            set(RLIMIT_FSIZE, limits.output, limits.output) && set(RLIMIT_CORE, 0, 0);
 }
 
-/// Waits until a process has ended, which stays to be asked about; false: not within `seconds`.
+/// Waits until a process has ended, and leaves it to be reaped; false if that takes longer than
+/// `seconds`.
 bool wait_for(pid_t process, int seconds) {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::seconds(seconds);
@@ -128,7 +130,7 @@ bool wait_for(pid_t process, int seconds) {
 }
 
 struct Ended {
-    int status = 1 << 8;  // of one that nobody can ask: as if it had refused
+    int status = 1 << 8;  // where waitpid() fails: as if the companion had refused its input
     bool late = false;
 };
 
@@ -161,7 +163,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
     return ended;
 }
 
-/// What ended it before it was done; "" when nothing did.
+/// What ended the companion early; "" if nothing did.
 std::string failure(const CompanionTask& task, const Ended& ended) {
     const int status = ended.status;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -170,7 +172,7 @@ std::string failure(const CompanionTask& task, const Ended& ended) {
         return fmt::format("took more than {} s of computing", task.limits.processor_time);
     if (signal == SIGXFSZ)
         return fmt::format("gave more than {} MB", task.limits.output / 1'000'000);
-    // the kernel ends whoever takes the last of the machine's memory
+    // the kernel kills the process that takes the last of the machine's memory
     if (signal == SIGKILL || (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory))
         return fmt::format("took more than {} MB of memory", task.limits.memory / 1'000'000);
     if (signal != 0) return fmt::format("failed: {} crashed ({})", task.program, strsignal(signal));

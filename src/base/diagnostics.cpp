@@ -27,7 +27,7 @@ std::string Problem::text() const {
     end_sentence(out);
     if (!remedy.empty()) out += " " + remedy;
     end_sentence(out);
-    // names come from files: one may hold what would move a terminal's cursor
+    // names come from files, and may hold characters that would move a terminal's cursor
     for (char& c : out) {
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
     }
@@ -88,7 +88,7 @@ void Diagnostics::throw_if_errors() const {
 
 namespace {
 
-/// Levenshtein distance, with two rows of the table.
+/// Levenshtein distance, computed in one row of the table.
 size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});

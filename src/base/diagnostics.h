@@ -1,5 +1,5 @@
-// What is wrong with an input, said so that its author can mend it: file, line, key, what is wrong,
-// and the remedy. Readers collect every problem of a file before they give up.
+// Problems of an input are reported so that its author can mend them: file, line, key, what is
+// wrong, and the remedy. Readers collect every problem of a file before they give up.
 #pragma once
 
 #include <stdexcept>
@@ -19,7 +19,7 @@ struct Place {
 struct Problem {
     Severity severity = Severity::error;
     Place place;
-    std::string key;     ///< the key or column it is about; may be empty
+    std::string key;     ///< the key or column that the problem is about; may be empty
     std::string what;    ///< what is wrong
     std::string remedy;  ///< what would be right
 
@@ -27,7 +27,7 @@ struct Problem {
     std::string text() const;
 };
 
-/// Thrown by set-up (never by the tick). what() lists its problems, a line each.
+/// Thrown during set-up, never by the tick. what() lists its problems, one a line.
 class Error : public std::runtime_error {
   public:
     explicit Error(std::vector<Problem> problems);

@@ -21,7 +21,7 @@ void sync_to_disk(int descriptor, const std::string& name) {
 
 void sync_to_disk(const std::string& name) {
     const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return;  // what may not be read is not ours
+    if (descriptor < 0) return;  // a file that may not be read is not ours
     try {
         sync_to_disk(descriptor, name);
     } catch (const Error&) {

@@ -1,15 +1,16 @@
-// What has to outlive a loss of power is synchronised: the system keeps what was written in memory
-// for half a minute and more, and the name of a new file apart from its content.
+// Files that have to survive a loss of power are synchronised to the disk. Otherwise the operating
+// system may keep what was written in memory for half a minute or longer, and may keep a new file's
+// name back independently of its content.
 #pragma once
 
 #include <string>
 
 namespace dihaptic {
 
-/// Returns once the file, or, of a folder, the names in it, are on the disk. Throws Error when the
-/// disk fails; a file system that cannot do it is let be.
+/// Returns once the file is on the disk; for a folder, once the names in it are. Throws Error when
+/// the disk fails. Does nothing on a file system that cannot synchronise.
 void sync_to_disk(const std::string& name);
-/// The same of an open file, called `name` in messages.
+/// As sync_to_disk(name), for an open file, which messages call `name`.
 void sync_to_disk(int descriptor, const std::string& name);
 
 }  // namespace dihaptic

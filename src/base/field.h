@@ -1,4 +1,4 @@
-// How configuration is described. A configuration struct lists its fields once:
+// A configuration struct describes itself by listing its fields once:
 //
 //     struct Ball {
 //         double radius = 0.02;  ///< [m]
@@ -11,11 +11,11 @@
 //         }
 //     };
 //
-// and reading (FieldReader), writing (FieldWriter) and whatever else needs names, units and bounds
-// are visitors. An enum lists its names once, for argument-dependent lookup:
+// Reading (FieldReader), writing (FieldWriter) and whatever else needs names, units and bounds are
+// visitors. An enum lists its names once, in the order of its values, for argument-dependent
+// lookup:
 //
-//     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }   // in the enum's
-//     order
+//     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }
 //
 #pragma once
 
@@ -27,11 +27,11 @@
 
 namespace dihaptic {
 
-/// Which way a limit is tighter, of settings that are limits: whoever set it first may be outdone
-/// that way only. `fixed`: neither way.
+/// The direction in which a limit is tighter, for settings that are limits: once a limit is set, a
+/// later setting may only move it in that direction. `fixed`: in neither.
 enum class Tighter { none, less, more, fixed };
 
-/// What a field's value must be. A vector's components each obey it.
+/// What a field's value must satisfy. Each component of a vector must satisfy it.
 struct Field {
     Quantity quantity = Quantity::none;
     double min = -std::numeric_limits<double>::infinity();
@@ -61,8 +61,8 @@ struct Field {
         f.max = high;
         return f;
     }
-    /// Both bounds included. Limits of what makes sense on a tabletop catch slips of the unit that
-    /// would otherwise surface as a simulation that diverges.
+    /// Both bounds are included. Bounds that suit a tabletop catch a mistaken unit, which would
+    /// otherwise show up as a simulation that diverges.
     constexpr Field within(double low, double high) const { return at_least(low).at_most(high); }
     constexpr Field tighter_when(Tighter way) const {
         Field f = *this;
@@ -81,8 +81,8 @@ concept NamedEnum = std::is_enum_v<E> && requires(E e) {
     enum_names(e);
 };
 
-/// A struct that lists its fields for visitors of type V. (Eigen's matrices have a visit() of their
-/// own.)
+/// A struct that lists its fields for visitors of type V. Eigen's matrices are excluded: they have
+/// a visit() of their own.
 template <class Struct, class V>
 concept Described = !requires {
     Struct::RowsAtCompileTime;

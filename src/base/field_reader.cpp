@@ -36,7 +36,7 @@ bool is_too_low(const Field& field, double si) {
     return field.above_min ? si <= field.min : si < field.min;
 }
 
-/// What a value must be, for one that is not; its bounds in the unit that it was given in.
+/// What a value that is out of bounds must be; the bounds in the unit that the value was given in.
 std::string bounds_of(const Field& field, double si, double to_si) {
     const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
     const bool from_zero = field.min > 0 || field.above_min;
@@ -92,7 +92,7 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
         }
         given = {node, keys[i], all.empty() ? 1.0 : all[i].si};
     }
-    // a key without its unit, or with a wrong one, is reported by finish(): it is not missing
+    // a key with a wrong unit, or with none, does not count as missing: finish() reports it
     const bool misspelt = place_of(name).line != mapping_.place.line;
     if (given.node == nullptr && field.is_required && !misspelt) {
         diagnostics_.error(mapping_.place, std::string(name), "is missing",

@@ -1,5 +1,5 @@
-// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong with
-// it: unknown keys, wrong units, wrong types, values out of bounds, missing fields.
+// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong in the
+// YAML: unknown keys, wrong units, wrong types, values out of bounds, missing fields.
 #pragma once
 
 #include <map>
@@ -14,15 +14,15 @@
 
 namespace dihaptic {
 
-/// Where each setting came from: path ("coupling.stiffness") to "file:line" or "command line".
+/// Where each setting came from: maps its path ("coupling.stiffness") to "file:line" or "command
+/// line".
 using Origins = std::map<std::string, std::string>;
 
-/// The visitor that fills one struct from one mapping. Fields that the mapping does not have keep
-/// the value they had: reading several mappings into one struct, one after the other, is how a
-/// later file overrides an earlier one.
+/// Visitor that fills one struct from one mapping. A field that the mapping does not have keeps its
+/// value, so a later file overrides an earlier one when both are read into the same struct in turn.
 class FieldReader {
   public:
-    /// `path` is the struct's own place in `origins` ("" for the outermost); `origins` may be null.
+    /// `path` is the struct's own path in `origins` ("" for the outermost); `origins` may be null.
     FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins* origins = nullptr,
                 std::string path = "");
 
@@ -77,15 +77,16 @@ class FieldReader {
         }
     }
 
-    /// Keeps a part of the file as it is, for a reader that knows what is in it.
+    /// Keeps a part of the file unread, for a reader that knows its content.
     void operator()(std::string_view name, Node& value, Field field = {});
 
-    /// Where the struct itself was written; where one of its fields was, or else the struct.
+    /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
+    /// struct's.
     Place place() const { return mapping_.place; }
     Place place_of(std::string_view name) const;
-    /// True when the mapping gives the field, in whatever unit.
+    /// Whether the mapping gives the field, in whatever unit.
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
-    /// True when a key is meant for the field, whether it could be read or not.
+    /// Whether a key is meant for the field, readable or not.
     bool mentions(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
@@ -143,7 +144,7 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
     reader.finish();
 }
 
-/// The same of a mapping that may be left out: then everything keeps its default.
+/// As read_fields(), for a mapping that may be left out: all fields then keep their defaults.
 template <class Struct>
 void read_given_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                        Origins* origins = nullptr) {

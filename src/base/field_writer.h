@@ -1,5 +1,5 @@
-// Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units:
-// what a session keeps of its inputs. Reading the result gives the same struct, to the bit.
+// Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
+// sessions keep their inputs in this form. Reading the result gives the same struct, to the bit.
 #pragma once
 
 #include <optional>

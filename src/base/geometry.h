@@ -26,15 +26,16 @@ struct Pose {
     }
 };
 
-/// Rotation by rotations about the fixed axes x, then y, then z [rad].
+/// Rotation about the fixed axes x, then y, then z, by these angles [rad].
 inline Quat rotation_xyz(const Vec3& angles) {
     return Quat(Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
                 Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
                 Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
 }
 
-/// The angles of rotation_xyz(): about y from -pi / 2 to pi / 2, where those about x and z add up
-/// [rad].
+/// The angles that rotation_xyz() turns by [rad]; the one about y lies in -pi / 2 to pi / 2. At
+/// either end of that range only the sum or difference of the other two is determined, and z is set
+/// to 0.
 inline Vec3 angles_xyz(const Quat& R_AB) {
     const Mat3 R = R_AB.toRotationMatrix();
     const double cosine = std::hypot(R(0, 0), R(1, 0));
@@ -43,23 +44,23 @@ inline Vec3 angles_xyz(const Quat& R_AB) {
             std::atan2(R(1, 0), R(0, 0))};
 }
 
-/// The rotation by |r| about r [rad]: exp.
+/// Exponential map: the rotation by the angle |r| about the axis r [rad].
 inline Quat rotation_by(const Vec3& r) {
     const double angle = r.norm();
     if (angle == 0) return Quat::Identity();
     return Quat(Eigen::AngleAxisd(angle, r / angle));
 }
 
-/// Axis times angle of a rotation, at most pi [rad]: log, the inverse of rotation_by().
+/// Logarithmic map, the inverse of rotation_by(): axis times angle, the angle at most pi [rad].
 inline Vec3 rotation_vector(const Quat& R) {
     const double sine = R.vec().norm();
-    // without a turn axis to speak of, 2 sin(a / 2) is the angle
+    // for an angle this small, 2 sin(angle / 2) is the angle
     if (sine < 1e-12) return (R.w() < 0 ? -2.0 : 2.0) * R.vec();
     const double angle = 2 * std::atan2(R.w() < 0 ? -sine : sine, std::abs(R.w()));
     return angle / sine * R.vec();
 }
 
-/// What acts on a handle or a body: a force, and a torque about its origin.
+/// A force on a handle or a body, and a torque about its origin.
 struct Wrench {
     Vec3 force = Vec3::Zero();   ///< [N]
     Vec3 torque = Vec3::Zero();  ///< [N*m]

@@ -1,5 +1,6 @@
-// The newest value, from one thread that writes it to one that reads it. Neither waits, and neither
-// sees half a value: there are three of it, and the two threads never hold the same one.
+// Latest hands the newest value from one thread that writes it to one that reads it. Neither thread
+// waits, and neither sees half a value: there are three copies, and the two threads never hold the
+// same one.
 #pragma once
 
 #include <array>
@@ -11,13 +12,13 @@ namespace dihaptic {
 template <class T>
 class Latest {
   public:
-    /// All three start as `value`.
+    /// All three copies start as `value`.
     explicit Latest(const T& value = {}) : values_{value, value, value} {}
 
-    /// Before the threads start: all three, e.g. to reserve their memory.
+    /// All three copies, e.g. to reserve their memory. Only before the threads start.
     std::array<T, 3>& values() noexcept { return values_; }
 
-    /// Writer: the value to fill in; what it holds is old. Handed over by publish().
+    /// Writer: the copy to fill in, which holds an old value. publish() hands it over.
     T& next() noexcept { return values_[writing_]; }
     void publish() noexcept {
         writing_ = shared_.exchange(static_cast<uint8_t>(writing_ | kNew), order()) & kIndex;
@@ -32,7 +33,7 @@ class Latest {
         if (is_new()) reading_ = shared_.exchange(reading_, order()) & kIndex;
         return values_[reading_];
     }
-    /// Reader: whether there is a newer one than read() returned last.
+    /// Reader: whether there is a newer value than read() last returned.
     bool is_new() const noexcept { return (shared_.load(std::memory_order_relaxed) & kNew) != 0; }
 
   private:

@@ -1,5 +1,5 @@
-// A library of somebody else's, loaded when a rig asks for it: the program runs without, and says
-// what is missing, where it was sought and what mends it.
+// A third-party library is loaded when a rig asks for it. The program runs without it, and reports
+// a missing library with the places tried and the remedy.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ class Library {
   public:
     struct Spec {
         std::string product;             ///< for messages
-        std::vector<std::string> files;  ///< tried in this order, as dlopen() seeks them
-        bool global = false;             ///< whether libraries that it loads itself see its symbols
+        std::vector<std::string> files;  ///< tried in this order, found as dlopen() finds them
+        bool global = false;             ///< whether libraries that it loads see its symbols
         std::string remedy;              ///< what to install
-        /// A library that this one needs, by the beginning of its name, and what has it.
+        /// A library that this one needs: the beginning of its file name, and what to install for
+        /// it.
         struct Need {
             std::string file;
             std::string remedy;
@@ -24,15 +25,15 @@ class Library {
         std::vector<Need> needs;
     };
 
-    /// Loads the first file that can be, or only `path` if there is one. It stays loaded for good:
-    /// such libraries start threads, which outlive their last call. Throws Error for `place` with
-    /// what was said of each file.
+    /// Loads the first file that can be loaded, or `path` alone unless it is empty. The library is
+    /// never unloaded: such libraries start threads that outlive their last call. Throws Error for
+    /// `place` with the loader's message for each file.
     Library(Spec spec, const std::string& path, Place place);
 
     /// The file that was loaded.
     const std::string& file() const { return file_; }
 
-    /// Sets `function` to the library's symbol. Throws Error when it has none.
+    /// Sets `function` to the library's symbol. Throws Error when the library lacks it.
     template <class Function>
     void find(const char* symbol, Function*& function) const {
         function = reinterpret_cast<Function*>(address(symbol));

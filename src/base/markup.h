@@ -1,11 +1,11 @@
-// Text in HTML and SVG.
+// Escapes text for use in HTML and SVG.
 #pragma once
 
 #include <string>
 
 namespace dihaptic {
 
-/// Shown as it is, between tags and within quoted attributes.
+/// The text with its markup characters escaped, for use between tags and within quoted attributes.
 std::string escaped_markup(const std::string& text);
 
 }  // namespace dihaptic

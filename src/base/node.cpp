@@ -42,7 +42,7 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-/// An alias (*name) inside what it names never ends, and aliases of aliases double at each step.
+/// An alias (*name) inside what it names never ends, and aliases of aliases double at each level.
 constexpr int kDeepest = 32;
 constexpr size_t kMostNodes = 1'000'000;
 
@@ -82,7 +82,7 @@ Node convert(const YAML::Node& in, const std::string& file, size_t& count, int d
     return out;
 }
 
-/// Where documents start, from 0.
+/// The lines at which documents start, from 0.
 class DocumentStarts final : public YAML::EventHandler {
   public:
     std::vector<int> lines;
@@ -111,8 +111,8 @@ class DocumentStarts final : public YAML::EventHandler {
     }
 };
 
-/// Throws Error where a second one starts. YAML::LoadAll() reads all of them, without end where a
-/// stray comma is none.
+/// Throws Error where a second document starts. YAML::LoadAll() would read all documents, and never
+/// end at a stray comma, which starts none.
 void check_single(const std::string& text, const std::string& file) {
     std::istringstream in(text);
     YAML::Parser parser(in);

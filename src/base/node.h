@@ -36,7 +36,7 @@ struct Node::Entry {
 /// Reads a YAML file.
 /// Throws Error when the file cannot be read, is not YAML, or gives a key twice.
 Node read_yaml(const std::string& file);
-/// The same for text; `file` is what messages call it.
+/// As read_yaml(), from text; messages call it `file`.
 Node parse_yaml(const std::string& text, const std::string& file);
 
 std::string to_yaml(const Node& node);

@@ -1,4 +1,4 @@
-// Counts in messages: "1 tick", "2 ticks".
+// Writes counts in messages: "1 tick", "2 ticks".
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Seeded random numbers. Every consumer draws from a stream of its own, named for what it is, so
-// that adding one consumer leaves the numbers of all others as they were.
+// Seeded random numbers. Every consumer draws from a stream of its own, named after its purpose, so
+// that adding a consumer leaves the numbers of all others unchanged.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Files that are read: regular ones alone. A pipe, a device or a folder in a file's place would
-// keep the program waiting, or reading for ever.
+// Reads regular files only: a pipe, a device or a folder in a file's place could keep the program
+// waiting, or reading for ever.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace dihaptic {
 /// A file that is open for reading.
 class RegularFile {
   public:
-    /// Throws Error when there is none, when it is something else, and when it cannot be opened.
+    /// Throws Error when the file does not exist, is not a regular file, or cannot be opened.
     explicit RegularFile(const std::string& file);
     ~RegularFile();
     RegularFile(RegularFile&& other) noexcept;
     RegularFile& operator=(RegularFile&&) = delete;
 
-    /// Bytes that it had when it was opened.
+    /// Size of the file when it was opened [bytes].
     int64_t size() const { return size_; }
-    /// Reads from `at` on and returns how many bytes there were: fewer than asked for at the file's
-    /// end. Throws Error when the disk cannot read them.
+    /// Reads from byte `at` on and returns the number of bytes read, which is smaller than
+    /// out.size() only at the file's end. Throws Error when the disk cannot read them.
     size_t read(int64_t at, std::span<std::byte> out) const;
 
   private:
@@ -30,11 +30,13 @@ class RegularFile {
     int64_t size_ = 0;
 };
 
-/// All bytes of a regular file. Throws Error, also when there are more than `most`.
+/// All bytes of a regular file. Throws Error when it cannot be read or is larger than `most`
+/// [bytes].
 std::string read_bytes(const std::string& file, int64_t most);
 
-/// Whether anything has that name: also what is no file, or a link that leads nowhere. To read it
-/// then says what is wrong with it.
+/// Whether anything has this name, be it a link that leads nowhere or something other than a file;
+/// reading it then reports what is wrong. True as well when a folder on the way may not be
+/// searched.
 bool is_there(const std::string& file) noexcept;
 
 }  // namespace dihaptic

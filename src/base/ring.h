@@ -72,7 +72,7 @@ class Ring {
     alignas(64) std::atomic<uint64_t> tail_{0};
 };
 
-/// The same of values of one type.
+/// A Ring for values of one type.
 template <class Value>
 class ValueRing {
     static_assert(std::is_trivially_copyable_v<Value>);
@@ -81,12 +81,12 @@ class ValueRing {
     /// Holds at least `count` values.
     explicit ValueRing(size_t count) : ring_(count * (sizeof(Value) + sizeof(uint32_t))) {}
 
-    /// Producer: false when it is full. Does not allocate or wait.
+    /// Producer: appends a value; false when the ring is full. Does not allocate or wait.
     bool push(const Value& value) noexcept {
         return ring_.push(std::as_bytes(std::span(&value, 1)));
     }
 
-    /// Consumer: the oldest value; nothing when the ring is empty.
+    /// Consumer: the oldest value, or nullopt when the ring is empty.
     std::optional<Value> pop() {
         if (!ring_.pop(taken_)) return std::nullopt;
         Value value;

@@ -1,4 +1,4 @@
-// Pictures made of lines and words, as SVG text.
+// Draws pictures of lines and words as SVG text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace dihaptic {
 
 class Svg {
   public:
-    /// On white [px].
+    /// An empty picture on a white background [px].
     Svg(double width, double height);
 
     void rectangle(double x, double y, double width, double height, const std::string& fill,

@@ -12,37 +12,37 @@ struct Table {
         std::string name;  ///< with its unit, e.g. "peak_grip_N"
         std::string description;
     };
-    using Cell = std::variant<std::string, double>;  ///< NaN: unmeasured, an empty cell
+    using Cell = std::variant<std::string, double>;  ///< NaN: unmeasured, written as an empty cell
 
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows;
 };
 
-/// Rows for columns: what was the first column becomes the header. Descriptions are lost.
+/// Swaps rows and columns: the first column becomes the header. Descriptions are lost.
 Table transposed(const Table& table);
 
-/// One cell, without a comma's worth of surprise: text is quoted where CSV (RFC 4180) needs it.
+/// One cell as CSV: text is quoted where RFC 4180 needs it.
 std::string to_csv(const Table::Cell& cell);
 std::string to_csv(const Table& table);
 
-/// Writes the table, replacing the file as a whole. Throws Error when it cannot.
+/// Writes the table, replacing the file as a whole. Throws Error when it cannot be written.
 void write_csv(const Table& table, const std::string& file);
 
-/// Rows of cells, the header first: there is one at least. Throws Error when the file is empty or
-/// cannot be read.
+/// Rows of cells; the first, which is always there, is the header. Throws Error when the file is
+/// empty or cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
 
-/// A CSV file by the names of its columns. Cells that a short row, or the file, does not have are
-/// empty.
+/// A CSV file whose cells are looked up by column name. A cell that is missing, because its row is
+/// short or the file lacks the column, is empty.
 class CsvFile {
   public:
-    /// Throws Error when it cannot be read.
+    /// Throws Error when the file is empty or cannot be read.
     explicit CsvFile(const std::string& file);
 
     size_t rows() const { return rows_.size(); }
     bool has(const std::string& column) const { return find(column) < header_.size(); }
     std::string text(size_t row, const std::string& column) const;
-    /// NaN where there is no number.
+    /// NaN where the cell holds no number.
     double number(size_t row, const std::string& column) const;
 
   private:

@@ -4,8 +4,8 @@
 
 namespace dihaptic {
 
-/// A folder of one's own, gone with everything in it at the end. Throws Error when none can be
-/// made.
+/// A new folder in the system's temporary folder, deleted with everything in it on destruction.
+/// Throws Error when it cannot be made.
 class TemporaryFolder {
   public:
     TemporaryFolder();

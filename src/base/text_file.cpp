@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::string_view kPart = ".part";
 
-/// Bytes of the UTF-8 character that starts at i; 0 when it is none, or a control character that
-/// has no place in a text.
+/// Length of the UTF-8 character that starts at i [bytes]; 0 if the bytes there are not one, or are
+/// a control character that does not belong in a text.
 size_t character(const std::string& text, size_t i) {
     const auto byte = [&](size_t j) { return static_cast<unsigned char>(text[j]); };
     const unsigned char first = byte(i);

@@ -1,5 +1,5 @@
-// Text files. Those that people hand in are in any encoding, or no text at all: what this program
-// reads of them goes through here, so that messages about it never show raw bytes.
+// Reads and writes text files. Files that people hand in may be in any encoding, or no text at all:
+// all of them are read through here, so that messages never show raw bytes.
 #pragma once
 
 #include <cstdint>
@@ -9,35 +9,36 @@
 
 namespace dihaptic {
 
-/// Bytes that a text file may have: ten minutes of ten fingers at 5 kHz fit.
+/// Size limit of a text file [bytes]: ten minutes of ten fingers at 5 kHz fit.
 constexpr int64_t kMostText = 500'000'000;
-/// The same of a YAML file, and of a table.
+/// Size limits of a YAML file and of a table [bytes].
 constexpr int64_t kMostYaml = 16'000'000;
 constexpr int64_t kMostTable = 200'000'000;
 
-/// The file's text, without a byte order mark. Throws Error when it is no regular file, is larger
-/// than `most`, cannot be opened, or is not UTF-8 text.
+/// The file's text, without a byte order mark. Throws Error when it is not a regular file, is
+/// larger than `most` [bytes], cannot be opened, or is not UTF-8 text.
 std::string read_text_file(const std::string& file, int64_t most = kMostText);
 
-/// Before work whose result goes to `file`: throws Error when write_file() could not write there
-/// now, or when that is the file that the work begins with. `what`: that one, in words.
+/// Call before work whose result goes to `file`: throws Error when write_file() could not write
+/// there now, or when `file` is `input`, the file that the work starts from. `what` is the input in
+/// words.
 void check_output(const std::string& file, const std::string& input, const std::string& what);
-/// Whether what was written is on the disk at once, or when the system has time for it.
+/// Whether what was written is synchronised to the disk at once, or when the system gets to it.
 enum class Keep { in_time, at_once };
-/// Replaces a file's content so that a reader sees either the old or the new; when it is kept at
-/// once, after a loss of power too. Throws Error when it cannot.
+/// Replaces a file's content so that a reader sees either the old or the new, with Keep::at_once
+/// even after a loss of power. Throws Error when the file cannot be written.
 void write_file(const std::string& text, const std::string& file, Keep keep = Keep::in_time);
 
-/// Of a file, or folder, in the making: under this name it goes as `file`.PROCESS.part.
+/// The name that a file, or folder, has while it is being made: `file`.PROCESS.part.
 std::string part_name(const std::string& file);
-/// Removes the parts of `file` whose programs ended before they were whole: those were killed.
+/// Removes the unfinished parts of `file` that killed programs left behind.
 void remove_dead_parts(const std::string& file);
 
-/// The number that all of a word says, "+1e3" too; nothing when it says none, or one that is not
-/// finite.
+/// Returns the number that a word says as a whole, "+1e3" too; nullopt if it says no number, or one
+/// that is not finite.
 std::optional<double> finite_number(std::string_view word);
 
-/// A word of a file, short enough to be quoted in a message.
+/// Text from a file, shortened to at most 40 bytes for a message.
 std::string shortened(const std::string& text);
 
 }  // namespace dihaptic

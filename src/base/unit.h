@@ -1,5 +1,5 @@
-// Units of values in files. Inside the program everything is SI. In a file a physical value names
-// its unit in the key: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
+// Units of values in files. Inside the program everything is SI. In a file the key of a physical
+// value names its unit: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace dihaptic {
 
-/// What kind of quantity a value is. The first unit of each kind is the one that is written.
+/// The kind of quantity that a value is. Values are written in the first unit of their kind.
 enum class Quantity {
-    none,  ///< a pure number: no suffix
+    none,  ///< a pure number: the key has no unit
     length,
     angle,
     mass,
@@ -33,7 +33,7 @@ enum class Quantity {
 
 struct Unit {
     std::string_view suffix;  ///< as in a key, e.g. "mm"
-    double si;                ///< one of this unit in SI
+    double si;                ///< this unit in SI units
 };
 
 /// The units that a quantity may be given in, the SI unit first; empty for Quantity::none.

@@ -1,4 +1,4 @@
-// What stands where nothing was measured.
+// The value that stands for "not measured".
 #pragma once
 
 #include <limits>

@@ -1,5 +1,5 @@
 // Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is the
-// combination of the last ones for which the residual g(x) - x, taken as linear, is least.
+// combination of the last ones whose residual g(x) - x, taken as linear, is smallest.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,7 +11,7 @@ namespace dihaptic::contact {
 class Anderson {
   public:
     static constexpr int kDepth = 10;
-    /// A column is left out when less than this share of it is not in the newer ones.
+    /// A column is left out if all but this share of it lies in the span of the newer ones.
     static constexpr double kNothingNew = 1e-8;
 
     void reserve(size_t size) {
@@ -29,14 +29,14 @@ class Anderson {
         f_.resize(size);
         forget();
     }
-    /// What was learnt is of no use any more.
+    /// Forgets the last points, when they are of no use any more.
     void forget() noexcept {
         count_ = 0;
         next_ = 0;
         has_last_ = false;
     }
 
-    /// x becomes the next point; g is the image of x.
+    /// Replaces x by the next point; g is the image of x.
     void advance(std::vector<double>& x, const std::vector<double>& g) noexcept {
         const size_t n = x.size();
         if (has_last_) {

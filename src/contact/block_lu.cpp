@@ -6,11 +6,11 @@
 namespace dihaptic::contact {
 namespace {
 
-/// Blocks reserved for each node: a pile of a hundred bodies fills about ten.
+/// Blocks reserved per node: a pile of a hundred bodies fills about ten.
 constexpr size_t kBlocksPerNode = 24;
 constexpr size_t kWordBits = 64;
 
-/// Of a bit set of nodes.
+/// Word and bit of a node in a bit set of nodes.
 size_t word_of(int node) noexcept {
     return static_cast<size_t>(node) / kWordBits;
 }
@@ -18,7 +18,8 @@ uint64_t bit_of(int node) noexcept {
     return uint64_t{1} << (static_cast<size_t>(node) % kWordBits);
 }
 
-/// In place, by Gauss-Jordan elimination on columns, which lie together in memory, with pivoting.
+/// Inverts A in place, by Gauss-Jordan elimination with pivoting, on columns because they are
+/// contiguous in memory.
 void invert(BlockLu::Block& A) noexcept {
     BlockLu::Block inverse = BlockLu::Block::Identity();
     for (int k = 0; k < 6; ++k) {
@@ -115,7 +116,7 @@ int BlockLu::degree_of(int node) noexcept {
     return degree;
 }
 
-/// Of those left, the first with the fewest neighbours (minimum degree).
+/// Of the nodes not yet eliminated, the first with the fewest neighbours (minimum degree).
 int BlockLu::least_connected(int nodes) const noexcept {
     int least = -1;
     for (int i = 0; i < nodes; ++i) {
@@ -128,8 +129,8 @@ int BlockLu::least_connected(int nodes) const noexcept {
     return least;
 }
 
-/// Its neighbours now touch each other: where that fills in, blocks are given. False: there is no
-/// more memory.
+/// Eliminates a node: its neighbours become neighbours of each other, with new blocks where that
+/// fills in. False if the memory does not suffice.
 bool BlockLu::eliminate(int node) noexcept {
     eliminated_[static_cast<size_t>(node)] = 1;
     order_.push_back(node);

@@ -1,6 +1,6 @@
-// Sparse LU factorisation of a matrix of 6 x 6 blocks, one row a body, with a block wherever two
-// bodies touch. Bodies are eliminated in order of least degree, so that a wall or a chain fills
-// little; pivoting stays inside the diagonal blocks.
+// BlockLu is a sparse LU factorisation of a matrix of 6 x 6 blocks, with one row for each body and
+// a block wherever two bodies touch. Bodies are eliminated in order of least degree, so that a wall
+// or a chain fills in little; pivoting stays inside the diagonal blocks.
 //
 // Memory is reserved once; everything else allocates nothing.
 #pragma once
@@ -20,11 +20,11 @@ class BlockLu {
 
     void reserve(int nodes, int edges);
 
-    /// Finds the order of elimination and where fill-in arises, for a pattern of unordered pairs.
-    /// Does nothing when the pattern is the last one. False: larger than what was reserved.
+    /// Finds the order of elimination, and where fill-in arises, for a pattern of unordered pairs.
+    /// Does nothing if the pattern is the last one. False if it is larger than reserved.
     bool analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept;
 
-    /// Where the block of two nodes is kept; valid until another pattern is analysed.
+    /// Index of the block of two nodes; valid until another pattern is analysed.
     int slot(int row, int column) const noexcept {
         return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
                      static_cast<size_t>(column)];
@@ -32,7 +32,7 @@ class BlockLu {
     Block& block(int slot) noexcept { return blocks_[static_cast<size_t>(slot)]; }
     void set_identity() noexcept;
 
-    /// Solves for x in place; the blocks are used up.
+    /// Solves for x in place; destroys the blocks.
     void solve(std::span<Vector> x) noexcept;
 
     int blocks() const noexcept { return used_; }
@@ -53,11 +53,11 @@ class BlockLu {
     }
 
     int capacity_ = 0;
-    size_t words_ = 0;       // of a row of adjacency_
-    size_t used_words_ = 0;  // of those, what the pattern's nodes need
+    size_t words_ = 0;       // words in a row of adjacency_
+    size_t used_words_ = 0;  // words that the pattern's nodes need
     int nodes_ = 0;
     int used_ = 0;
-    std::vector<std::pair<int, int>> edges_;  // the pattern analysed
+    std::vector<std::pair<int, int>> edges_;  // the analysed pattern
     std::vector<uint64_t> adjacency_;         // bit sets, by node
     std::vector<int> degree_;
     std::vector<char> eliminated_;

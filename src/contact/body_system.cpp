@@ -6,7 +6,7 @@
 namespace dihaptic::contact {
 namespace {
 
-/// L with L L' = A, for A positive semi-definite: a zero pivot has a zero column.
+/// L with L L' = A for a positive semi-definite A; a zero pivot gives a zero column.
 Mat3 root(const Mat3& A) noexcept {
     Mat3 L = Mat3::Zero();
     const double least = 1e-14 * A.diagonal().maxCoeff();
@@ -49,7 +49,7 @@ bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
         root_[i].setZero();
         root_[i].template topLeftCorner<3, 3>() = root(problem.bodies[i].inverse_mass);
         root_[i].template bottomRightCorner<3, 3>() = root(problem.bodies[i].inverse_inertia);
-        // a root has no trace of what was no number
+        // a root hides values that are not numbers
         finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum() +
                                            problem.bodies[i].inverse_inertia.sum());
     }
@@ -76,7 +76,7 @@ void BodySystem<Dim>::find_blocks(ContactRows& row) const noexcept {
     }
 }
 
-/// A contact's rows, scaled so that their mean diagonal is 1.
+/// Assembles a contact's rows, scaled so that their mean diagonal is 1.
 template <int Dim>
 void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemContact& contact,
                                    ContactRows& row) noexcept {
@@ -110,7 +110,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     row.Ht_b *= row.unit;
     row.q *= row.unit;
     row.law.mu = contact.friction;
-    // one sum has what is no number, or would overflow, in any of its parts
+    // the sum is not finite if any part is not a number or would overflow
     finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
     const double normal = diagonal[0] * row.unit * row.unit;
     const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);

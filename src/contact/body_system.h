@@ -1,11 +1,11 @@
-// The contact problem in body space, scaled: u = H y + q, y = H' r, W = H H'. W is never formed;
-// Newton's equation is solved by a matrix of bodies instead (Woodbury):
+// BodySystem is the contact problem in body space, scaled: u = H y + q, y = H' r, W = H H'. W is
+// never formed; Newton's equation is solved by a matrix over the bodies instead (Woodbury):
 //
 //     (I + G H H') d = -c   <=>   (I + H' G H) y = -H' c,   d = -c - G H y
 //
-// H has inverse square roots of mass and inertia in it, and each contact's rows are divided by the
-// root of the mean diagonal of its block of W. So impulses are r = scale * r^, velocities
-// u = u^ / scale, and nothing depends on units.
+// H contains the inverse square roots of mass and inertia, and each contact's rows are divided by
+// the root of the mean diagonal of its block of W. So impulses are r = scale * r^, velocities u =
+// u^ / scale, and nothing depends on units.
 #pragma once
 
 #include <span>
@@ -24,22 +24,22 @@ class BodySystem {
     using Vec = Eigen::Matrix<double, D, 1>;
 
     void reserve(int bodies, int contacts);
-    /// False: larger than what was reserved.
+    /// False if the problem is larger than reserved.
     bool assemble(const ContactProblem& problem) noexcept;
 
     size_t size() const noexcept { return rows_.size(); }
-    /// Whether all of the problem's contacts are of numbers that can be computed with.
+    /// Whether everything in the problem is a number that can be computed with.
     bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
     const Vec& q(size_t j) const noexcept { return rows_[j].q; }
-    /// Impulse over scaled impulse.
+    /// Ratio of an impulse to the scaled impulse.
     double unit(size_t j) const noexcept { return rows_[j].unit; }
 
     /// u = W r + q.
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     /// Solves (I + G W) d = -c.
     void newton_step(std::span<const Linearised<D>> contacts, std::span<Vec> d) noexcept;
-    /// Projected Gauss-Seidel on a law.
+    /// Projected Gauss-Seidel sweeps on a law.
     template <class Law>
     void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
         gather(r);
@@ -54,15 +54,16 @@ class BodySystem {
             }
         }
     }
-    /// Of contacts j (rows) and k (columns).
+    /// Block of W for contacts j (rows) and k (columns).
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
 
-    /// Velocity changes of a body by impulses: linear, then angular.
+    /// Computes the velocity changes of all bodies by impulses; change() returns a body's, linear,
+    /// then angular.
     void body_velocity(std::span<const Vec> r) noexcept;
     Vec6 change(int body) const noexcept;
 
   private:
-    /// Transposed, so that a column is whole packets of the processor.
+    /// Transposed, so that a column fills whole SIMD packets.
     using Ht = Eigen::Matrix<double, 6, D>;
     struct ContactRows {
         Ht Ht_a;
@@ -72,19 +73,19 @@ class BodySystem {
         double unit = 1;
         int a = kFixed;
         int b = kFixed;
-        int aa = -1, bb = -1, ab = -1, ba = -1;  // blocks of the matrix of bodies
+        int aa = -1, bb = -1, ab = -1, ba = -1;  // indices of blocks in the matrix of bodies
     };
 
     void assemble_row(const ContactProblem& problem, const ProblemContact& contact,
                       ContactRows& row) noexcept;
     void find_blocks(ContactRows& row) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
-    /// y += H' r of one contact.
+    /// Adds one contact's H' r to y.
     void apply(const ContactRows& row, const Vec& r) noexcept {
         if (row.a != kFixed) y_[static_cast<size_t>(row.a)].noalias() += row.Ht_a * r;
         if (row.b != kFixed) y_[static_cast<size_t>(row.b)].noalias() += row.Ht_b * r;
     }
-    /// u += H y of one contact.
+    /// Adds one contact's H y to u.
     void add_velocity(const ContactRows& row, Vec& u) const noexcept {
         if (row.a != kFixed) u.noalias() += row.Ht_a.transpose() * y_[static_cast<size_t>(row.a)];
         if (row.b != kFixed) u.noalias() += row.Ht_b.transpose() * y_[static_cast<size_t>(row.b)];

@@ -1,12 +1,12 @@
-// The record of one contact point. Contacts are found once a step, by dynamics; whoever reads
-// contacts (frames, fingers) reads these.
+// The record of one contact point. Contacts are found once in a step, by dynamics; frames and
+// fingers read these records.
 #pragma once
 
 #include "base/geometry.h"
 
 namespace dihaptic::contact {
 
-/// Names a body of one World, scene bodies first, then the fingers' proxies.
+/// Names a body of one World; scene bodies come first, then the fingers' proxies.
 struct BodyIndex {
     int value = -1;
     bool valid() const { return value >= 0; }
@@ -21,7 +21,7 @@ struct Contact {
     double gap = 0;             ///< distance before the step; negative: penetration [m]
     double friction = 0;        ///< coefficient of the pair
     double normal_force = 0;    ///< pressing the bodies apart, mean over the step, at least 0 [N]
-    Vec3 f_B_W = Vec3::Zero();  ///< whole force of a on b, mean over the step [N]
+    Vec3 f_B_W = Vec3::Zero();  ///< total force of a on b, mean over the step [N]
     double moment = 0;          ///< of a on b about the normal, mean over the step [N*m]
 };
 

@@ -1,5 +1,5 @@
-// The contact problem in contact space, scaled as BodySystem scales it, with W as a dense matrix:
-// for problems that come without bodies. Allocates.
+// DelassusSystem is the contact problem in contact space, scaled as BodySystem scales it, with W as
+// a dense matrix: for problems that are given without bodies. Allocates.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ class DelassusSystem {
 
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
-    /// Projected Gauss-Seidel on a law.
+    /// Projected Gauss-Seidel sweeps on a law.
     template <class Law>
     void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
         const Eigen::Map<const Eigen::VectorXd> all(r.data()->data(), q_.size());

@@ -1,5 +1,5 @@
-// The law of one contact as an equation that Newton's method can solve (Alart and Curnier 1991), in
-// a proximal step about the impulse r_k:
+// The law of one contact as an equation for Newton's method (Alart and Curnier 1991), in a proximal
+// step about the impulse r_k:
 //
 //     u^ = u + rho (r - r_k)
 //     Phi_N = r_N - max(0, r_N - a_N u^_N)
@@ -16,9 +16,9 @@
 //                   [ mu z/rho     beta (I - z z') ]  beta = a_T s / (1 - s + rho a_T s),
 //                                                    s = mu g / |r_T - a_T u^_T|
 //
-// rho regularises singular W (four coplanar contacts); at the fixed point r = r_k nothing of it is
-// left. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W
-// have a mean of 1.
+// rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
+// r_k. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W have
+// a mean of 1.
 #pragma once
 
 #include "contact/polygon.h"
@@ -26,7 +26,7 @@
 
 namespace dihaptic::contact {
 
-/// One contact of a scaled system.
+/// Scaling of one contact in a scaled system.
 struct Scale {
     double mu = 0;
     double a_n = 1;  ///< 1 / W_NN
@@ -43,8 +43,9 @@ struct Linearised {
 
 namespace law {
 
-/// Sliding or sticking on the disc of radius `radius`; returns |Phi_T|^2 and fills the tangential
-/// part of G and c, without coupling to the normal. True in `slides` when on the rim.
+/// Linearises sliding or sticking on the disc of radius `radius`: returns |Phi_T|^2 and fills the
+/// tangential part of G and c, without coupling to the normal. `slides` is set to whether the
+/// impulse is on the rim.
 template <int D>
 double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<double, D, 1>& u,
                       double radius, double a_t, double rho, Linearised<D>& out,
@@ -83,7 +84,7 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
     return phi.squaredNorm();
 }
 
-/// The normal part, with nothing of the tangential one; all of an open contact. Returns
+/// Linearises the normal part, leaving the tangential part zero; all of an open contact. Returns
 /// r_N - a_N u^_N.
 template <int D>
 double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -99,7 +100,7 @@ double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r
     return g;
 }
 
-/// Coulomb's law: normal and tangential part at once.
+/// Coulomb's law: normal and tangential part together.
 struct Coulomb {
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -122,7 +123,7 @@ struct Coulomb {
                            const Eigen::Matrix<double, D, 1>& u, size_t) noexcept {
         return natural_map_squared<D>(r, u, scale.mu);
     }
-    /// A projected step down this contact's own velocity.
+    /// A projected step along this contact's own velocity.
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u, size_t contact) noexcept {
@@ -141,7 +142,7 @@ struct Coulomb {
     }
 };
 
-/// Normal impulses with the tangential ones as they are: the contact projection of staggered
+/// Normal impulses, with the tangential ones fixed: the contact projection of staggered
 /// projections.
 struct NormalOnly {
     template <int D>
@@ -175,7 +176,7 @@ struct NormalOnly {
 };
 
 /// Tangential impulses on discs of fixed radius mu r_N: the friction projection of staggered
-/// projections. Contacts without load have no friction and drop out.
+/// projections. Contacts without load have no friction and are left out.
 struct FrictionOnly {
     std::span<const double> normal;  ///< by contact, of the scaled system
 
@@ -215,8 +216,8 @@ struct FrictionOnly {
     }
 };
 
-/// Coulomb's law with the disc replaced by a polygon: Stewart and Trinkle's, multipliers
-/// eliminated.
+/// Coulomb's law with the disc replaced by a polygon, as Stewart and Trinkle have it, with the
+/// multipliers eliminated.
 template <int T>
 struct Polygonal {
     std::span<const Polygon<T>> polygon;  ///< by contact
@@ -233,8 +234,8 @@ struct Polygonal {
         const Tangent u_t = u.template tail<T>();
         const double radius = scale.mu * g;
         const auto on = polygon[contact].project(r_t - scale.a_t * u_t, radius);
-        // P = radius * per_radius + F z, with F the projector on the facet (none at a vertex): as a
-        // disc with s = 1 along the facet, and no turning
+        // P = radius * per_radius + F z, with F the projector on the facet (zero at a vertex):
+        // along the facet as for a disc with s = 1, without turning
         const Tangent phi = r_t - on.point;
         auto G_t = out.G.template bottomRightCorner<T, T>();
         auto c_t = out.c.template tail<T>();

@@ -7,11 +7,11 @@
 namespace dihaptic::contact {
 namespace {
 
-/// Smaller column entries are taken for zero, relative to problems with diagonals of about 1.
+/// Smaller column entries count as zero, for problems with diagonals of about 1.
 constexpr double kLeastPivot = 1e-10;
 constexpr int kPivotsPerVariable = 8;
 
-/// Between 0.5 and 1.5, without pattern, the same on every machine.
+/// Between 0.5 and 1.5, without a pattern, and the same on every machine.
 double scattered(int attempt, int i) noexcept {
     auto x = (static_cast<uint64_t>(attempt) << 32) + static_cast<uint64_t>(i) + 1;
     x *= 0x9E3779B97F4A7C15u;
@@ -63,7 +63,7 @@ bool Lemke::solve(int attempt) noexcept {
         read_solution();
         return true;
     }
-    // z0 enters with the row for which it must be largest
+    // z0 enters in the row for which it must be largest
     int leaving = 0;
     for (int i = 1; i < n_; ++i) {
         if (lexicographically_less(i, -row(i)[z0], leaving, -row(leaving)[z0])) leaving = i;
@@ -108,7 +108,7 @@ int Lemke::leaving_row(int entering) noexcept {
         if (best < 0 || lexicographically_less(i, by, best, row(best)[entering])) best = i;
     }
     if (best < 0) return best;
-    // among equals, z0: it ends the search
+    // among equals z0 leaves, as this ends the search
     const double ratio = row(best)[stride_ - 1] / row(best)[entering];
     for (int i = 0; i < n_; ++i) {
         const double by = row(i)[entering];
@@ -177,8 +177,8 @@ bool Lemke::try_last_basis() noexcept {
     return true;
 }
 
-/// Leaves the values of the last basis in right_. By Gaussian elimination in memory of our own:
-/// Eigen's factorisations would allocate. False: the basis is singular.
+/// Leaves the values of the last basis in right_. Gaussian elimination in this object's memory, as
+/// Eigen's factorisations would allocate. False if the basis is singular.
 bool Lemke::solve_last_basis(int m) noexcept {
     const auto at = [&](int i, int j) -> double& {
         return tableau_[static_cast<size_t>(i) * static_cast<size_t>(m) + static_cast<size_t>(j)];

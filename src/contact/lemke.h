@@ -1,5 +1,5 @@
 // Lemke's method for the linear complementarity problem  w = M z + q,  z >= 0, w >= 0, z'w = 0
-// (Cottle, Pang and Stone 1992, section 4.4), with lexicographic ratio test, so that degenerate
+// (Cottle, Pang and Stone 1992, section 4.4), with a lexicographic ratio test, so that degenerate
 // problems do not cycle.
 #pragma once
 
@@ -11,13 +11,13 @@ namespace dihaptic::contact {
 
 class Lemke {
   public:
-    /// Memory for problems up to so many variables. It is not touched: the system gives pages when
-    /// problems first need them, and most programs never do. Beside the pivots, page faults of the
-    /// first use are too few to measure.
+    /// Reserves memory for problems of up to this many variables, without touching it: the system
+    /// provides pages when problems first need them, and most programs never do. The page faults of
+    /// the first use are too few to measure beside the pivots.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 
-    /// The problem to fill in: M and q of so many variables.
+    /// Starts a problem of this many variables, with M and q to be filled in.
     void start(int variables) noexcept;
     double& M(int row, int column) noexcept {
         return M_[static_cast<size_t>(row) * static_cast<size_t>(n_) + static_cast<size_t>(column)];
@@ -26,11 +26,11 @@ class Lemke {
     double z(int i) const noexcept { return z_[static_cast<size_t>(i)]; }
     double w(int i) const noexcept { return w_[static_cast<size_t>(i)]; }
 
-    /// Pivots along the covering vector number `attempt`: 0 is all ones, others are scattered about
-    /// it. Allocates nothing. False: no solution within the most pivots.
+    /// Pivots along covering vector number `attempt`: 0 is all ones, others are scattered about
+    /// that. Allocates nothing. False if no solution is found within the limit of pivots.
     bool solve(int attempt) noexcept;
-    /// Tries the set of variables that were positive in the last solution, whatever M and q are
-    /// now. False: it is none of this problem.
+    /// Tries the set of variables that were positive in the last solution with the present M and q.
+    /// False if it does not solve the problem.
     bool try_last_basis() noexcept;
     bool solve_last_basis(int m) noexcept;
 
@@ -47,12 +47,12 @@ class Lemke {
 
     int capacity_ = 0;
     int n_ = 0;
-    size_t stride_ = 0;  // w, z, z0, right side
+    size_t stride_ = 0;  // of a row: w, z, z0, right side
     int pivots_ = 0;
     std::unique_ptr<double[]> M_;
-    std::unique_ptr<double[]> tableau_;  // try_last_basis has its own use for it
+    std::unique_ptr<double[]> tableau_;  // try_last_basis() uses it as scratch memory
     std::vector<double> q_, z_, w_;
-    std::vector<int> basis_;       // by row: which column is basic
+    std::vector<int> basis_;       // by row: the column that is basic
     std::vector<int> last_basis_;  // z that were basic in the last solution
     std::vector<double> right_;
 };

@@ -1,10 +1,11 @@
-// Semismooth Newton on a contact law (law.h), inside a proximal loop: each proximal step makes a
-// singular problem regular, and at convergence r = r_k leaves no regularisation in the answer.
+// Semismooth Newton's method on a contact law (law.h), inside a proximal loop: each proximal step
+// makes a singular problem regular, and at convergence, r = r_k, the answer contains no
+// regularisation.
 //
-// At first steps are full, the regularisation follows the residual, and a proximal step is done
-// when its equation's error has fallen to a fifth. One that does not converge is undone, a few
-// projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. When all that takes
-// too long, it starts again elsewhere.
+// At first, steps are full, the regularisation follows the residual, and a proximal step is done
+// when its equation's error has fallen to a fifth. A proximal step that does not converge is
+// undone, a few projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. If all
+// that takes too long, it starts again elsewhere.
 #pragma once
 
 #include <array>
@@ -20,28 +21,28 @@ namespace dihaptic::contact {
 /// How an iterative solve ended.
 struct Outcome {
     int iterations = 0;
-    double residual = std::numeric_limits<double>::infinity();  ///< as the tolerance counts it
+    double residual = std::numeric_limits<double>::infinity();  ///< in the measure of the tolerance
     bool converged = false;
 };
 
-/// Natural map of a law, relative, in two units: those of the problem as given, and those of the
-/// scaled system, in which no unit counts.
+/// Natural map of a law, relative, in two measures: in the units of the problem as given, and in
+/// those of the scaled system, which depend on no choice of units.
 struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
 
-    /// What tolerances are compared with: as given; and so that small units do not make that easy,
-    /// a hundredth of the other. Not all of it, since loads may be so small that four coplanar
-    /// contacts disagree by more, from rounding in their gaps.
+    /// The value that tolerances are compared with: as given or, so that small units do not make
+    /// that easy, a hundredth of the scaled value if that is larger. Not all of it, because loads
+    /// may be so small that four coplanar contacts disagree by more, from rounding in their gaps.
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
-/// What residuals are relative to.
+/// The sizes that residuals are relative to.
 struct Load {
     double scaled = 0;  ///< |q^|
     double given = 0;   ///< |q|
 
-    /// From squared norms.
+    /// The residual from squared norms.
     Residual residual(double scaled_squared, double given_squared) const noexcept {
         return {std::sqrt(scaled_squared) / (scaled > 0 ? scaled : 1),
                 std::sqrt(given_squared) / (1 + given)};
@@ -74,10 +75,10 @@ Load load(const System& system) noexcept {
     return {std::sqrt(out.scaled), std::sqrt(out.given)};
 }
 
-/// Iterations aim so far below the tolerance that an answer at the edge of it is rare.
+/// Iterations aim this far below the tolerance, so that an answer at its edge is rare.
 constexpr double kTarget = 1e-2;
-/// Within tolerance, iterations end when this many of them left more than this share of the best
-/// residual: rounding allows no more.
+/// Once within tolerance, iterations end when this many of them have left more than this share of
+/// the best residual: rounding prevents further progress.
 constexpr double kStalledShare = 0.5;
 constexpr int kStalledIterations = 2;
 
@@ -86,17 +87,17 @@ struct NewtonStart {
     enum class From { given, zero, scattered } from;
     double rho;
     int most_steps;
-    int trial_steps;  ///< a proximal step is given up when its error is larger then
-    int most_inner;   ///< or not small after so many
-    /// The next rho is in proportion to the residual, as in Levenberg and Marquardt's method; else
-    /// a tenth, after proximal steps that took few Newton steps.
+    int trial_steps;  ///< after this many, a proximal step is given up if its error has grown
+    int most_inner;   ///< or after this many, if it is not small
+    /// The next rho is proportional to the residual, as in Levenberg and Marquardt's method;
+    /// otherwise it is divided by ten after proximal steps that took few Newton steps.
     bool rho_follows;
-    int halvings;  ///< of a Newton step that makes the error grow fourfold, at most
-    int sweeps;    ///< of projected Gauss-Seidel, before; they find most of what slides
+    int halvings;  ///< at most, of a Newton step that makes the error grow fourfold
+    int sweeps;    ///< done first; they find most contacts that slide
 };
-/// As given, from zero, and from impulses scattered at random: where one start cycles, four of ten
-/// others do not. Chosen by the fewest hand-overs in a million problems of shaken grasps (soak of
-/// `measure`).
+/// As given, from zero, and from impulses scattered at random: where one start cycles, four out of
+/// ten others do not. Chosen for the fewest hand-overs in a million problems of shaken grasps (soak
+/// of `measure`).
 constexpr auto kNewtonStarts = [] {
     using From = NewtonStart::From;
     std::array<NewtonStart, 14> out{};
@@ -109,7 +110,8 @@ constexpr auto kNewtonStarts = [] {
     return out;
 }();
 
-/// proximal_newton() at work: r is where it is, memory.r_k where the proximal step began.
+/// The working state of proximal_newton(): r is the current point, memory.r_k the start of the
+/// proximal step.
 template <class System, class Law, class Measure>
 class ProximalNewton {
   public:
@@ -144,7 +146,7 @@ class ProximalNewton {
     }
 
   private:
-    static constexpr double kSafe = 0.1;  // what a start that runs out of steps must have reached
+    static constexpr double kSafe = 0.1;  // to be reached by a start that runs out of steps
     static constexpr double kLeastRho = 1e-7;
     static constexpr double kMostRho = 1.0;
     static constexpr double kRhoOfResidual = 0.3;
@@ -154,10 +156,10 @@ class ProximalNewton {
     static constexpr int kFewSteps = 4;
     static constexpr int kRescueSweeps = 5;
     static constexpr double kScatter = 0.3;  // of |q|
-    // contacts times steps, of all starts: a heap that jams must not stop the tick for long
+    // contacts times steps, over all starts: a jammed heap must not hold the tick up for long
     static constexpr size_t kMostWork = 32000;
 
-    /// Keeps r when it is the best so far. True: it is good enough.
+    /// Keeps r if it is the best so far. Returns whether it is good enough.
     bool judge() {
         system_.velocity(r_, memory_.u);
         residual_ = measure_(std::span<const Vec>(r_), std::span<const Vec>(memory_.u));
@@ -171,7 +173,7 @@ class ProximalNewton {
         return out_.converged;
     }
 
-    /// Goes to where a start begins. True: that is good enough.
+    /// Goes to where a start begins. Returns whether that is good enough.
     bool begin(const NewtonStart& start) {
         if (start.from == NewtonStart::From::zero) {
             for (Vec& impulse : r_) impulse.setZero();
@@ -187,7 +189,8 @@ class ProximalNewton {
         return judge();
     }
 
-    /// Newton steps from proximal step to proximal step, until r is good enough or all are taken.
+    /// Takes Newton steps, proximal step after proximal step, until r is good enough or the steps
+    /// run out.
     void take_steps(const NewtonStart& start) {
         rho_ = start.rho;
         begin_proximal_step();
@@ -211,7 +214,7 @@ class ProximalNewton {
         inner_ = 0;
     }
 
-    /// Returns the squared error of the proximal step's equation.
+    /// Linearises the law; returns the squared error of the proximal step's equation.
     double linearise() {
         double error = 0;
         for (size_t j = 0; j < r_.size(); ++j) {
@@ -222,14 +225,14 @@ class ProximalNewton {
         return error;
     }
 
-    /// By a share of the Newton step. True: r is good enough.
+    /// Moves by a share of the Newton step. Returns whether r is good enough.
     bool move(double share) {
         for (size_t j = 0; j < r_.size(); ++j) r_[j] += share * memory_.d[j];
         ++out_.iterations;
         return judge();
     }
 
-    /// Halves a step that made the error grow. True: r is good enough.
+    /// Halves a step that made the error grow. Returns whether r is good enough.
     bool shorten(int halvings) {
         const double before = error_;
         error_ = linearise();
@@ -255,7 +258,7 @@ class ProximalNewton {
                (inner_ >= start.trial_steps && error_ > kGrown * first_) || !std::isfinite(error_);
     }
 
-    /// The proximal step; sweeps move on. True: r is good enough.
+    /// Undoes the proximal step; sweeps move on. Returns whether r is good enough.
     bool undo() {
         std::copy(memory_.r_k.begin(), memory_.r_k.end(), r_.begin());
         system_.sweep(law_, r_, kRescueSweeps);
@@ -270,21 +273,20 @@ class ProximalNewton {
     NewtonMemory<System>& memory_;
     const Measure& measure_;
     int most_iterations_;
-    std::minstd_rand random_;  // the same numbers in every solve: replay repeats it
+    std::minstd_rand random_;  // the same numbers in every solve, so that replay repeats it
 
     Outcome out_;
     double residual_ = 0;   // of r
-    bool is_best_ = false;  // r, and memory.u is its velocity
+    bool is_best_ = false;  // r is the best so far, and memory.u its velocity
     int stalled_ = 0;
     double rho_ = 0;
-    double first_ = 0;  // squared error that the proximal step began with
-    double error_ = 0;  // that it has now
-    int inner_ = 0;     // Newton steps in it
+    double first_ = 0;  // squared error at the start of the proximal step
+    double error_ = 0;  // squared error now
+    int inner_ = 0;     // Newton steps in the proximal step
 };
 
 /// Solves `law` for r [scaled], starting from r, until `measure(r, u)` is at most kTarget of
-/// `tolerance`, from so many of its starts at most. Leaves the best r found, and its velocity in
-/// memory.u.
+/// `tolerance` or all `starts` are used up. Leaves the best r found, and its velocity in memory.u.
 template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
@@ -293,8 +295,8 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         .solve(starts);
 }
 
-/// Residual of Coulomb's law. When it is above `enough` as given, that says all, and the scaled one
-/// is left at zero.
+/// Residual of Coulomb's law. If it is above `enough` as given, that decides, and the scaled one is
+/// left at zero.
 template <class System>
 Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
                           std::span<const typename System::Vec> u, const Load& load,
@@ -315,7 +317,7 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
     return load.residual(scaled, given);
 }
 
-/// Coulomb's law by proximal_newton.
+/// Solves Coulomb's law by proximal_newton().
 template <class System>
 Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
                NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts) {

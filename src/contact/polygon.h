@@ -1,11 +1,11 @@
-// A friction polygon: n directions in the contact's tangent plane, evenly spread, the first of them
+// A friction polygon: n evenly spread directions in the contact's tangent plane, the first of them
 // along axes.col(0). Its vertices lie on the circle of radius mu N, so friction is mu N along a
-// direction and mu N cos(pi / n) between two. With torsion (T = 3) it is a double pyramid: the
-// polygon, and two more vertices on either side, along axes.col(2).
+// direction and mu N cos(pi / n) halfway between two. With torsion (T = 3) it is a double pyramid:
+// the polygon, and two more vertices, one on either side along axes.col(2).
 //
 // A regular polygon, and such a pyramid, are symmetric about the planes through neighbouring
-// directions. So what lies in the sector between them has its nearest point there: on the one facet
-// that spans the sector's T vertices.
+// directions. So the point nearest to a vector in the sector between them lies in that sector too,
+// on the one facet that spans the sector's T vertices.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ struct Polygon {
     int directions = 8;
     Square axes = Square::Identity();  ///< orthonormal
 
-    /// The first direction along a vector; as it was where that has no direction.
+    /// Lays the first direction along a vector; leaves it if the vector has no direction.
     void turn_to(const Tangent& first) noexcept {
         const double length = first.norm();
         if (!(length > 0) || !std::isfinite(length)) return;
@@ -42,7 +42,7 @@ struct Polygon {
     }
 
     int count() const noexcept { return T == 2 ? directions : directions + 2; }
-    /// Direction i of the polygon; the pyramids' tips come after them.
+    /// Direction i of the polygon; the tips of the pyramids come last.
     Tangent direction(int i) const noexcept {
         if constexpr (T == 3) {
             if (i == directions) return axes.col(2);
@@ -54,15 +54,15 @@ struct Polygon {
 
     /// The sector in which a vector lies.
     struct Sector {
-        std::array<int, T> index;  ///< of its directions
-        Square vertices;           ///< them, a column each
-        Square inverse;            ///< of vertices: a vector's shares of them
+        std::array<int, T> index;  ///< indices of its directions
+        Square vertices;           ///< the directions, one per column
+        Square inverse;  ///< of vertices: multiplied by a vector, the vector's shares of them
     };
     Sector sector(const Tangent& x) const noexcept {
         const double pitch = 2 * std::numbers::pi / directions;
         double turns = std::atan2(axes.col(1).dot(x), axes.col(0).dot(x)) / pitch;
         turns -= std::floor(turns / directions) * directions;
-        // also of what is no number there is one, whose index exists
+        // a vector that is not a number also gets a sector with valid indices
         const int before = turns >= 0 && turns < directions ? static_cast<int>(turns) : 0;
         Sector out;
         out.index[0] = before;
@@ -74,7 +74,7 @@ struct Polygon {
         return out;
     }
 
-    /// The largest d_k . x.
+    /// The largest d_k . x over all directions d_k.
     double support(const Tangent& x) const noexcept {
         const Sector in = sector(x);
         return (in.vertices.transpose() * x).maxCoeff();
@@ -83,10 +83,10 @@ struct Polygon {
     struct Projection {
         Tangent point;
         bool inside = false;
-        Square along;        ///< projector on the facet or edge hit; zero at a vertex
+        Square along;        ///< projector on the facet or edge that was hit; zero at a vertex
         Tangent per_radius;  ///< d point / d radius
     };
-    /// Nearest point of the polygon with vertices at `radius`.
+    /// The nearest point of the polygon with vertices at `radius`.
     Projection project(const Tangent& x, double radius) const noexcept {
         Projection out;
         out.along.setZero();

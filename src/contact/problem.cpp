@@ -17,7 +17,7 @@ Mat6 inverse_mass_matrix(const ProblemBody& body) {
     return out;
 }
 
-/// The impulse as the four-dimensional cone has it: the moment over the torsion radius.
+/// The impulse in the four-dimensional cone, in which the moment is divided by the torsion radius.
 Vec4 in_cone(const Impulse& r, const ProblemContact& contact) {
     Vec4 out = r;
     out[3] = contact.torsion_radius > 0 ? r[3] / contact.torsion_radius : 0;

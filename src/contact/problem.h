@@ -10,11 +10,12 @@
 
 namespace dihaptic::contact {
 
-/// Stands for a body that no impulse moves.
+/// Index of a body that no impulse moves.
 constexpr int kFixed = -1;
 
 struct ProblemBody {
-    Mat3 inverse_mass;        ///< in W; symmetric; may differ by direction; zero where held [1/kg]
+    Mat3 inverse_mass;  ///< in W; symmetric; may differ by direction; zero where the body is held
+                        ///< [1/kg]
     Mat3 inverse_inertia;     ///< about the centre of mass, in W [1/(kg*m^2)]
     Vec3 v_W = Vec3::Zero();  ///< of the centre of mass, with all loads but contact [m/s]
     Vec3 w_W = Vec3::Zero();  ///< [rad/s]
@@ -28,16 +29,16 @@ struct ProblemContact {
     Mat3 R_WC = Mat3::Identity();  ///< columns: unit normal from a to b, two tangents
     double bias = 0;               ///< added to the normal velocity: gap over time step [m/s]
     double friction = 0;           ///< coefficient mu
-    double torsion_radius = 0;     ///< a moment about the normal up to mu r N; 0: none [m]
+    double torsion_radius = 0;  ///< allows a moment about the normal of up to mu r N; 0: none [m]
 };
 
 /// Impulse of a on b in the contact's frame: normal, two tangents [N*s], moment about the normal
 /// [N*m*s].
 using Impulse = Eigen::Vector4d;
 
-/// Bodies and contacts of one step. Find impulses r so that for each contact, with
-/// u = velocity of b relative to a + bias along the normal, at the end of the step:
-/// 0 <= r_N, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T against u_T where it slides.
+/// Bodies and contacts of one step. Find impulses r so that for each contact, with u the velocity
+/// of b relative to a plus the bias along the normal, at the end of the step: r_N >= 0, u_N >= 0,
+/// r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;
@@ -49,18 +50,19 @@ struct ContactProblem {
     bool has_torsion() const noexcept;
 };
 
-/// The same problem without bodies, three rows a contact: normal, then two tangents. u = W r + q.
+/// A contact problem without bodies, with three rows per contact: normal, then two tangents. u = W
+/// r + q.
 struct DelassusProblem {
     Eigen::MatrixXd W;   ///< positive semi-definite up to rounding [1/kg]
     Eigen::VectorXd q;   ///< velocities without contact impulses [m/s]
     Eigen::VectorXd mu;  ///< by contact
 };
-/// Contacts without torsion.
+/// The problem without bodies; torsion is left out.
 DelassusProblem delassus(const ContactProblem& problem);
 
-/// |F|^2 of what one contact misses of Coulomb's law, zero when it holds: the natural map
-/// F = r - P_K(r - (u + mu |u_T| n)) with the projection on the cone K of any dimension
-/// (De Saxce and Feng 1998; Acary, Bremond and Huber 2018).
+/// |F|^2 of the error with which one contact satisfies Coulomb's law, zero if exactly: the natural
+/// map F = r - P_K(r - (u + mu |u_T| n)), with the projection on the cone K of any dimension (De
+/// Saxce and Feng 1998; Acary, Bremond and Huber 2018).
 template <int D>
 double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
                            const Eigen::Matrix<double, D, 1>& u, double mu) noexcept {
@@ -85,9 +87,9 @@ double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
     return sum;
 }
 
-/// Norm of the natural map over 1 + |q|, of the problem as given.
+/// Norm of the natural map over 1 + |q|, in the units of the problem as given.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r);
-/// The same without allocating: `scratch` has as many elements as the problem has bodies.
+/// As above, without allocating: `scratch` has as many elements as the problem has bodies.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r,
                             std::span<Eigen::Matrix<double, 6, 1>> scratch) noexcept;
 double natural_map_residual(const DelassusProblem& problem, const Eigen::VectorXd& r);

@@ -1,20 +1,21 @@
-// What found the impulses that are in use; README.md has who is asked after whom.
+// Route tells which method found the impulses in use; README.md gives the order in which methods
+// are tried.
 #pragma once
 
 #include <array>
 
 namespace dihaptic::contact {
 
-/// Recorded with every tick: new ones go to the end.
+/// Recorded with every tick: append new values at the end.
 enum class Route {
-    none,            ///< there was nothing to solve, or it was refused; or an older recording
-    start,           ///< what was given was an answer already
+    none,            ///< nothing to solve, the problem was refused, or an older recording
+    start,           ///< the start was an answer already
     newton,          ///< Newton's method on Coulomb's cone
-    own_newton,      ///< stewart_trinkle: the same on its friction polygon
+    own_newton,      ///< stewart_trinkle: Newton's method on its friction polygon
     lemke,           ///< stewart_trinkle: Lemke's method on its friction polygon
-    coarse_polygon,  ///< newton, begun at an answer on a polygon of four directions
+    coarse_polygon,  ///< newton, started from an answer on a polygon of four directions
     staggered_projections,
-    sweeps,  ///< newton, begun after many projected Gauss-Seidel sweeps
+    sweeps,  ///< newton, started after many projected Gauss-Seidel sweeps
     sequential_impulse
 };
 constexpr auto enum_names(Route) {

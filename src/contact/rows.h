@@ -1,4 +1,4 @@
-// How a contact's relative velocity depends on the bodies: shared by all that need it.
+// Computes how a contact's relative velocity depends on the bodies, for all solvers.
 #pragma once
 
 #include "contact/problem.h"
@@ -9,9 +9,10 @@ template <int D>
 using Row = Eigen::Matrix<double, D, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// J with u = J (v, w) for a body's centre of mass velocity and angular velocity, without the sign
-/// that tells a from b. D = 4 has the spin about the normal times the torsion radius as fourth row,
-/// so that a soft finger's elliptic limit surface is a Coulomb cone of one more dimension.
+/// J with u = J (v, w) for the velocity of a body's centre of mass and its angular velocity; the
+/// caller applies the sign that differs between a and b. D = 4 has the spin about the normal times
+/// the torsion radius as fourth row, so that a soft finger's elliptic limit surface is a Coulomb
+/// cone of one more dimension.
 template <int D>
 Row<D> contact_row(const ProblemContact& contact, const Vec3& arm) noexcept {
     Row<D> J;
@@ -27,7 +28,7 @@ Row<D> contact_row(const ProblemContact& contact, const Vec3& arm) noexcept {
     return J;
 }
 
-/// u without contact impulses, bias included.
+/// u without contact impulses, including the bias.
 template <int D>
 Eigen::Matrix<double, D, 1> free_velocity(const ContactProblem& problem,
                                           const ProblemContact& contact) noexcept {

@@ -11,13 +11,13 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr int kLastSweeps = 2000;
-/// As a fallback: pairs times contacts times contacts, and sweeps times contacts.
+/// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;
 
 template <class System>
 struct SolverMemory {
-    StaggeredMemory<System> staggered;  // its Newton part serves all
+    StaggeredMemory<System> staggered;  // its Newton part is used by all methods
     StewartTrinkleMemory<System> stewart_trinkle;
     std::vector<typename System::Vec> r;
 
@@ -28,8 +28,8 @@ struct SolverMemory {
     }
 };
 
-/// One solve: by the solver that was asked for, then by others until one answers. Leaves the answer
-/// in memory.r.
+/// One solve: by the solver asked for, then by others until one answers. Leaves the answer in
+/// memory.r.
 template <class System>
 class Solve {
   public:
@@ -55,7 +55,7 @@ class Solve {
         hand_over(solver);
         const Residual residual = end_inside_cone();
         stats_.residual = residual.given;
-        // an answer of Stewart and Trinkle's own is one of another problem
+        // Stewart and Trinkle's own answer solves another problem than Coulomb's
         const bool own = solver == Solver::stewart_trinkle && !stats_.fallback;
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
@@ -103,8 +103,8 @@ class Solve {
         return newton(system_, r_, kTolerance, newton_memory_, starts);
     }
 
-    /// Where no start leads to an answer on the cone, an answer on a coarse polygon, turned with
-    /// sliding, is found, and is near one.
+    /// Where no start leads to an answer on the cone, a start near one is found on a coarse polygon
+    /// that turns with sliding.
     Outcome by_coarse_polygon() {
         constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
         StewartTrinkle<System> method(system_, kCoarse, kTolerance, memory_.stewart_trinkle);
@@ -122,8 +122,8 @@ class Solve {
         return last;
     }
 
-    /// What is left of an error shall not pull: impulses end inside the cone, unless that small
-    /// change is too much for a problem so delicate.
+    /// Projects the impulses into the cone, so that a remaining error never pulls, unless the
+    /// problem is so delicate that this small change is too much.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
@@ -204,8 +204,8 @@ struct BodyMemory {
 struct ContactSolvers::Memory {
     BodyMemory<3> plain;
     BodyMemory<4> torsional;
-    bool torsion = false;       // memory for it is reserved
-    bool last_torsion = false;  // the last solve had it
+    bool torsion = false;       // whether memory for torsion is reserved
+    bool last_torsion = false;  // whether the last solve had torsion
 };
 
 ContactSolvers::ContactSolvers() : memory_(std::make_unique<Memory>()) {}

@@ -1,11 +1,11 @@
-// The door to all contact solvers but Bullet's own: a problem and a start in, impulses and what was
-// achieved out.
+// The interface to all contact solvers but Bullet's own: takes a problem and a start, and returns
+// impulses and statistics.
 //
-// A solver that misses its tolerance hands over to Newton on the cone, that, in three dimensions,
-// to Newton after an answer on a coarse polygon, that to staggered projections, and those to Newton
-// again after many projected Gauss-Seidel sweeps; that another
-// answered is told, and when even the last one missed. Each has a bound on counted work and none
-// reads a clock, so that replay repeats every solve bit for bit.
+// A solver that misses its tolerance hands over to Newton's method on the cone; that, in three
+// dimensions, to Newton's method started from an answer on a coarse polygon; that to staggered
+// projections; and those to Newton's method again, after many projected Gauss-Seidel sweeps. It is
+// reported if another solver answered, and if even the last one missed. Each has a bound on counted
+// work and none reads a clock, so that replay repeats every solve bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -19,21 +19,21 @@
 
 namespace dihaptic::contact {
 
-/// Success is a residual up to this: Residual::judged() of Coulomb's law; for Stewart-Trinkle of
-/// its own complementarity problem.
+/// Largest residual that counts as success: Residual::judged() of Coulomb's law or, for
+/// Stewart-Trinkle, of its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
 /// What a solve achieved.
 struct SolveStats {
     int iterations = 0;
     double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
-    bool fallback = false;  ///< another solver than the one asked for answered
-    bool missed = false;    ///< the impulses in use, the best found, are not within tolerance
-    bool refused = false;   ///< the problem held what is no number: there are no impulses
+    bool fallback = false;  ///< a solver other than the one asked for answered
+    bool missed = false;    ///< the impulses in use, the best found, miss the tolerance
+    bool refused = false;   ///< the problem held values that are not numbers: there are no impulses
     Route route = Route::none;
 
-    /// Of several problems of one step: the worst of each; the route of one that another solver
-    /// answered, where there is one, and otherwise the last of the list.
+    /// Combines several problems of one step: the worst of each value. The route is that of a
+    /// problem that another solver answered, if any; among equals, the last in the enumeration.
     void join(const SolveStats& other) noexcept {
         if (std::pair(other.fallback, other.route) > std::pair(fallback, route))
             route = other.route;
@@ -45,7 +45,7 @@ struct SolveStats {
     }
 };
 
-/// What there is to know about one solve beyond its statistics.
+/// Further results of one solve.
 struct SolveDetail {
     double lcp_residual = 0;  ///< stewart_trinkle: of its own complementarity problem, as given
 };
@@ -57,17 +57,18 @@ class ContactSolvers {
     ContactSolvers(ContactSolvers&&) noexcept;
     ContactSolvers& operator=(ContactSolvers&&) noexcept;
 
-    /// Memory for problems of so many bodies and contacts, with torsion or without. Stewart-Trinkle
-    /// keeps its last resort, Lemke's method, for problems up to `kLemkeContacts`.
+    /// Reserves memory for problems of this many bodies and contacts, with or without torsion.
+    /// Lemke's method, Stewart-Trinkle's last resort, is kept for problems up to about
+    /// `kLemkeContacts`, with the default eight directions.
     void reserve(int bodies, int contacts, bool torsion);
     static constexpr int kLemkeContacts = 60;
 
-    /// Solves from the start in r; leaves the impulses in r. Not for sequential_impulse. False:
-    /// more than what was reserved; nothing is changed. A problem with what is no number in it is
-    /// refused before any solver starts: SolveStats::refused.
+    /// Solves from the start in r, and leaves the impulses in r. Not for sequential_impulse. False
+    /// if the problem is larger than reserved; nothing is changed then. A problem with values that
+    /// are not numbers is refused before any solver starts: SolveStats::refused.
     bool solve(Solver solver, const PolygonSettings& polygon, const ContactProblem& problem,
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept;
-    /// Change of a body's velocity by the impulses of the last solve: linear [m/s], angular
+    /// Change of a body's velocity by the impulses of the last solve: linear [m/s], then angular
     /// [rad/s].
     Eigen::Matrix<double, 6, 1> velocity_change(int body) const noexcept;
 
@@ -76,7 +77,7 @@ class ContactSolvers {
     std::unique_ptr<Memory> memory_;
 };
 
-/// The same for a problem without bodies. Allocates.
+/// Solves a problem that is given without bodies. Allocates.
 Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const DelassusProblem& problem,
                       SolveStats& stats, SolveDetail* detail = nullptr);
 

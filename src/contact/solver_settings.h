@@ -1,5 +1,5 @@
-// Which solver answers contact problems, and what can be chosen about it: all that settings, codes
-// and benches say of solvers, without the solvers themselves.
+// Names the contact solvers and their settings, for code that selects, records or compares solvers
+// without using them.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ constexpr auto enum_names(Solver) {
 }
 constexpr int kSolvers = 4;
 
-/// How a friction polygon's corners lie: in directions fixed to the contact, or turned with
+/// Placement of a friction polygon's corners: in directions fixed to the contact, or turned with
 /// sliding.
 enum class DirectionFrame { fixed, sliding };
 constexpr auto enum_names(DirectionFrame) {
     return std::array{"fixed", "sliding"};
 }
 
-/// Of stewart_trinkle.
+/// Settings of stewart_trinkle.
 struct PolygonSettings {
     int directions = 8;
     DirectionFrame frame = DirectionFrame::sliding;

@@ -1,15 +1,15 @@
-// Staggered projections (Kaufman, Sueda, James and Pai 2008): Coulomb's law as two convex problems
-// that wait for each other,
+// Staggered projections (Kaufman, Sueda, James and Pai 2008) solve Coulomb's law as two convex
+// problems that take turns,
 //
 //     friction:  the tangential impulses that dissipate most, on discs of radius mu r_N
 //     contact:   the normal impulses that keep bodies apart, with that friction
 //
-// repeated until they agree. Each is solved exactly, by the proximal Newton method, which for a
-// convex problem finds the active set; inexact inner solutions stall the outer loop at their own
-// error. Contacts without load are no part of the friction problem. Anderson acceleration of the
-// normal impulses shortens the loop; what still wanders is moved on by projected Gauss-Seidel
-// sweeps. Every pair ends with a contact projection, so none leaves bodies approaching; the best
-// pair is the answer.
+// repeated until they agree. Each is solved exactly by the proximal Newton method, which finds the
+// active set of a convex problem; inexact inner solutions would stall the outer loop at their own
+// error. Contacts without load are left out of the friction problem. Anderson acceleration of the
+// normal impulses shortens the loop; where it still wanders, projected Gauss-Seidel sweeps move it
+// on. Every pair ends with a contact projection, so none leaves bodies approaching; the best pair
+// is the answer.
 #pragma once
 
 #include "contact/anderson.h"
@@ -22,8 +22,8 @@ struct StaggeredMemory {
     NewtonMemory<System> newton;
     Anderson anderson;
     std::vector<typename System::Vec> best;
-    std::vector<double> normal;  ///< that friction is solved for
-    std::vector<double> image;   ///< that contact answers
+    std::vector<double> normal;  ///< for which friction is solved
+    std::vector<double> image;   ///< with which the contact problem answers
 
     void reserve(size_t contacts) {
         newton.reserve(contacts);
@@ -34,7 +34,7 @@ struct StaggeredMemory {
     }
 };
 
-/// staggered_projections() at work.
+/// The working state of staggered_projections().
 template <class System>
 class StaggeredProjections {
   public:
@@ -78,7 +78,8 @@ class StaggeredProjections {
     }
 
   private:
-    // Of |q|; kTarget of it is aimed at. No need to be far more exact than the loop has become.
+    // Relative to |q|; the inner loop aims at kTarget of it, and need not be far more exact than
+    // the outer loop is by now.
     static constexpr double kInnerTolerance = 1e-10;
     static constexpr double kInnerOfLast = 1e-3;
     // Loads that nothing determines must not wander from pair to pair: a large rho that falls
@@ -89,7 +90,7 @@ class StaggeredProjections {
     static constexpr int kPatience = 15;  // iterations before sweeps move on
     static constexpr int kSweeps = 200;
 
-    /// One of the two convex problems, exactly.
+    /// Solves one of the two convex problems exactly.
     template <class Law>
     void solve_for(const Law& law) {
         const double enough = std::isfinite(last_) ? kInnerOfLast * last_ : 0;
@@ -105,7 +106,7 @@ class StaggeredProjections {
             kInnerStart);
     }
 
-    /// Friction under the loads of memory.normal, then contact with that friction.
+    /// Solves friction under the loads of memory.normal, then contact with that friction.
     void solve_pair() {
         const law::FrictionOnly friction{memory_.normal};
         for (size_t j = 0; j < r_.size(); ++j) {
@@ -116,7 +117,7 @@ class StaggeredProjections {
         solve_for(law::NormalOnly{});
     }
 
-    /// Keeps the pair when it is the best so far. Returns its residual.
+    /// Keeps the pair if it is the best so far. Returns its residual.
     double judge() {
         const double residual =
             coulomb_residual(system_, std::span<const Vec>(r_),
@@ -130,7 +131,7 @@ class StaggeredProjections {
         return residual;
     }
 
-    /// Within tolerance, and rounding allows no more.
+    /// Whether the residual is within tolerance and rounding prevents any further progress.
     bool is_stalled(double residual) {
         return residual <= tolerance_ && residual > kStalledShare * last_ &&
                ++stalled_ >= kStalledIterations;
@@ -143,12 +144,12 @@ class StaggeredProjections {
         plain_ = kPlainIterations;
     }
 
-    /// The loads that the next pair begins with.
+    /// Sets the loads that the next pair starts from.
     void accelerate() {
         for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = r_[j][0];
         if (plain_ > 0) {
             --plain_;
-            // Coulomb's law may have several solutions: begin gently, to find the one nearest
+            // Coulomb's law may have several solutions: start gently, to find the nearest
             memory_.normal.swap(memory_.image);
             return;
         }
@@ -163,9 +164,9 @@ class StaggeredProjections {
     Load size_;
 
     Outcome out_;
-    double last_ = std::numeric_limits<double>::infinity();  // residual of the pair before
+    double last_ = std::numeric_limits<double>::infinity();  // residual of the last pair
     int stalled_ = 0;
-    int plain_ = kPlainIterations;  // iterations without acceleration, still
+    int plain_ = kPlainIterations;  // iterations left without acceleration
 };
 
 /// Starts from r; leaves the best pair in r and its velocity in memory.newton.u.

@@ -6,13 +6,14 @@
 //     0 <= lambda _|_ mu r_N - sum b_k      >= 0
 //
 // Directions are fixed in the contact frame, as in the literature, which makes friction between two
-// directions weaker by up to cos(pi/n); or the first is laid along each contact's friction force,
-// so that sliding is isotropic. A soft finger's torsion adds two directions, about +n and -n.
+// directions weaker by a factor down to cos(pi/n); or the first is laid along each contact's
+// friction force, so that sliding is isotropic. A soft finger's torsion adds two directions, about
+// +n and -n.
 //
-// Two methods solve it, and which did is told: Newton's on the polygon, and where that fails
-// Lemke's, in proximal steps that take its regularisation out of the answer. Where directions
-// follow friction, the problem is solved with the directions as they lie, they are turned, and it
-// is solved again, until friction opposes sliding: then the answer is Coulomb's as well.
+// Two methods solve it, and which did is reported: Newton's on the polygon and, where that fails,
+// Lemke's in proximal steps, which take its regularisation out of the answer. Where directions
+// follow friction, the problem is solved with the present directions, they are turned, and it is
+// solved again, until friction opposes sliding: the answer is then Coulomb's as well.
 #pragma once
 
 #include <numbers>
@@ -33,7 +34,7 @@ struct StewartTrinkleOutcome : Outcome {
 template <class System>
 struct StewartTrinkleMemory {
     static constexpr int T = System::D - 1;
-    /// Of one contact, written out for Lemke's matrix.
+    /// The directions of one contact, stored for Lemke's matrix.
     using Directions = Eigen::Matrix<double, T, kMostDirections + 2>;
 
     NewtonMemory<System> newton;
@@ -41,13 +42,14 @@ struct StewartTrinkleMemory {
     std::vector<Directions> directions;
     std::vector<typename System::Vec> best;
     std::vector<double> aim;    // first directions that polygons were given
-    std::vector<double> image;  // those that the answer with them asks for
+    std::vector<double> image;  // first directions that the answer with them asks for
     Anderson anderson;
     std::vector<double> last;  // z of the last proximal step
     Lemke lemke;
 
-    /// Lemke's tableau grows with the square of its variables, which are as many as
-    /// `lemke_contacts` have with the most directions: problems of more do without it.
+    /// The size of Lemke's tableau grows with the square of its variables: it is reserved for
+    /// twelve variables per contact of `lemke_contacts` (eight directions with torsion). Larger
+    /// problems do without Lemke's method.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
         polygons.reserve(contacts);
@@ -82,8 +84,9 @@ class StewartTrinkle {
         load_ = load(system);
     }
 
-    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. Converged:
-    /// its own problem is solved; with directions that follow friction, Coulomb's as well.
+    /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. Converged
+    /// means that its own problem is solved and, with directions that follow friction, Coulomb's as
+    /// well.
     StewartTrinkleOutcome solve(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         std::copy(r.begin(), r.end(), m_.best.begin());
@@ -97,7 +100,8 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Only Newton's method, with each polygon laid along what the start asks for, and left there.
+    /// Uses only Newton's method, with each polygon laid along what the start asks for, and kept
+    /// there.
     StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         system_.velocity(r, m_.newton.u);
@@ -107,7 +111,7 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Only Lemke's method, from no impulse at all.
+    /// Uses only Lemke's method, starting from no impulse.
     StewartTrinkleOutcome solve_by_lemke(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         for (Vec& impulse : r) impulse.setZero();
@@ -135,7 +139,7 @@ class StewartTrinkle {
             };
             const Shares b = in.inverse * r[j].template tail<T>();
             add(r[j][0], u[j][0], unit);
-            // other directions have no share, and their w is not negative
+            // the other directions have no share, and their w is not negative
             for (int i = 0; i < T; ++i) add(b[i], in.vertices.col(i).dot(u_t) + lambda, unit);
             add(lambda, system_.scale(j).mu * r[j][0] - b.sum(), 1 / unit);
         }
@@ -143,23 +147,25 @@ class StewartTrinkle {
     }
 
   private:
-    /// Answers with polygons as they lie are warm starts for those that are turned a little.
+    /// Limits of solve_and_turn(). Answers with the last polygons are warm starts after a small
+    /// turn.
     static constexpr int kMostTurns = 60;
     static constexpr double kInnerOfLast = 1e-3;
-    static constexpr size_t kMostWork = 32000;  // contacts times steps, as newton's
+    static constexpr size_t kMostWork = 32000;  // contacts times steps, as for Newton's method
 
     bool follows() const { return settings_.frame == DirectionFrame::sliding; }
 
-    /// Lays first directions along z = r_T - a_T u_T, of which the law says where friction points:
-    /// along r_T where it sticks, against u_T where that opposes it.
+    /// Lays first directions along z = r_T - a_T u_T, in which friction points by the law: along
+    /// r_T where the contact sticks, against u_T where it slides.
     void turn(std::span<const Vec> r) {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(asked(j, r[j]));
     }
     Tangent asked(size_t j, const Vec& r) const {
         return r.template tail<T>() - system_.scale(j).a_t * m_.newton.u[j].template tail<T>();
     }
-    /// The same as one step of an iteration, accelerated over its last ones. What sticks inside its
-    /// polygon, and what is open, need not turn: its direction would only disturb the others'.
+    /// Turns the polygons as turn() does, as one step of an iteration that is accelerated over its
+    /// last ones. Contacts that stick inside their polygon, or are open, need not turn: their
+    /// directions would only disturb those of the others.
     void turn_faster(std::span<const Vec> r) {
         constexpr double kInside = 1e-9;
         using Map = Eigen::Map<Tangent>;
@@ -180,7 +186,7 @@ class StewartTrinkle {
     }
 
     /// Has `once` solve the problem with the polygons as they lie; where directions follow
-    /// friction, as often as they turn.
+    /// friction, again after each turn.
     template <class Once>
     void solve_and_turn(std::span<Vec> r, StewartTrinkleOutcome& out, const Once& once) {
         m_.anderson.start(m_.aim.size());
@@ -196,7 +202,7 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether r is an answer that needs no more work.
+    /// Whether r is an answer that needs no more work; keeps it if it is the best.
     bool accept(std::span<const Vec> r, Route route, StewartTrinkleOutcome& out) {
         const std::span<const Vec> u(m_.newton.u);
         const Residual own = residual(r, u);
@@ -217,10 +223,10 @@ class StewartTrinkle {
         system_.velocity(r, m_.newton.u);
     }
 
-    /// By Newton's method, to `enough` at least.
+    /// Solves by Newton's method, to `enough` at least.
     void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         auto starts = kNewtonStarts;
-        if (enough > 0) {  // from an answer with the polygons a little turned
+        if (enough > 0) {  // from an answer with slightly different polygons
             starts[0].rho = std::clamp(residual_, 1e-7, starts[0].rho);
             starts[0].sweeps = 0;
         }
@@ -276,7 +282,8 @@ class StewartTrinkle {
         }
     }
 
-    /// z of the best so far, where the proximal steps begin; zero when there is none.
+    /// Sets the start of the proximal steps to z of the best answer so far, or to zero if there is
+    /// none.
     void begin_proximal(int block, const StewartTrinkleOutcome& out) {
         m_.last.assign(m_.polygons.size() * static_cast<size_t>(block), 0.0);
         if (out.route == Route::none) return;
@@ -292,7 +299,7 @@ class StewartTrinkle {
         }
     }
 
-    /// By Lemke's method, to `enough` at least.
+    /// Solves by Lemke's method, to `enough` at least.
     void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;
@@ -335,7 +342,7 @@ class StewartTrinkle {
     double tolerance_;
     StewartTrinkleMemory<System>& m_;
     Load load_;
-    double residual_ = std::numeric_limits<double>::infinity();  ///< of what was tried last
+    double residual_ = std::numeric_limits<double>::infinity();  ///< of the last attempt
 };
 
 }  // namespace dihaptic::contact

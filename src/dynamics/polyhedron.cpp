@@ -9,10 +9,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// An edge axis must separate better than the best face by this much: faces give whole patches, and
-/// near ties would flip between one point and four.
+/// near ties would make the contact flip between one point and four.
 constexpr double kFacePreference = 1e-5;  // [m]
 
-/// Polygon of fixed capacity: a face clipped by a face.
+/// A polygon of fixed capacity: a face clipped by another.
 struct Polygon {
     std::array<Vec3, 2 * Polyhedron::kMostFaceVertices> points;
     size_t count = 0;
@@ -35,7 +35,7 @@ void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out) {
     }
 }
 
-/// Best separating face of `a` for `b`, whose vertices are given in a's frame.
+/// The best separating face of `a` for `b`, whose vertices are given in a's frame.
 struct FaceQuery {
     double separation = -kInfinity;
     int face = -1;
@@ -45,19 +45,19 @@ FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
     FaceQuery best;
     const Mat3 R_BA = X_AB.R.conjugate().toRotationMatrix();
     for (size_t f = 0; f < a.faces.size(); ++f) {
-        // the plane in b's frame, so that b's vertices need no transform
+        // the plane in b's frame, so that b's vertices need not be transformed
         const Vec3 n = R_BA * a.faces[f].normal;
         const double offset = a.faces[f].offset - a.faces[f].normal.dot(X_AB.p);
         double lowest = kInfinity;
         for (const Vec3& v : b.vertices) lowest = std::min(lowest, n.dot(v));
         const double separation = lowest - offset;
         if (separation > best.separation) best = {separation, static_cast<int>(f)};
-        if (separation > margin) break;  // apart: whatever else there is does not matter
+        if (separation > margin) break;  // apart: the other faces no longer matter
     }
     return best;
 }
 
-/// Best separating pair of edges, everything in a's frame.
+/// The best separating pair of edges, in a's frame.
 struct EdgeQuery {
     double separation = -kInfinity;
     Vec3 axis = Vec3::Zero();  ///< from a to b
@@ -72,7 +72,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
         for (size_t j = 0; j < b.directions.size(); ++j) {
             Vec3 axis = a.directions[i].cross(R_AB * b.directions[j]);
             const double size = axis.norm();
-            if (size < 1e-4) continue;  // parallel edges: a face axis does as well
+            if (size < 1e-4) continue;  // parallel edges: a face axis serves as well
             axis /= size;
             double a_low = kInfinity, a_high = -kInfinity, b_low = kInfinity, b_high = -kInfinity;
             for (const Vec3& v : a.vertices) {
@@ -100,7 +100,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
     return best;
 }
 
-/// The edge of that direction which lies furthest along the axis.
+/// The edge of a given direction that lies furthest along the axis.
 const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
     const Polyhedron::Edge* best = nullptr;
     double furthest = -kInfinity;
@@ -116,8 +116,8 @@ const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const V
     return *best;
 }
 
-/// Keeps four points that span the patch: the deepest, the furthest from it, and those that make
-/// the largest triangles with these two, one on each side.
+/// Keeps four points that span the patch: the deepest, the one furthest from it, and those that
+/// make the largest triangles with these two, one on each side.
 void reduce(const Polygon& points,
             const std::array<double, 2 * Polyhedron::kMostFaceVertices>& gaps, const Vec3& n,
             std::array<size_t, 4>& kept, int& count) {
@@ -160,8 +160,8 @@ void reduce(const Polygon& points,
     if (right != deepest) kept[static_cast<size_t>(count++)] = right;
 }
 
-/// Clips the face of `other` that looks at the reference face. The patch's points are (on
-/// reference, on other); its normal leaves the reference.
+/// Clips the face of `other` that is turned to the reference face. The patch's points are pairs (on
+/// reference, on other); its normal points away from the reference.
 void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
                   const Pose& X_WO, double margin, ContactPatch& patch) {
     const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
@@ -176,7 +176,7 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
             incident = f;
         }
     }
-    std::array<Polygon, 2> polygons;  // clipped from one to the other: they are too large to copy
+    std::array<Polygon, 2> polygons;  // used alternately, as they are too large to copy
     size_t current = 0;
     for (const int v : other.faces[incident].vertices)
         polygons[current].add(X_RO * other.vertices[static_cast<size_t>(v)]);
@@ -212,7 +212,7 @@ void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, co
     const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
     const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
     const Vec3 db = X_AB * b.vertices[static_cast<size_t>(eb.to)] - pb;
-    // closest points of the two lines, kept on the edges
+    // closest points of the two lines, clamped to the edges
     const Vec3 r = pa - pb;
     const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
     const double det = aa * bb - ab * ab;
@@ -231,7 +231,7 @@ Polyhedron Polyhedron::of(const scene::Hull& hull) {
     for (const std::vector<int>& loop : hull.faces) {
         Face face;
         face.vertices = loop;
-        // Newell's normal: robust for polygons of many vertices
+        // Newell's normal: robust for polygons with many vertices
         Vec3 normal = Vec3::Zero();
         for (size_t i = 0; i < loop.size(); ++i) {
             const Vec3& p = out.vertices[static_cast<size_t>(loop[i])];
@@ -318,8 +318,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
     const double offset = patch.n_W.dot(X_WA.p);
-    // the face that looks down, as a patch; a round hull's face may miss its lowest vertex, a
-    // corner's may not
+    // the vertices within the margin make up the patch, whatever faces they belong to
     Polygon near;
     std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps;
     for (const Vec3& vertex : b.vertices) {

@@ -1,11 +1,12 @@
-// Contact between convex polyhedra, and between a polyhedron and a half space.
+// Finds contacts between convex polyhedra, and between a polyhedron and a half-space.
 //
 // Separating-axis test over the faces of both and the cross products of their edge directions
-// (Gottschalk 1996; Gregorius 2013), then the incident face clipped to the reference face. Contacts
-// are found up to `margin` before they touch, so that a solver can keep bodies from ever
-// overlapping: a gap g lets them approach by g in the step, no more.
+// (Gottschalk 1996; Gregorius 2013); then the incident face is clipped against the reference face.
+// Contacts are found up to `margin` before the bodies touch, so that a solver can prevent any
+// overlap: a gap g lets bodies approach by g in the step, no more.
 //
-// Bullet finds box contacts only once they overlap, and allocates on the way; hence this.
+// Bullet finds box contacts only once they overlap, and allocates in doing so; hence this
+// implementation.
 #pragma once
 
 #include <array>
@@ -17,18 +18,18 @@
 
 namespace dihaptic::dynamics {
 
-/// A convex polyhedron, prepared for contact. Built once; frames are the body's.
+/// A convex polyhedron, prepared for contact. Built once; all vectors are in the body's frame.
 struct Polyhedron {
-    /// The plane through an edge of a face, at a right angle to the face.
+    /// The plane through an edge of a face, perpendicular to the face.
     struct Side {
-        Vec3 normal;        ///< unit, leaves the face
+        Vec3 normal;        ///< unit, points away from the face
         double offset = 0;  ///< normal . x = offset on the plane [m]
     };
     struct Face {
         Vec3 normal;                ///< outward
         double offset = 0;          ///< normal . x = offset on the face [m]
         std::vector<int> vertices;  ///< counter-clockwise from outside
-        std::vector<Side> sides;    ///< one an edge
+        std::vector<Side> sides;    ///< one per edge
     };
     struct Edge {
         int from = 0;
@@ -38,9 +39,9 @@ struct Polyhedron {
     std::vector<Vec3> vertices;
     std::vector<Face> faces;
     std::vector<Edge> edges;
-    std::vector<Vec3> directions;  ///< of edges, unit, without parallel ones
-    /// Outward normals of faces that other parts of the same body cover: nothing touches them. What
-    /// slides over the seam would else run into the face behind it.
+    std::vector<Vec3> directions;  ///< of edges, unit; parallel ones only once
+    /// Outward normals of faces that other parts of the same body cover, and that nothing can
+    /// touch. Without them, a body sliding over the seam would run into the covered face behind it.
     std::vector<Vec3> covered;
 
     static Polyhedron of(const scene::Hull& hull);
@@ -55,7 +56,7 @@ struct ContactPoint {
     double gap;  ///< from A to B along the normal; negative: overlap [m]
 };
 
-/// At most four points share one normal.
+/// Up to four contact points with a common normal.
 struct ContactPatch {
     Vec3 n_W = Vec3::UnitZ();  ///< unit, from A to B
     std::array<ContactPoint, 4> points;
@@ -66,7 +67,7 @@ struct ContactPatch {
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                      double margin) noexcept;
 
-/// The same against the half space below the plane z = 0 of frame A.
+/// Contacts between the half-space below the plane z = 0 of frame A and a polyhedron, as above.
 ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                                 double margin) noexcept;
 

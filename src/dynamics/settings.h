@@ -1,4 +1,4 @@
-// What an experiment may choose about dynamics.
+// The settings of dynamics that an experiment may choose.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ using contact::Solver;
 
 struct Settings {
     Solver solver = Solver::newton;
-    int every = 1;            ///< one step in so many ticks of the servo
-    int iterations = 200;     ///< most iterations of a step, of sequential_impulse
+    int every = 1;            ///< number of the servo's ticks per step of the world
+    int iterations = 200;     ///< limit of iterations in a step, for sequential_impulse
     double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's
                               ///< velocity by more [m/s]
-    int friction_directions = 8;  ///< of stewart_trinkle's friction polygon
+    int friction_directions = 8;  ///< of the friction polygon of stewart_trinkle
     contact::DirectionFrame friction_frame =
-        contact::DirectionFrame::sliding;  ///< where they lie: along sliding, or fixed
-    bool warm_start = true;                ///< start from the last step's contact forces
+        contact::DirectionFrame::sliding;  ///< placement: along sliding, or fixed
+    bool warm_start = true;                ///< start from the contact forces of the last step
     double penetration_recovery =
         0.2;               ///< share of a penetration that one step removes (Bullet's erp2)
-    bool sleeping = true;  ///< objects at rest that nothing touches are left out of the step
-    int max_contacts = 0;  ///< contact points to reserve memory for; 0: from the number of bodies
+    bool sleeping = true;  ///< leave objects that are at rest and untouched out of the step
+    int max_contacts = 0;  ///< contact points to reserve memory for; 0: by the number of bodies
 
     template <class Visitor>
     void visit(Visitor& v) {

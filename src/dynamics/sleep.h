@@ -1,9 +1,9 @@
-// When bodies sleep. A body is quiet while it hardly moves; bodies that touch each other fall
-// asleep together, once each of them has been quiet for a while and no finger touches any of them.
-// They wake together, in the step in which something awake touches one of them or a load is
+// Decides when bodies sleep. A body is quiet while it hardly moves. Bodies that touch each other
+// fall asleep together, once each of them has been quiet for a while and no finger touches any of
+// them. They wake together, in the step in which something awake touches one of them or a load is
 // applied.
 //
-// The limits are far below what a person sees or feels, and a sliding block passes through them in
+// The limits are far below what a person sees or feels. A sliding block passes through them in
 // milliseconds, while sleep takes half a second: nothing that slides is ever frozen.
 #pragma once
 
@@ -23,15 +23,15 @@ class SleepKeeper {
   public:
     explicit SleepKeeper(size_t bodies) : quiet_(bodies, 0.0), group_quiet_(bodies, true) {}
 
-    /// The body is not quiet, whatever its speed.
+    /// Notes that a body is not quiet, whatever its speed.
     void stir(size_t body) noexcept { quiet_[body] = 0; }
-    /// Accounts one step of an awake body.
+    /// Counts one step of an awake body.
     void observe(size_t body, const Vec3& v, const Vec3& w, double h) noexcept {
         const bool quiet = v.squaredNorm() < kQuietSpeed * kQuietSpeed &&
                            w.squaredNorm() < kQuietAngularSpeed * kQuietAngularSpeed;
         quiet_[body] = quiet ? quiet_[body] + h : 0.0;
     }
-    /// Decides by groups; then may_sleep() of each awake body has the answer.
+    /// Judges all groups; may_sleep() then tells for each awake body.
     void judge(std::span<const size_t> awake, Groups& groups) noexcept {
         for (const size_t body : awake) group_quiet_[groups.of(body)] = true;
         for (const size_t body : awake) {
@@ -43,8 +43,8 @@ class SleepKeeper {
     }
 
   private:
-    std::vector<double> quiet_;      // how long each body has been quiet [s]
-    std::vector<char> group_quiet_;  // by the body that stands for a group
+    std::vector<double> quiet_;      // time for which each body has been quiet [s]
+    std::vector<char> group_quiet_;  // by the body that represents a group
 };
 
 }  // namespace dihaptic::dynamics

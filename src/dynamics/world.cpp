@@ -9,7 +9,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// The mean of its moments about B, about all axes, and B for a frame of its mass.
+/// Gives a solid the mean of its moments about B for all axes, and B as the frame of its mass.
 void lump(scene::Solid& solid) {
     const double about_centre = solid.inertia.sum() / 3;
     solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());
@@ -30,7 +30,8 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     if (about_origin) lump(solid);
     const bool one_axis = angular.length2() == 1;
     if (one_axis) {
-        // held to one axis e, only I_ee counts; spread over all axes, any orientation of M gives it
+        // held to one axis e, only I_ee counts: with it about all axes, any orientation of M is
+        // right
         const Mat3 R = (X_WB.R * solid.X_BM.R).toRotationMatrix();
         const Vec3 e = from_bullet(angular);
         solid.inertia.setConstant(e.dot(R * solid.inertia.asDiagonal() * R.transpose() * e));
@@ -45,7 +46,7 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
         solid.mass, nullptr, item.parts.front()->shape.get(), to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
-    item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() has it
+    item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() adds it
     item.body->setLinearFactor(linear);
     item.body->setAngularFactor(angular);
     for (const auto& part : item.parts) part->body = item.body.get();
@@ -91,7 +92,7 @@ void World::set_point(BodyIndex proxy, bool point) noexcept {
     Impl::Item& item = w.items[static_cast<size_t>(proxy.value)];
     assert(item.may_be_point);
     item.is_point = point;
-    if (!w.collision) return;  // not yet active
+    if (!w.collision) return;  // not yet activated
     for (const auto& part : item.parts) {
         if (point) {
             w.collision->hide(*part);
@@ -102,7 +103,7 @@ void World::set_point(BodyIndex proxy, bool point) noexcept {
 }
 
 BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
-    // a point has no shape; its body must have one
+    // a point has no shape, but its body must have one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
                turns ? btVector3(1, 1, 1) : btVector3(0, 0, 0), turns);
@@ -198,7 +199,7 @@ void World::mend() noexcept {
         item.force.setZero();
         item.torque.setZero();
         if (w.is_sound(i)) continue;
-        // a proxy's place follows from its handle
+        // a proxy's position will follow from its handle
         const Pose X_WB = i < w.scene.bodies.size() ? w.scene.bodies[i].pose() : Pose{};
         set_pose({static_cast<int>(i)}, X_WB);
     }
@@ -233,9 +234,9 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     Impl::Item& item = impl_->items[i];
     if (item.properties == properties || !item.can_move) return;
     item.properties = properties;
-    // Bullet knows one mass, and a factor by axis on what forces and impulses do. With the least of
-    // the masses the factors are at most 1, and its sweeps converge. Gravity comes as a force: so
-    // the factor must not change the weight.
+    // Bullet has one mass, and a factor by axis for the effect of forces and impulses. With the
+    // least of the masses, the factors are at most 1, so that its sweeps converge. Gravity acts as
+    // a force, so the factor must not change the weight.
     const double least = properties.mass.minCoeff();
     btRigidBody& b = *item.body;
     b.setMassProps(least * item.mass, to_bullet(properties.turning * item.inertia));
@@ -294,7 +295,7 @@ void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     item.body->updateInertiaTensor();
     item.body->setLinearVelocity({0, 0, 0});
     item.body->setAngularVelocity({0, 0, 0});
-    if (!impl_->is_sound(i)) impl_->diverged = true;  // no step looks at what is fixed
+    if (!impl_->is_sound(i)) impl_->diverged = true;  // steps do not check fixed bodies
     if (item.can_move) impl_->wake(i, states_);
     impl_->read_state(i, states_[i]);
 }
@@ -328,7 +329,7 @@ void World::meet(BodyIndex point, const PointContact& contact) noexcept {
     const Impl::Item& body = impl_->items[b];
     if (body.can_move) impl_->wake(b, states_);
     const double torsion = impl_->settings.solver == Solver::sequential_impulse
-                               ? 0  // it knows none
+                               ? 0  // it has no torsion
                                : std::max(body.torsion_radius, impl_->items[p].torsion_radius);
     impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.part,
                                contact.face, contact.n_W, contact.gap,

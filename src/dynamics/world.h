@@ -1,12 +1,12 @@
-// The World: rigid bodies under gravity, contact and friction. One step is
+// World simulates rigid bodies under gravity, contact and friction. One step is
 //
-//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      everything but contacts, on the velocities
+//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      all loads but contacts, on the velocities
 //     find contacts; solve for contact impulses           velocities now obey contact and friction
 //     x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
 //
-// so that the solver's friction sees all of the step's loads (applied torques too, which Bullet's
-// own order hides from it). Bodies that are at rest and touch nothing that moves sleep: they cost
-// nothing and stay exactly where they are (sleep.h).
+// so that the solver's friction sees all loads of the step, including applied torques, which
+// Bullet's own order hides from it. Bodies that are at rest and touch nothing that moves sleep:
+// they cost nothing and stay exactly where they are (sleep.h).
 //
 // Set-up may allocate and throw; after activate() a step does neither.
 #pragma once
@@ -32,46 +32,46 @@ struct BodyState {
     bool awake = true;         ///< false: asleep or fixed; the state does not change
 };
 
-/// What a body's properties are times those of the scene.
+/// Factors by which a body's properties differ from those of the scene.
 struct BodyProperties {
-    Vec3 mass = Vec3::Ones();  ///< its inertia along the world's axes
+    Vec3 mass = Vec3::Ones();  ///< of its inertia along the world's axes
     double weight = 1;
-    double turning = 1;   ///< its moments of inertia
-    double friction = 1;  ///< its coefficients with all others
+    double turning = 1;   ///< of its moments of inertia
+    double friction = 1;  ///< of its coefficients with all others
     bool operator==(const BodyProperties&) const = default;
 };
 
-/// What a step could not do as asked.
+/// Why a step could not do as asked.
 enum class StepStatus : unsigned {
     ok = 0,
     contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts()
-                              ///< leaves the rest out. Raise dynamics.max_contacts.
-    diverged = 1u << 1,       ///< a place or a speed is no number, or has no more to do with this
-                              ///< world: no step does anything from then on, until mend()
+                              ///< lacks the rest. Raise dynamics.max_contacts.
+    diverged = 1u << 1,  ///< a position or speed is not a number, or is beyond kBeyond: steps do
+                         ///< nothing until mend()
 };
 
-/// Nothing that belongs to an experiment is as far away or as fast: what falls for half a day is
-/// 1e10 m away. Beyond, squares of squares overflow [m], [m/s], [rad/s].
+/// Nothing in an experiment is as far away or as fast: what falls for half a day is 1e10 m away.
+/// Beyond this limit, squares of squares overflow [m], [m/s], [rad/s].
 constexpr double kBeyond = 1e12;
 
-/// What a point may meet in one step.
+/// Largest number of contacts that a point may meet in one step.
 constexpr size_t kMostPointContacts = 6;
 
 class World {
   public:
-    /// All bodies of the scene, at their initial poses.
+    /// A world with all bodies of the scene at their initial poses.
     World(const scene::Scene& scene, const Settings& settings);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    /// Adds a finger's proxy at a position. Gravity does not act on it. It does not turn, or else
-    /// turns about P, with the same inertia about all axes: its mean about P.
+    /// Adds a finger's proxy at a position. Gravity does not act on it. If it turns, it turns about
+    /// P, with the same inertia about all axes: its mean about P.
     BodyIndex add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
-    /// The same of one that set_point() may make a point.
+    /// Adds a proxy that set_point() may make a point.
     BodyIndex add_changeable_proxy(const scene::Finger& finger, const Vec3& p_WP,
                                    bool turns = false);
-    /// Adds a finger whose proxy is a point. It meets nothing but what meet() says.
+    /// Adds a finger whose proxy is a point. It meets only what meet() adds.
     BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
     /// Reserves all memory that steps need.
     void activate();
@@ -91,69 +91,69 @@ class World {
     const BodyState& state(BodyIndex body) const {
         return states_[static_cast<size_t>(body.value)];
     }
-    /// Bodies that took part in the last step: all others are where they were.
+    /// Bodies that took part in the last step; all others are where they were.
     std::span<const size_t> stepped() const;
-    /// Contacts of the last step, those of sleeping bodies left out.
+    /// Contacts of the last step, except those of sleeping bodies.
     std::span<const contact::Contact> contacts() const { return contacts_; }
     const contact::SolveStats& solve_stats() const { return stats_; }
     double mass(BodyIndex body) const;
-    /// Of a proxy that turns, about P [kg*m^2].
+    /// Inertia of a proxy that turns, about P [kg*m^2].
     double inertia(BodyIndex proxy) const;
     const Vec3& gravity() const { return gravity_; }
 
-    /// The mass that the next steps see [kg].
+    /// Sets the mass of a body in the next steps [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
-    /// The properties of a body of the scene from the next step on; it wakes when they change.
+    /// Sets the properties of a body of the scene from the next step on; it wakes if they change.
     void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
-    /// Every coefficient of friction times a factor, from the next step on; all wake.
+    /// Multiplies every coefficient of friction from the next step on; all bodies wake.
     void set_friction_scale(double scale) noexcept;
     double friction_scale() const noexcept;
-    /// Of B's origin.
+    /// Sets the velocity of B's origin.
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
-    /// The same for a proxy that turns: inertia about P [kg*m^2], angular velocity [rad/s].
+    /// For a proxy that turns: inertia about P [kg*m^2] and angular velocity [rad/s].
     void set_inertia(BodyIndex proxy, double inertia) noexcept;
     void set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept;
-    /// Turns a proxy that does not turn by itself: its orientation, and the angular velocity at
-    /// which it goes on, whatever it touches. P keeps its velocity.
+    /// Turns a proxy that cannot turn by itself: sets its orientation, and the angular velocity at
+    /// which it keeps turning, whatever it touches. P keeps its velocity.
     void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
     /// Puts a body somewhere else, at rest.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
-    /// Adds to the load of the next step: a force at the centre of mass [N] and a torque [N*m].
+    /// Adds to the loads of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
-    /// The same for a force that acts at p_W [m].
+    /// Adds a force that acts at p_W [m] to the loads of the next step.
     void apply_at(BodyIndex body, const Vec3& force_W, const Vec3& p_W) noexcept;
-    /// Where a point is, and how fast it got there.
+    /// Sets the position and velocity of a point.
     void set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexcept;
-    /// What a point may meet in the next step: a face of a body, with the normal out of it at the
-    /// point, which is `gap` [m] off. Of the pair's friction only a share acts.
+    /// A contact that a point may make in the next step: with a face of a body, `gap` [m] away; the
+    /// normal points out of the body at the point. Only a share of the pair's friction acts.
     struct PointContact {
         BodyIndex body;
-        int part = 0;  ///< with the face: the same goes on from its last impulse
+        int part = 0;  ///< a contact with the same part and face starts from its last impulse
         int face = 0;
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction_share = 1;
     };
-    /// Up to kMostPointContacts of them in a step.
+    /// Adds a contact of a point; up to kMostPointContacts in a step.
     void meet(BodyIndex point, const PointContact& contact) noexcept;
 
-    /// The solver of the next steps; it starts from the last one's impulses.
+    /// Sets the solver of the next steps; it starts from the last step's impulses.
     void set_solver(Solver solver) noexcept;
     Solver solver() const noexcept;
 
-    /// Shows each problem, and the impulses that its solve starts from, before it is solved. For
-    /// benches: what it does is part of the step, and must not throw.
+    /// Called with each problem, and the impulses that its solve starts from, before it is solved.
+    /// For benchmarks: the call is part of the step, and must not throw.
     using ProblemWatcher = std::function<void(const contact::ContactProblem& problem,
                                               std::span<const contact::Impulse> start)>;
     void watch_problems(ProblemWatcher watcher);
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;
-    /// Whether a step, or somebody who set a pose or a velocity, left the world with what is no
-    /// number.
+    /// Whether a step, or a pose or velocity that was set, left the world with values that are not
+    /// numbers or are beyond kBeyond.
     bool diverged() const noexcept;
-    /// After it has, between two steps: what is nowhere is put back to where the scene has it, at
-    /// rest, and what contacts remember is forgotten.
+    /// Call after divergence, between two steps: puts bodies that were lost back to where the scene
+    /// has them, at rest, and forgets the contacts' impulses.
     void mend() noexcept;
 
   private:

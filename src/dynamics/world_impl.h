@@ -1,5 +1,5 @@
-// What World consists of. Only world.cpp, which sets it up, and world_step.cpp, which steps it, see
-// this.
+// The parts of a World. Only world.cpp, which sets it up, and world_step.cpp, which steps it,
+// include this file.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -16,11 +16,11 @@
 
 namespace dihaptic::dynamics {
 
-/// Something of a group of bodies that touch.
+/// An item that belongs to a group of touching bodies.
 template <class T>
 struct Grouped {
     size_t group;
-    int order;  // among its like: keeps sorting stable without memory
+    int order;  // among items of its kind: keeps sorting stable without memory
     T item;
     bool operator<(const Grouped& other) const {
         return group != other.group ? group < other.group : order < other.order;
@@ -34,19 +34,19 @@ struct World::Impl {
         double torsion_radius = 0;
         bool is_proxy = false;
         bool is_point = false;
-        bool may_be_point = false;  // it has parts, hidden while it is one
+        bool may_be_point = false;  // it has parts, which are hidden while it is a point
         bool can_move = false;
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
         double mass = 0;
         btVector3 moves;  // Bullet's linear factor
         BodyProperties properties;
-        double heaviness = 1;  // its weight over the mass that Bullet knows, and over gravity
+        double heaviness = 1;  // weight over gravity and over the mass that Bullet has
         std::vector<std::unique_ptr<CollisionPart>> parts;
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
         Vec3 torque = Vec3::Zero();
-        btVector3 v_before{0, 0, 0};  // contacts acted
+        btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
     };
 
@@ -55,11 +55,11 @@ struct World::Impl {
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;
-    std::vector<Grouped<btCollisionObject*>> grouped_bodies;  // awake, by group
+    std::vector<Grouped<btCollisionObject*>> grouped_bodies;  // awake bodies, by group
     std::vector<Grouped<btPersistentManifold*>> grouped_contacts;
     std::vector<btCollisionObject*> batch_bodies;
     std::vector<btPersistentManifold*> batch_contacts;
-    std::vector<double> friction;  // by pair, row-major
+    std::vector<double> friction;  // by pair of bodies, row-major
     double friction_scale = 1;
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
@@ -81,7 +81,7 @@ struct World::Impl {
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
-    /// Whether a body is where and as fast as a body can be.
+    /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
     void integrate_loads(double h, const Vec3& gravity);
@@ -91,7 +91,8 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
     contact::SolveStats solve_batch(double h);
-    /// Bullet's sweeps apply a body's linear factor twice: while they run it has to be its root.
+    /// Bullet's sweeps apply a body's linear factor twice: while they run, it has to be the square
+    /// root.
     void square_root_factors(bool rooted);
     void integrate_positions(double h, std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;

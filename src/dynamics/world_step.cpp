@@ -5,12 +5,13 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Groups without a finger are solved together up to so many pairs: fewer calls, and few that wait
-/// for another group's iterations.
+/// Groups without a finger are solved together up to this many contact pairs: fewer calls, and few
+/// groups that wait for the iterations of another.
 constexpr size_t kBatch = 32;
-/// The step is solved again at most so often, with contacts that it turned out to lack.
+/// How many times a step may be solved again, with contacts that turn out to be lacking.
 constexpr int kMostPasses = 4;
-/// A body that contacts move on by more may meet what it could not otherwise [m].
+/// A body that contacts move by more than this may meet things that it could not meet otherwise
+/// [m].
 constexpr double kKnocked = 1e-3;
 
 }  // namespace
@@ -26,7 +27,7 @@ StepStatus World::step(double h) noexcept {
     if (w.diverged) return diverge();
     w.collect_awake(states_);
     w.integrate_loads(h, gravity_);
-    if (!w.all_sound()) {  // before anything is looked up by where it is
+    if (!w.all_sound()) {  // before anything is looked up by its position
         for (const size_t i : w.awake) w.read_state(i, states_[i]);
         return diverge();
     }
@@ -64,7 +65,7 @@ StepStatus World::step(double h) noexcept {
             out.friction = point.m_combinedFriction;
             out.normal_force = point.m_appliedImpulse / h;
             out.f_B_W = -from_bullet(impulse) / h;
-            // about a's outward normal, which is against Bullet's
+            // about a's outward normal, which is opposite to Bullet's
             out.moment = w.settings.solver == Solver::sequential_impulse
                              ? 0
                              : torsion_impulse(manifold->getContactPoint(i)) / h;
@@ -76,7 +77,7 @@ StepStatus World::step(double h) noexcept {
 
 void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     states[i].awake = true;
-    if (!sleep) return;  // not yet active
+    if (!sleep) return;  // not yet activated
     sleep->stir(i);
     if (!is_awake(i)) collision->sleepers_changed();
     items[i].body->setUserIndex2(kAwake);
@@ -110,7 +111,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
                                 (h * turn + gyroscopic) * body.getAngularFactor());
         item.force.setZero();
         item.torque.setZero();
-        // what contacts are looked for ahead of
+        // contacts are searched ahead by these velocities
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
     }
@@ -130,7 +131,7 @@ bool World::Impl::is_sound(size_t i) const {
     const double size = X.getOrigin().length2() + body.getLinearVelocity().length2() +
                         body.getAngularVelocity().length2() + R[0].length2() + R[1].length2() +
                         R[2].length2();
-    return size <= kBeyond * kBeyond;  // false too when it is no number
+    return size <= kBeyond * kBeyond;  // false for values that are not numbers
 }
 
 bool World::Impl::all_sound() const {
@@ -175,7 +176,7 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
         const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
             manifold->getContactPoint(i).m_combinedFriction = friction_of(a, b);
-            // Bullet's solver knows no torsion
+            // Bullet's solver has no torsion
             const bool torsion = settings.solver != Solver::sequential_impulse;
             torsion_radius(manifold->getContactPoint(i)) =
                 torsion ? std::max(items[a].torsion_radius, items[b].torsion_radius) : 0;
@@ -221,13 +222,13 @@ contact::SolveStats World::Impl::solve(double h) {
     auto contact = grouped_contacts.begin();
     while (contact != grouped_contacts.end()) {
         const size_t group = contact->group;
-        while (body->group < group) ++body;  // these touch nothing
+        while (body->group < group) ++body;  // bodies that touch nothing
         const auto first_body = body;
         bool has_finger = false;
         for (; body != grouped_bodies.end() && body->group == group; ++body) {
             has_finger = has_finger || items[static_cast<size_t>(body->order)].is_proxy;
         }
-        // a held object takes many iterations: nothing else shall wait for it
+        // a held object takes many iterations, and nothing else must wait for it
         if (has_finger || by_group) finish_batch();
         for (auto b = first_body; b != body; ++b) batch_bodies.push_back(b->item);
         for (; contact != grouped_contacts.end() && contact->group == group; ++contact) {
@@ -259,7 +260,7 @@ contact::SolveStats World::Impl::solve_batch(double h) {
             }
             return stats;
         }
-        stats.fallback = true;  // too large a group: Bullet's solver grows with it
+        stats.fallback = true;  // the group is too large: Bullet's solver grows with it
     }
     square_root_factors(true);
     stats.iterations = sequential_impulse.solve(batch_bodies, batch_contacts, settings, h,
@@ -310,7 +311,7 @@ void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {
     if (!settings.sleeping) return;
     for (const size_t i : awake) {
         if (items[i].is_proxy) {
-            sleep->stir(i);  // so that nothing that a finger touches may sleep
+            sleep->stir(i);  // nothing that a finger touches may sleep
         } else {
             sleep->observe(i, states[i].v_WB, states[i].w_WB, h);
         }

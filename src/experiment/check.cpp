@@ -11,8 +11,8 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// What is wrong with a movement in any experiment. Its axes are the experiment's business: they
-/// make no difference here.
+/// Reports what would be wrong with a movement in any experiment. Its axes, which the experiment
+/// chooses, make no difference here.
 void check_movement(const std::string& file, Diagnostics& diagnostics) {
     const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
     const hand::Movement movement =
@@ -43,7 +43,7 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     }
 }
 
-/// States that nothing ends when what they wait for does not come.
+/// Warns of states that never end if what they wait for does not come.
 std::vector<Problem> endless_states(const TaskPlan& task) {
     std::vector<Problem> out;
     for (size_t i = 0; i < task.stages.size(); ++i) {

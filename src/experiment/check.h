@@ -1,4 +1,4 @@
-// dihaptic check: any file, before a person sits down.
+// The command `dihaptic check`: checks any of Dihaptic's files before a person sits down.
 #pragma once
 
 #include <string>
@@ -9,12 +9,13 @@
 namespace dihaptic::experiment {
 
 struct Checked {
-    std::string what;                 ///< the file is, in words
-    std::vector<std::string> limits;  ///< on force that somebody set, and who: describe_safety()
+    std::string what;                 ///< kind of the file, in words
+    std::vector<std::string> limits;  ///< force limits that differ from the defaults, and who set
+                                      ///< them: describe_safety()
 };
 
 /// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
-/// `rig`: a rig file, in place of an experiment's; or empty.
+/// `rig`: a rig file to use in place of the experiment's; may be empty.
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig = "");
 
 }  // namespace dihaptic::experiment

@@ -1,4 +1,5 @@
-// Whether a finger is clear of a body, by the boxes around them: enough for what is put somewhere.
+// Tells whether fingers are clear of bodies, from the box around each body and the sphere around
+// each finger: precise enough to decide where a body may be placed.
 #pragma once
 
 #include "scene/scene.h"
@@ -8,12 +9,12 @@ namespace dihaptic::experiment {
 
 constexpr double kClearance = 2e-3;  // [m]
 
-/// Radius of a sphere around a finger's shape, wherever it turns [m].
+/// Radius of a sphere that holds a finger's shape in any orientation [m].
 inline double reach_of(const scene::Finger& finger) {
     return scene::extent(finger.shape) * std::sqrt(3.0) / 2;
 }
 
-/// Whether a sphere at p_W is in the way of a body with this box [m].
+/// Whether a sphere at p_W, of this radius [m], is in the way of a body with this box.
 inline bool in_the_way(const Pose& X_WB, const scene::Bounds& box, const Vec3& p_W,
                        double radius) noexcept {
     const Vec3 p_B = X_WB.inverse() * p_W;
@@ -22,7 +23,7 @@ inline bool in_the_way(const Pose& X_WB, const scene::Bounds& box, const Vec3& p
            (p_B.array() < box.high.array() + margin).all();
 }
 
-/// The boxes of a scene and its fingers, for those who ask in a tick.
+/// The boxes of a scene's bodies and the spheres of its fingers, computed once for use in the tick.
 class Clearance {
   public:
     Clearance() = default;

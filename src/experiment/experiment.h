@@ -1,4 +1,4 @@
-// The experiment file (docs/files.md): which scene, on which rig, moved by which hand.
+// The experiment file (docs/files.md): names the scene, the rig, and what moves the hand.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,14 @@ namespace dihaptic::experiment {
 struct MovementSpec {
     std::string file;  ///< CSV, relative to the experiment file; --movement replaces it
     hand::RecordingAxes axes = hand::RecordingAxes::world;
-    std::string block;       ///< a box of the scene: turned and sized to stand between the fingers
-    double squeeze = 0.006;  ///< each recorded finger goes so far beyond the block's face [m]
+    std::string block;  ///< a box of the scene: turned and sized to stand between the fingers
+    double squeeze =
+        0.006;  ///< distance that each recorded finger goes beyond the block's face [m]
     std::optional<double>
-        width;  ///< of the block along the grasp; unset: from aperture and squeeze [m]
+        width;  ///< width of the block along the grasp; unset: from aperture and squeeze [m]
     std::optional<double>
         grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
-    Place place;   ///< of the block's name
+    Place place;   ///< where the file names the block
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -41,9 +42,9 @@ struct Experiment {
     std::string title;
     std::string scene;  ///< file, relative to this one
     std::string rig;    ///< file, relative to this one; empty: ideal simulated devices
-    std::optional<hand::HandSpec> hand;  ///< in place of the scene's
+    std::optional<hand::HandSpec> hand;  ///< replaces the scene's hand
     std::optional<MovementSpec> movement;
-    std::optional<Task> task;  ///< trials, in place of the hand's script
+    std::optional<Task> task;  ///< trials, which replace the hand's script
     recording::Study study;
     Node settings;
     Place place;
@@ -66,7 +67,7 @@ struct Experiment {
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
 enum class FileKind { scene, rig, experiment, movement, unknown };
-/// What a file is, from its name and its keys. Throws Error when it cannot be read.
+/// Tells the kind of a file from its name and its keys. Throws Error when it cannot be read.
 FileKind kind_of(const std::string& file);
 
 }  // namespace dihaptic::experiment

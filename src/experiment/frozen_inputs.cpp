@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The session keeps its own copies of the meshes: the scene that it froze names them.
+/// Copies the scene's meshes to the session's folder, and makes the scene name the copies.
 std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
                                        const recording::SessionFolder& folder) {
     std::vector<std::string> names;
@@ -27,7 +27,7 @@ std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& f
         shape.file = name;
         names.push_back(name);
         if (!shape.concave) return;
-        // a replay is of these pieces, whatever another version would cut
+        // a replay uses these pieces, even if another version would cut the mesh differently
         names.push_back(scene::pieces_file(name));
         scene::write_pieces(shape.pieces, folder.file(names.back()));
     };
@@ -59,7 +59,7 @@ Table fault_table(const MovementReport& movement) {
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder) {
     scene::Scene scene = plan.scene;
-    scene.settings = {};  // resolved, in settings.yaml
+    scene.settings = {};  // settings.yaml has the resolved settings
     scene.hand = write_fields(plan.hand);
     std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
     write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));

@@ -1,5 +1,5 @@
-// A session keeps copies of all that it was made from: what was run is what can be run again, and
-// told from what its files say today.
+// Copies everything that a session was made from into its folder, so that the session can be run
+// again as it was, and so that later changes to the original files can be told.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dihaptic::experiment {
 
-/// Writes the plan's scene, with its meshes, rig, settings, movement, task and person to the
-/// session's folder. Returns what was written.
+/// Writes the plan's scene with its meshes, its rig, settings, movement, task and person to the
+/// session's folder. Returns the files written.
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder);
 

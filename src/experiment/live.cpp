@@ -15,8 +15,8 @@ std::optional<haptics::ProxyKind> Live::change_proxy(const servo::Frame& last) n
     return wish;
 }
 
-/// A tick is late more or less: the earliest zero is the truest. A pause, in which session time
-/// stands still, moves it.
+/// Every tick is somewhat late, so the earliest zero is the best estimate. A pause, in which
+/// session time stands still, moves the zero.
 void Live::note_zero(Time now) noexcept {
     constexpr Clock::rep kPause = std::chrono::nanoseconds(std::chrono::milliseconds(50)).count();
     const Clock::rep zero = (Clock::now().time_since_epoch() - now).count();
@@ -58,7 +58,7 @@ std::optional<haptics::Tuning> Live::tune(const haptics::Tuning& now, double h) 
         left_ = kEase;
     }
     haptics::Tuning next = *goal;
-    // the same share of what is left in each tick: there in time, along a straight line
+    // this share of the remaining change in each tick gives a straight line that ends on time
     const double share = left_ > h ? h / left_ : 1;
     left_ -= h;
     next.stiffness = now.stiffness + share * (goal->stiffness - now.stiffness);

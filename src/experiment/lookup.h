@@ -1,4 +1,4 @@
-// Names in experiment files: what they stand for, and what to say when they stand for nothing.
+// Looks up the names that experiment files use, and words the error for a name that is unknown.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
     return out;
 }
 
-/// Index of the name, or -1 with an error: "'x' is `what`".
+/// Index of the name in `names`, or -1 with the error "'x' is `what`".
 inline int look_up(const std::vector<std::string>& names, const std::string& name,
                    const Place& place, const std::string& key, const std::string& what,
                    Diagnostics& diagnostics) {
@@ -34,7 +34,7 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
     return -1;
 }
 
-/// Errors for names that are empty or given twice.
+/// Reports an error for each name that is given twice.
 template <class T>
 void check_names(const std::vector<T>& list, const char* what, Diagnostics& diagnostics) {
     for (size_t i = 0; i < list.size(); ++i) {

@@ -8,8 +8,8 @@
 namespace dihaptic::experiment {
 namespace {
 
-constexpr double kClearance = 1.5e-3;  // a finger passes the block's edge at this distance [m]
-constexpr double kThinnest = 2e-3;     // of a block [m]
+constexpr double kClearance = 1.5e-3;  // distance at which a finger passes the block's edge [m]
+constexpr double kThinnest = 2e-3;     // least width of a block [m]
 
 /// Half extents of a proxy along the grasp, across it, and up.
 Vec3 half_extents(const scene::Shape& shape) {
@@ -17,9 +17,9 @@ Vec3 half_extents(const scene::Shape& shape) {
     return Vec3::Constant(scene::extent(shape) / 2);
 }
 
-/// How near to the middle, along the grasp axis, a finger came while it passed the block's edge on
-/// its way to the face. `half` and `reach` are the block's half extents, without and with the
-/// finger's. `side` is -1 or +1 along the axis.
+/// Least distance from the middle, along the grasp axis, of a finger while it passed the block's
+/// edge on its way to the face [m]. `half` and `reach` are the block's half extents, without and
+/// with the finger's. `side` is -1 or +1 along the axis.
 double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& site,
                         const Quat& R_WB, int side, const Vec3& half, const Vec3& reach) {
     const auto at = [&](size_t i) { return Vec3(R_WB.conjugate() * (path[i] - site.centre)); };
@@ -35,15 +35,15 @@ double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& si
     return nearest;
 }
 
-/// Where the block's two faces are along the grasp axis, seen from the middle between the fingers.
+/// Positions of the block's two faces along the grasp axis, from the middle between the fingers.
 struct Faces {
     double first = 0;  ///< on the first finger's side, positive outward [m]
     double second = 0;
 };
 
 /// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid to its place
-/// along the face, as the index does in a precision grip, would run into the block's edge then: on
-/// its side the face gives way to where it passed, and the other finger squeezes more instead.
+/// along the face, as the index finger does in a precision grip, would then run into the block's
+/// edge: the face on its side moves back to where it passed, and the other finger squeezes more.
 Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat& R_WB,
                 const Vec3& block, const scene::Scene& scene, double squeeze) {
     std::array<double, 2> wanted{};
@@ -66,7 +66,7 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
-/// Null where the scene has none of that name.
+/// The scene's box of that name; null if there is none.
 scene::Body* find_box(scene::Scene& scene, const std::string& name) {
     const int i = scene.find(name);
     if (i < 0) return nullptr;
@@ -74,7 +74,7 @@ scene::Body* find_box(scene::Scene& scene, const std::string& name) {
     return body.shape.kind == scene::ShapeKind::box ? &body : nullptr;
 }
 
-/// Nothing, with an error, where there is none.
+/// The movement's grasp; nullopt, with an error, if there is none.
 std::optional<hand::GraspSite> grasp_of(const hand::Path& path, const MovementSpec& spec,
                                         const std::string& file, const Place& asked_at,
                                         Diagnostics& diagnostics) {
@@ -138,7 +138,7 @@ std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
     const hand::Path path = hand::repair(movement);
     const auto site = grasp_of(path, spec, file, asked_at, diagnostics);
     if (!site) return nullptr;
-    // the block stands upright: only the grasp's direction in the horizontal plane turns it
+    // the block stands upright: it turns only with the grasp's direction in the horizontal plane
     const double yaw = std::atan2(site->axis.y(), site->axis.x());
     const Quat R_WB = rotation_xyz({0, 0, yaw});
     Faces faces = fit_faces(path, *site, R_WB, block->shape.size, scene, spec.squeeze);

@@ -1,5 +1,5 @@
-// Puts a recorded movement into a scene: its grasp where the block stands, and the block such that
-// the fingers come to its faces as they came to the object that they were recorded on.
+// Fits a recorded movement to a scene: moves its grasp to where the block stands, and turns and
+// sizes the block so that the fingers reach its faces as they reached the recorded object.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::experiment {
 
-/// What was found in a recorded movement.
+/// What place_movement() found in a recorded movement.
 struct MovementReport {
     std::string file;
     std::vector<hand::Fault> faults;
@@ -19,18 +19,18 @@ struct MovementReport {
     double duration = 0;  ///< [s]
     double bridged_share = 0;
     hand::GraspSite site;
-    double block_width = 0;  ///< along the grasp [m]
+    double block_width = 0;  ///< width of the block along the grasp [m]
 };
 
 constexpr const char* kNoGrasp =
     "no grasp was found: the fingers never open, close and rest away from their start";
 
-/// Warns when so much of the path is bridged that it tells little of the hand.
+/// Warns when so much of the path is bridged that it says little about the hand.
 void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics);
 
 /// Reads and repairs the movement, finds its grasp, turns and sizes the block of the scene, and
 /// turns the fingers' proxies to face it. Returns the driver, or null with errors in `diagnostics`.
-/// `asked_at`: where the experiment asks for it, for messages.
+/// `asked_at`: where the experiment asks for the movement, for messages.
 std::shared_ptr<const hand::Driver> place_movement(const MovementSpec& spec,
                                                    const std::string& file, const Place& asked_at,
                                                    scene::Scene& scene,

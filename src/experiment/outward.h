@@ -1,5 +1,5 @@
-// What a session sends while it runs to what else a lab records with: event codes, handle positions
-// and forces; and the triggers that come back.
+// Sends event codes, handle positions and forces of a running session to a lab's other recording
+// systems, and takes the triggers that come back.
 #pragma once
 
 #include <string>
@@ -12,19 +12,19 @@ namespace dihaptic::experiment {
 
 class Outward {
   public:
-    /// `session`: its folder's name. Throws Error when an outlet cannot be opened.
+    /// `session`: name of the session's folder. Throws Error when an outlet cannot be opened.
     Outward(const Plan& plan, const std::string& session);
 
-    /// In the tick.
+    /// Call in the tick.
     void send(const servo::Frame& frame) noexcept;
-    /// In the tick: a code that came in since the last call; 0: none.
+    /// Call in the tick: a code that came in since the last call; 0 if none.
     int take_trigger() noexcept { return station_.take_trigger(); }
-    /// After the last tick: what went wrong on the way.
+    /// Call after the last tick: returns what went wrong.
     std::vector<std::string> finish() { return station_.finish(); }
 
   private:
     outlets::Station station_;
-    std::vector<float> values_;  // of all channels, in their order
+    std::vector<float> values_;  // one per channel
 };
 
 }  // namespace dihaptic::experiment

@@ -14,7 +14,8 @@ Vec3 axis_of(const std::optional<Vec3>& axis, const Place& place, Diagnostics& d
     return Vec3::UnitZ();
 }
 
-/// What "proxies", "object" and "target" stand for; 0 when one is none of them.
+/// Bit mask of the names "proxies", "object" and "target"; an unknown name is an error and sets no
+/// bit.
 uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
     const std::vector<std::string> names{"proxies", "object", "target"};
     uint32_t moves = 0;

@@ -1,7 +1,7 @@
-// Perturbations as an experiment file writes them, and what each orders in a tick.
+// Perturbations as an experiment file describes them, and the commands that each gives in a tick.
 //
-// A perturbation acts with a share from 0 to 1, for abrupt and for ramped ones: angles grow in
-// proportion, scales go from 1 in proportion, forces too.
+// A perturbation acts with a share from 0 to 1, so that it can begin abruptly or by a ramp: angles,
+// forces, and the difference of scales from 1 are proportional to the share.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace dihaptic::experiment {
 
-/// A named sphere: where hands are to be, and what is shown there.
+/// A named sphere where hands are wanted, and which can be shown.
 struct Region {
     std::string name;
-    Vec3 position = Vec3::Zero();  ///< of its centre [m]
+    Vec3 position = Vec3::Zero();  ///< centre [m]
     double radius = 0.01;          ///< [m]
     Place place;
 
@@ -33,16 +33,17 @@ struct Region {
     }
 };
 
-/// Displayed motion: scaled about a region's centre and rotated about it, or led along the straight
-/// line to another region.
+/// A change of displayed motion: it is scaled and rotated about a region's centre, or led along the
+/// straight line to another region.
 struct VisualSpec {
     std::vector<std::string> moves;  ///< proxies, object, target
     std::string about;               ///< region
     Vec3 scale = Vec3::Ones();       ///< along the world's axes
-    std::optional<Vec3> axis;        ///< of the rotation
-    double angle = 0;                ///< of it, by the right hand [rad]
-    std::string toward;              ///< region; shown on the line from `about` to it, as far out
-    double size = 1;                 ///< the object's displayed size over its true one
+    std::optional<Vec3> axis;        ///< axis of the rotation
+    double angle = 0;                ///< angle of the rotation, right-handed [rad]
+    std::string toward;              ///< region: motion is shown on the line from `about` to it, at
+                                     ///< its true distance from `about`
+    double size = 1;                 ///< the object's displayed size over its true size
     Place place;
 
     template <class Visitor>
@@ -58,12 +59,12 @@ struct VisualSpec {
     }
 };
 
-/// A body's properties, times those of the scene.
+/// Factors on a body's properties in the scene.
 struct BodySpec {
     std::string body;
-    Vec3 mass_scale = Vec3::Ones();  ///< of its inertia along the world's axes; its weight stays
-    double weight_scale = 1;         ///< its inertia stays
-    double density_scale = 1;        ///< of both, and of its moments of inertia
+    Vec3 mass_scale = Vec3::Ones();  ///< on inertia along the world's axes; the weight stays
+    double weight_scale = 1;         ///< the inertia stays
+    double density_scale = 1;        ///< on both, and on the moments of inertia
     double friction_scale = 1;
     Place place;
 
@@ -78,7 +79,8 @@ struct BodySpec {
     }
 };
 
-/// viscous: -b v. curl: b e x v. channel: -k d - b v_across, d from the line between two regions.
+/// Force of the field: viscous -b v; curl b e x v; channel -k d - b v_across, with d the
+/// displacement from the line between two regions.
 enum class FieldKind { viscous, curl, channel };
 constexpr auto enum_names(FieldKind) {
     return std::array{"viscous", "curl", "channel"};
@@ -88,10 +90,10 @@ struct ForceFieldSpec {
     FieldKind kind = FieldKind::viscous;
     std::string on;            ///< a finger's handle, or a body
     double damping = 0;        ///< b [N*s/m]
-    double stiffness = 0;      ///< k, of a channel [N/m]
-    std::optional<Vec3> axis;  ///< e, of a curl
-    std::string from;          ///< of a channel: regions
-    std::string to;
+    double stiffness = 0;      ///< k, channel only [N/m]
+    std::optional<Vec3> axis;  ///< e, curl only
+    std::string from;          ///< region, channel only
+    std::string to;            ///< region, channel only
     Place place;
 
     template <class Visitor>
@@ -107,7 +109,7 @@ struct ForceFieldSpec {
     }
 };
 
-/// Any of the three, under one name.
+/// Any combination of the three, under one name.
 struct PerturbationSpec {
     std::string name;
     std::optional<VisualSpec> visual;
@@ -125,30 +127,31 @@ struct PerturbationSpec {
     }
 };
 
-/// A perturbation with its names looked up: it neither allocates nor throws.
+/// A perturbation with its names looked up. In the tick it neither allocates nor throws.
 class Perturbation {
   public:
     Perturbation() = default;
-    /// What is wrong with it goes to `diagnostics`.
+    /// Problems with the spec go to `diagnostics`.
     Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
                  const scene::Scene& scene, Diagnostics& diagnostics);
 
-    /// Adds what it orders to the tick's list. `regions_W`: their centres [m].
+    /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const servo::Frame& last,
                std::span<const haptics::Handle> handles, servo::TaskFrame& out) const noexcept;
-    /// The force of its field on something at p_W with v_W [N].
+    /// Force of its field on a point at p_W that moves with v_W [N].
     Vec3 force(double share, std::span<const Vec3> regions_W, const Vec3& p_W,
                const Vec3& v_W) const noexcept;
-    /// Axis of its rotation or its curl; unset: it has none.
+    /// Axis of its rotation or curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
-    /// Of a field on a handle: b and k, for what a device can bear; unset: there is none.
+    /// Damping b and stiffness k of a field on a handle, to compare with what a device can render.
     struct OnHandle {
         int finger;
         double damping;    ///< [N*s/m]
         double stiffness;  ///< [N/m]
     };
+    /// Nullopt if there is no field on a handle.
     std::optional<OnHandle> on_handle() const;
-    /// What it makes of a body, in full; unset: it changes none.
+    /// A body's properties at share 1; unset if it changes no body.
     const std::optional<servo::PropertiesFrame>& properties() const { return properties_; }
 
   private:

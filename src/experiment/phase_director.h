@@ -1,4 +1,4 @@
-// Who says what phase it is: the time.
+// Sets a session's phase from the time alone.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,7 @@
 
 namespace dihaptic::experiment {
 
-/// Phases by time, from the driver or from a recorded session: the director of every session so
-/// far.
+/// The director of sessions without a task: phases by time, as the driver has them.
 class PhaseDirector {
   public:
     PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick)

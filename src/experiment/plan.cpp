@@ -24,7 +24,7 @@ std::string beside(const std::string& file, const std::string& named) {
     return (fs::path(file).parent_path() / named).lexically_normal().string();
 }
 
-/// "coupling.stiffness_N_m=600" as the mapping that a file would have.
+/// Turns "coupling.stiffness_N_m=600" into the mapping that a file would have.
 Node setting(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) {
@@ -53,7 +53,7 @@ void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
     read_given_fields(plan.settings, settings, diagnostics, &plan.origins);
 }
 
-/// Of a scene alone, one that says nothing. Throws Error.
+/// Reads the experiment; for a scene file, returns an empty one. Throws Error.
 Experiment experiment_of(const std::string& file, Diagnostics& diagnostics) {
     const FileKind kind = kind_of(file);
     if (kind == FileKind::scene) return {};
@@ -76,7 +76,7 @@ void plan_scene(Plan& plan, const Experiment& experiment, Diagnostics& diagnosti
     plan.study = experiment.study;
 }
 
-/// The rig file; "": ideal simulated devices.
+/// Path of the rig file; "" stands for ideal simulated devices.
 std::string rig_file(const Request& request, const Experiment& experiment) {
     if (!request.rig.empty()) return request.rig;
     return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
@@ -87,7 +87,7 @@ void plan_rig(Plan& plan, const Request& request, const Experiment& experiment,
     if (const std::string file = rig_file(request, experiment); !file.empty()) {
         plan.rig = rig::read_rig(file, diagnostics);
     } else {
-        // a mouse can turn the hand, which is felt where orientation is measured
+        // a mouse can turn the hand, which is felt only if orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     rig::check_age(plan.rig, recording::iso_now(), diagnostics);
@@ -99,7 +99,7 @@ void plan_rig(Plan& plan, const Request& request, const Experiment& experiment,
     }
 }
 
-/// Each file's over those before it, and those of the command line over all.
+/// Overlays the settings of scene, rig, experiment and command line, in this order; the later wins.
 void plan_settings(Plan& plan, const Request& request, const Experiment& experiment,
                    Diagnostics& diagnostics) {
     overlay(plan, plan.scene.settings, diagnostics);
@@ -113,7 +113,7 @@ void plan_settings(Plan& plan, const Request& request, const Experiment& experim
     limit_safety(plan, safety, diagnostics);
 }
 
-/// "": none.
+/// Path of the movement file; "" if there is none.
 std::string movement_file(const Request& request, const Experiment& experiment) {
     if (!request.movement.empty()) return request.movement;
     if (!experiment.movement || experiment.movement->file.empty()) return "";
@@ -158,7 +158,7 @@ void plan_trials(Plan& plan, const Task& task, const Request& request, Diagnosti
     plan.task = made;
 }
 
-/// Nobody simulated: one phase as long as a session may be.
+/// Driver for a person at real devices: one phase, as long as a session may be.
 std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     hand::HandSpec hand;
     hand.centre = plan.hand.centre;
@@ -166,7 +166,7 @@ std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     return std::make_shared<hand::ScriptDriver>(hand, scene::finger_names(plan.scene));
 }
 
-/// In a task the driver is the file's hand: whoever seats a simulated person puts its own in place.
+/// Sets the driver. For a simulated person this is the file's hand, which the caller replaces.
 void seat_mover(Plan& plan, recording::Mover mover) {
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);
     if (mover == recording::Mover::devices) {
@@ -181,7 +181,7 @@ void seat_mover(Plan& plan, recording::Mover mover) {
     plan.moved_by.mover = mover;
 }
 
-/// Who moves the hand, by what the rig is, who sits there, and what the files have of one.
+/// Chooses what moves the hand, from the rig, the request and the files.
 void plan_driver(Plan& plan, const Request& request, const Experiment& experiment,
                  Diagnostics& diagnostics) {
     const std::string movement = movement_file(request, experiment);
@@ -241,7 +241,7 @@ Plan make_plan(const Request& request) {
 
 namespace {
 
-/// trials.csv has a row for each, in the order in which they were made.
+/// Reads the attempts from trials.csv, which has a row for each in the order they were made.
 std::vector<Attempt> attempts_made(const TaskPlan& plan, const std::string& file) {
     const auto bad = [&](const char* what) {
         return Error({file, 0}, "", what,
@@ -269,8 +269,9 @@ std::vector<Attempt> attempts_made(const TaskPlan& plan, const std::string& file
     return out;
 }
 
-/// What moved the hand of a session, if it can do so again. Earlier programs did not write it down,
-/// but nothing except a person holds real devices, and only a simulated person has its own file.
+/// What moved the hand of a session; throws Error if it cannot do so again. Earlier versions did
+/// not record it, but only a person holds real devices, and only a simulated person has its own
+/// file.
 recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
                           const recording::SessionFolder& folder, Seat seat) {
     using recording::Mover;
@@ -301,7 +302,7 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     return mover;
 }
 
-/// What a session ran, from its own files, and how each of its attempts ended.
+/// The plan of a session from its own files, with how each of its attempts ended.
 Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                  Diagnostics& diagnostics) {
     if (!is_there(folder.file("task.yaml"))) {
@@ -379,7 +380,7 @@ std::unique_ptr<servo::Servo> make_servo(const Plan& plan, const std::string& ke
     context.seed = plan.seed;
     std::optional<keeper::Keeping> keeping;
     if (!keeper.empty()) {
-        // a tick more than the servo allows itself, as its own watchdog has it
+        // one tick more than the servo allows itself, as in its own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
         keeping = {keeper, silence, plan.settings.real_time_priority};
     }

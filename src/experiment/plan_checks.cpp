@@ -20,8 +20,8 @@ Place place_of(const Plan& plan, const std::string& setting) {
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
 
-/// A share of what the devices render calmly, in SI units: of the device that renders least, since
-/// all fingers have the same coupling. The setting is then as if it had been given so.
+/// Converts a share of what the devices render calmly to SI units. The device that renders least
+/// counts, since all fingers have the same coupling. The setting is then as if given in SI units.
 std::optional<double> of_maximum(Plan& plan, const devices::DeviceGroup& devices,
                                  const std::string& name, Quantity quantity,
                                  std::optional<double>& share,
@@ -72,8 +72,8 @@ bool any_finger(const Plan& plan, haptics::ProxyKind kind) {
         [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger) == kind; });
 }
 
-/// Stiffness that the loop need not hold calmly. The limit is passivity's: below it no hand makes
-/// the loop shake; above it, some do (bench grasp measures how far one gets).
+/// Warns of a stiffness that the loop may not hold calmly. The limit is passivity's: below it no
+/// hand makes the loop shake; above it, some do (bench grasp measures how far one can go).
 void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
                      Diagnostics& diagnostics) {
     const haptics::CouplingSettings& coupling = plan.settings.coupling;
@@ -121,8 +121,8 @@ void check_stiffness(const Plan& plan, const devices::DeviceGroup& devices,
     }
 }
 
-/// A damper that takes more than the handle's momentum in a tick throws it back: with v the speed
-/// at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
+/// Warns of too much damping. A damper that takes more than the handle's momentum in a tick throws
+/// the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
 void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
                    Diagnostics& diagnostics) {
     if (!plan.settings.coupling.damping) return;
@@ -140,7 +140,7 @@ void check_damping(const Plan& plan, const devices::DeviceGroup& devices,
     }
 }
 
-/// Settings that a point has no use for.
+/// Warns of settings that a point proxy has no use for.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     if (!any_finger(plan, haptics::ProxyKind::point)) return;
     if (plan.settings.coupling.kind != haptics::CouplingKind::implicit &&
@@ -161,7 +161,7 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A switch that nobody could hold.
+/// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);
@@ -173,12 +173,12 @@ void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
                                   fmt::join(fingers, ", ")));
 }
 
-/// A force limit that no device reaches is none: the devices' own is what holds.
+/// Warns of a force limit above a device's own peak, which then is the limit that holds.
 void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     if (!plan.settings.safety.max_force) return;
     for (int i = 0; i < devices.size(); ++i) {
         const devices::DeviceInfo& info = devices.info(i);
-        const double peak = info.peak_force / info.scale;  // in the hand
+        const double peak = info.peak_force / info.scale;  // force in the hand
         if (*plan.settings.safety.max_force <= peak) continue;
         diagnostics.warning(place_of(plan, "safety.max_force"), "safety.max_force",
                             fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
@@ -188,7 +188,7 @@ void check_limits(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
     }
 }
 
-/// Soft fingers that are hard to this solver.
+/// Warns of soft bodies and fingers whose torsion radius the chosen solver ignores.
 void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
     if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
     const bool apart = plan.settings.proxy.friction == haptics::PointFriction::apart;
@@ -224,11 +224,11 @@ void check_grip(const Plan& plan, const devices::DeviceGroup& devices, Diagnosti
         "Make it lighter: it cannot be felt as it is.");
 }
 
-/// Objects that the task's trials want lifted, and how heavy and slippery they are there.
+/// An object that the task's trials want lifted, and how heavy and slippery it is there.
 struct Lifting {
     std::string what;  // in words
     double weight;     // [N]
-    double friction;   // with the most slippery finger
+    double friction;   // coefficient with the most slippery finger
 };
 
 std::vector<Lifting> liftings(const Plan& plan) {
@@ -272,7 +272,7 @@ std::vector<Lifting> liftings(const Plan& plan) {
     return out;
 }
 
-/// What two fingers cannot hold by these devices, however they pinch.
+/// Warns of objects that two fingers cannot hold with these devices, however hard they pinch.
 void check_liftings(const Plan& plan, const devices::DeviceGroup& devices,
                     Diagnostics& diagnostics) {
     if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
@@ -305,7 +305,7 @@ void check_liftings(const Plan& plan, const devices::DeviceGroup& devices,
     warn(continuous, "can hold for long", "after some seconds", for_long);
 }
 
-/// A trial that waits for what cannot come.
+/// Warns of a trial that waits for a trigger when the rig has no line for one.
 void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
     for (const outlets::OutletConfig& outlet : plan.rig.outlets) {
@@ -325,7 +325,8 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A field on a handle that the loop cannot hold calmly: as a coupling's stiffness and damping.
+/// Warns of a field on a handle that the loop cannot hold calmly, by the limits of a coupling's
+/// stiffness and damping.
 void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnostics& diagnostics) {
     if (!plan.task) return;
     double stiffness = 0;
@@ -369,7 +370,7 @@ void check_fields(const Plan& plan, const devices::DeviceGroup& devices, Diagnos
     }
 }
 
-/// A wall that is not where the work is pushes all the time.
+/// Warns of a wall that is in the wrong place: it would push all the time.
 void check_wall(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.rig.wall) return;
     const Eigen::AlignedBox3d box = plan.rig.wall->box();
@@ -409,7 +410,7 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
 void check_with_devices(Plan& plan, Diagnostics& diagnostics) {
     check_dead_man(plan, diagnostics);
     diagnostics.throw_if_errors();
-    // made once to see what the devices can do; the session makes its own
+    // made only to see what the devices can do; the session makes its own servo
     const auto devices = make_servo(plan);
     resolve_shares(plan, devices->devices(), diagnostics);
     check_stiffness(plan, devices->devices(), diagnostics);

@@ -7,17 +7,17 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// A trial's answer is taken up within a tick: 0.3 ms for the largest.
+/// A trial's answer is processed within a tick, which takes 0.3 ms for the largest grid.
 constexpr size_t kLargestGrid = 200'000;
 
-/// The lowest level that its trials may have.
+/// The lowest level that the procedure's trials may have.
 double lowest_level(const ProcedureSpec& spec) {
     if (spec.staircase) return spec.staircase->lowest.value_or(spec.least());
     if (spec.quest_plus) return std::min(spec.quest_plus->levels.from, spec.quest_plus->levels.to);
     return spec.least();
 }
 
-/// Of quest_plus; the others have none.
+/// Number of cells of quest_plus's grid; 0 for the other procedures.
 size_t grid_cells(const ProcedureSpec& spec) {
     if (!spec.quest_plus) return 0;
     const QuestPlusSpec& s = *spec.quest_plus;
@@ -25,7 +25,7 @@ size_t grid_cells(const ProcedureSpec& spec) {
            static_cast<size_t>(s.shapes.count) * static_cast<size_t>(s.lapses.count);
 }
 
-/// Levels are shares, or logarithms of shares.
+/// Reports levels outside the range of shares, or of their logarithms.
 void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const auto within = [&](const char* key, double level) {
         if (level >= spec.least() && level <= spec.most()) return;
@@ -47,7 +47,7 @@ void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
 }
 
-/// The experiment runs, and its answers cannot be fitted.
+/// Warns of levels with which the experiment runs but its answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = lowest_level(spec);
     if (model::takes(spec.sigmoid, lowest)) return;

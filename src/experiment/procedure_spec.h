@@ -1,5 +1,5 @@
-// Adaptive procedures as an experiment file writes them (procedures/): the share of a perturbation
-// in each trial, from 0 to 1, follows from the answers so far.
+// Adaptive procedures (procedures/) as an experiment file describes them: the share of a
+// perturbation in each trial, from 0 to 1, follows from the answers so far.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace dihaptic::experiment {
 
-/// Shares are 0 to 1 and their logarithms a few units: levels beyond are slips.
+/// Shares lie in 0 to 1 and their logarithms within a few units: a level beyond this is a slip.
 constexpr double kFurthestLevel = 100;
 
 struct StaircaseSpec {
@@ -23,7 +23,7 @@ struct StaircaseSpec {
     double down_over_up = 1;
     std::optional<double> lowest;
     std::optional<double> highest;
-    int reversals = 0;  ///< it is done after; 0: after the procedure's trials
+    int reversals = 0;  ///< number after which it is done; 0: done after the procedure's trials
     int skipped_reversals = 0;
 
     template <class Visitor>
@@ -61,7 +61,7 @@ struct QuestSpec {
     }
 };
 
-/// Values at equal distances, both ends included.
+/// Equally spaced values, both ends included.
 struct GridSpec {
     double from = 0;
     double to = 0;
@@ -99,14 +99,14 @@ struct QuestPlusSpec {
 
 struct ProcedureSpec {
     std::string name;
-    std::string perturb;       ///< whose share is the level
+    std::string perturb;       ///< perturbation whose share is the level
     bool logarithmic = false;  ///< the share is 10^level
     std::string yes;           ///< the outcome that grows likelier with the level
     std::string no;
-    int trials = 40;  ///< at most
+    int trials = 40;  ///< largest number
     model::Sigmoid sigmoid = model::Sigmoid::normal;
     double guess = 0.5;           ///< probability of "yes" far below the threshold
-    bool guess_is_lapse = false;  ///< it is the lapse rate, instead
+    bool guess_is_lapse = false;  ///< the guess rate is the lapse rate, instead
     std::optional<StaircaseSpec> staircase;
     std::optional<QuestSpec> quest;
     std::optional<QuestPlusSpec> quest_plus;
@@ -129,18 +129,19 @@ struct ProcedureSpec {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// Levels go as far as shares do: to 1, and from 0 unless they are logarithms.
+    /// Range of the levels, as of the shares: 0 to 1, or the logarithms of that.
     double most() const { return logarithmic ? 0 : 1; }
     double least() const { return logarithmic ? -std::numeric_limits<double>::infinity() : 0; }
     double share(double level) const { return logarithmic ? std::pow(10, level) : level; }
-    /// As the file calls it.
+    /// The procedure's key in the file.
     const char* kind() const { return staircase ? "staircase" : quest ? "quest" : "quest_plus"; }
 };
 
-/// The spec has one of the three. Throws Error when one of its settings is out of range.
+/// The spec must have exactly one of staircase, quest and quest_plus. Throws Error when one of its
+/// settings is out of range.
 Procedure make_procedure(const ProcedureSpec& spec);
 
-/// What is wrong with it goes to `diagnostics`.
+/// Problems with the spec go to `diagnostics`.
 void check(const ProcedureSpec& spec, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::experiment

@@ -8,7 +8,7 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// A limit as a number, so that two can be compared; what is unset limits nothing.
+/// A limit as a number, so that two can be compared. An unset value is no limit.
 struct Limit {
     std::string name;
     Field field;
@@ -44,13 +44,13 @@ class Limits {
     std::vector<Limit> limits_;
 };
 
-/// The limits that a rig sets, and who says so.
+/// The limits that a rig sets, and where each was set.
 struct RigLimits {
     haptics::SafetySettings allowed;
     Origins set_by;
     bool real;
 
-    /// Whether the rig limits it, and who says so.
+    /// Where the rig's limit on this setting comes from; nullopt if it has none.
     std::optional<std::string> limit_of(const std::string& name) const {
         const auto found = set_by.find("safety." + name);
         if (found != set_by.end()) return found->second;

@@ -1,9 +1,9 @@
-// The rig's safety limits: whoever sits at it is kept by them, whatever a scene, an experiment or a
-// command line says. These may tighten a limit, and are refused when they would widen one.
+// Enforces the rig's safety limits, which protect the person at it whatever a scene, an experiment
+// or the command line says. Those may tighten a limit, and are refused when they would widen one.
 //
-// What a rig file says of `settings: safety:` is its limit; of a rig of real devices, what it
-// leaves out is limited by the default. Elsewhere each of the others may choose, the later one
-// first: default < rig < scene < experiment < command line.
+// A value under `settings: safety:` in a rig file is the limit. On a rig of real devices, the
+// default limits each setting that the file leaves out. All other settings are free, and the later
+// source wins: default < rig < scene < experiment < command line.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@
 
 namespace dihaptic::experiment {
 
-/// Settings of which `safety:` counts, in the order of their precedence; null where there is none.
+/// Settings whose `safety:` counts, in rising order of precedence; a null node has none.
 struct SafetySources {
     const Node& rig;
     std::vector<const Node*> others;
 };
 
-/// Sets plan.settings.safety and its origins from `sources`; what widens a limit of plan.rig is an
-/// error. What cannot be read has been told of.
+/// Sets plan.settings.safety and its origins from `sources`. A value that widens a limit of
+/// plan.rig is an error. Values that cannot be read are skipped: they have been reported before.
 void limit_safety(Plan& plan, const SafetySources& sources, Diagnostics& diagnostics);
 
-/// Each limit that is not the default's: key, value, and who set it.
+/// Describes each limit that differs from the default: key, value, and who set it.
 std::vector<std::string> describe_safety(const Plan& plan);
 
 }  // namespace dihaptic::experiment

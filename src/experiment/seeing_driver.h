@@ -1,4 +1,5 @@
-// A simulated hand that acts on what it sees: each Frame is shown to it before it moves on.
+// Interface of a simulated hand that acts on what it sees: it is shown each Frame before its next
+// movement.
 #pragma once
 
 #include "hand/driver.h"
@@ -8,12 +9,12 @@ namespace dihaptic::experiment {
 
 class SeeingDriver : public hand::Driver {
   public:
-    /// After each tick, in it: neither allocates nor throws. What is seen is what servo/displayed.h
-    /// says.
+    /// Shows the hand a tick's Frame. Runs in the tick: neither allocates nor throws. What can be
+    /// seen of the Frame is what servo/displayed.h gives.
     void see(const servo::Frame& frame) noexcept { do_see(frame); }
-    /// The key that it has pressed since this was last asked, in the tick; 0: none.
+    /// In the tick: the key that the hand has pressed since the last call; 0 if none.
     char take_key() noexcept { return do_take_key(); }
-    /// Back to the start: a run begins.
+    /// Goes back to the start, for a new run.
     virtual void restart() = 0;
 
   private:

@@ -27,7 +27,7 @@ double since(Wall::time_point begin) {
     return std::chrono::duration<double>(Wall::now() - begin).count();
 }
 
-/// No session is longer: beyond, a task waits for something that does not come.
+/// Longest session: beyond it, a task waits for something that does not come.
 constexpr Time kLongest = std::chrono::hours(12);
 constexpr Time kLongestTimed = std::chrono::hours(1);
 
@@ -38,7 +38,7 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     return out;
 }
 
-/// What the session's devices can do, by finger.
+/// Describes what the session's devices can do, by finger.
 std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
                                                 const scene::Scene& scene) {
     std::vector<recording::DeviceRecord> out;
@@ -72,8 +72,8 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
     return head;
 }
 
-/// On the virtual clock the same session is the same file, and has the same identity: it comes from
-/// what the session depends on. On the real clock no two are the same.
+/// On the virtual clock, a session that is run again gives the same file with the same identity,
+/// which is computed from all that the session depends on. On the real clock it is random.
 std::string identity_of(const recording::Setup& setup, const Plan& plan, bool real) {
     if (real) {
         std::random_device random;
@@ -85,14 +85,13 @@ std::string identity_of(const recording::Setup& setup, const Plan& plan, bool re
     return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
 }
 
-/// Whether a trigger comes to a simulated session in this tick: what is waited for comes once a
-/// second.
+/// Whether a simulated session gets a trigger in this tick: one comes every second.
 bool simulated_trigger(const servo::Frame& last, Time period) noexcept {
     return (last.time + period) % std::chrono::seconds(1) < period;
 }
 
-/// Calls `look` about ten times a second from a thread of its own while something runs, and once
-/// after.
+/// Calls `look` about ten times a second from a thread of its own while it lives, and once at the
+/// end.
 class Watcher {
   public:
     explicit Watcher(const std::function<void()>& look) {
@@ -120,8 +119,8 @@ class Watcher {
     std::thread thread_;
 };
 
-/// Waits in a pause, and wakes the servo after it: when its devices cannot be, says why and waits
-/// again. False: the session ends.
+/// Waits for the end of a pause and wakes the servo. When its devices cannot be woken, says why and
+/// waits again. Returns false when the session is to end.
 bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
     while (true) {
         while (live.paused && !stop && !live.ended)
@@ -136,7 +135,7 @@ bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& sto
     }
 }
 
-/// One session from its folder to its last note: what the servo's callbacks share.
+/// One session, from making its folder to its last note; holds what the servo's callbacks share.
 class Run {
   public:
     Run(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
@@ -191,12 +190,12 @@ class Run {
     recording::SessionInfo& info_ = result_.info;
     std::unique_ptr<servo::Servo> servo_;
     std::optional<recording::Recorder> recorder_;
-    servo::FrameSink read_;           // in place of it
-    std::optional<Outward> outward_;  // others must not take a rehearsal for a session
+    servo::FrameSink read_;           // takes the frames in place of recorder_
+    std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
     std::optional<PhaseDirector> phases_;
     std::optional<TaskDirector> task_;
     std::optional<Wait> wait_;
-    Time whole_{0};                    // is over after this time
+    Time whole_{0};                    // the session is over after this time
     std::atomic<int64_t> reached_{0};  // session time [ns]
 };
 
@@ -264,10 +263,10 @@ void Run::open_record() {
                           options_.sync);
     }
     result_.lock.emplace(folder_);
-    if (real_ || options_.sync > 0) folder_.sync();  // what it is about, before it begins
+    if (real_ || options_.sync > 0) folder_.sync();  // the inputs, before the session begins
 }
 
-/// Real devices, what they send to, or the person may refuse: there is no session then.
+/// Opens outlets and devices. If one of them, or options.check, refuses, the session is removed.
 void Run::begin() {
     if (plan_.seeing) plan_.seeing->restart();
     try {
@@ -286,7 +285,7 @@ void Run::begin() {
     }
 }
 
-/// All that the ticks need is made before the first of them: they allocate nothing.
+/// Makes everything that the ticks need before the first one, since ticks allocate nothing.
 void Run::make_directors() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
     result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
@@ -327,7 +326,7 @@ void Run::direct(const servo::Frame& last, std::span<const haptics::Handle> hand
 void Run::direct_task(const servo::Frame& last, std::span<const haptics::Handle> handles,
                       servo::Commands& commands) {
     if (servo_->fault()) {
-        // without force there are no trials: this one is over
+        // without force there are no trials: the current one is over
         commands.trial = last.trial;
         commands.phase = last.phase;
         commands.task.attempt = last.task.attempt;
@@ -344,7 +343,7 @@ void Run::direct_task(const servo::Frame& last, std::span<const haptics::Handle>
     (*task_)(last, handles, commands);
 }
 
-/// By who watches a session on the real clock.
+/// Applies what the thread that watches the session, on the real clock, asks for.
 void Run::be_steered(const servo::Frame& last, servo::Commands& commands) {
     commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
     commands.rest = live_->paused.load(std::memory_order_relaxed);
@@ -380,12 +379,12 @@ void Run::run_ticks() {
     }
 }
 
-/// Once, or when somebody steers it, from pause to pause and from fault to remedy.
+/// Runs the ticks once; if the session is steered, from pause to pause and from fault to remedy.
 void Run::run_real_ticks(const servo::Director& director, const servo::FrameSink& sink) {
     const auto stuck = [this](const servo::Timing::Stall& stall) {
         if (options_.stuck) options_.stuck(stall_text(stall));
     };
-    const std::atomic<bool> never{false};  // the director stops it, with a last tick
+    const std::atomic<bool> never{false};  // the director stops the session, with a last tick
     Time first{0};
     while (true) {
         servo::run_real(*servo_, director, sink, first, whole_, never, result_.timing, stuck);
@@ -428,7 +427,7 @@ std::string Run::fault_text() const {
         out += " Its driver says: " + said;
     const bool stopped = fault.kind == haptics::FaultKind::stopped;
     if (!stopped) out += " The second before it is in fault.csv.";
-    if (live_ != nullptr) return out;  // who steers knows how it goes on
+    if (live_ != nullptr) return out;  // the window says how to go on
     if (plan_.task) {
         out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
                            folder_.path());
@@ -452,13 +451,13 @@ void Run::close_record() {
 }
 
 void Run::note_how_it_ended() {
-    // with a mouse, or a person, there is no more to do than somebody wants to
+    // an open-ended session, with a mouse or a person, is finished whenever it is ended
     const bool unfinished = task_ ? task_->share() < 1 : !plan_.open_ended();
     const bool ended = live_ != nullptr && live_->ended;
     result_.interrupted = stop_.load() || (ended && unfinished);
     if (servo_->fault()) {
         result_.fault = fault_text();
-        // a session that waited for a remedy has told of it
+        // a session that waited for a remedy has noted the fault already
         if (info_.notes.empty() || info_.notes.back() != result_.fault)
             info_.notes.push_back(result_.fault);
     }
@@ -488,7 +487,7 @@ void Run::conclude() {
             servo::describe(result_.timing.refusals, plan_.settings.real_time_priority));
     }
     folder_.write_info(info_);
-    // a fault ends a session too: the trials that are left are for dihaptic resume
+    // a fault ends a session too: dihaptic resume does the trials that are left
     const bool cut_short = task_ && servo_->fault() && task_->share() < 1;
     info_.state = result_.interrupted || cut_short ? recording::SessionState::interrupted
                                                    : recording::SessionState::complete;

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kRemedy =
     "Rehearse the order and the time of trials with it, and take no figure of it for people's.";
 
-/// Whether movements are shown longer or shorter than they are.
+/// Whether the perturbation shows movements longer or shorter than they are.
 bool scales(const PerturbationSpec& perturbation) {
     if (!perturbation.visual) return false;
     const auto& moves = perturbation.visual->moves;

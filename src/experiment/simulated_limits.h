@@ -1,5 +1,5 @@
-// What simulated people (src/person) cannot do of a task: a rehearsal of it runs to the end and
-// gives figures that look like any other.
+// Warns of what simulated people (src/person) cannot do in a task: a rehearsal would still run to
+// its end and give figures that look like any other.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace dihaptic::experiment {
 
-/// Warnings, in the file's order: force fields, which are taken for rotations; judgements of
-/// anything but lengths; buttons.
+/// Warnings of force fields, which are taken for rotations, then of judgements of anything but
+/// lengths, then of buttons; each kind in the file's order.
 std::vector<Problem> simulated_limits(const TaskPlan& plan);
 
 }  // namespace dihaptic::experiment

@@ -11,16 +11,16 @@ namespace dihaptic::experiment {
 /// What ends a state.
 enum class When {
     inside,    ///< a finger's handle is in a region
-    outside,   ///< it is not
+    outside,   ///< a finger's handle is not in a region
     touched,   ///< a finger presses a body
-    released,  ///< no finger does
-    gripped,   ///< two fingers do
+    released,  ///< no finger presses a body
+    gripped,   ///< two fingers press a body
     lifted,    ///< a body is above its place by a height
-    still,     ///< the finger, or all, are slower than a speed
+    still,     ///< the finger, or all fingers, are slower than a speed
     key,       ///< the operator pressed a key
     button,    ///< a button of a finger's device is held
     trigger,   ///< a code came in from outside, on one of the rig's outlets
-    time,      ///< of the state is over
+    time,      ///< the state's time is over
 };
 constexpr auto enum_names(When) {
     return std::array{"inside", "outside", "touched", "released", "gripped", "lifted",
@@ -30,19 +30,20 @@ constexpr auto enum_names(When) {
 /// One way out of a state: to another, or out of the trial with an outcome.
 struct Exit {
     When when = When::time;
-    std::string region;    ///< inside, outside
-    bool shown = false;    ///< inside, outside: judged where the finger is shown
-    std::string body;      ///< touched, released, gripped, lifted
-    std::string finger;    ///< empty: the first; with touched, released: any; with still: all; with
-                           ///< inside, outside: the middle of all
+    std::string region;  ///< inside, outside
+    bool shown = false;  ///< inside, outside: judged by where the finger is displayed
+    std::string body;    ///< touched, released, gripped, lifted
+    std::string finger;  ///< if empty, the first finger; touched, released: any finger; still: all
+                         ///< fingers; inside, outside: the middle of all
     double height = 0.02;  ///< lifted [m]
     double speed = 0.02;   ///< still [m/s]
-    double hold = 0;       ///< so long without a break; with time: after so long [s]
+    double hold = 0;       ///< time for which the condition must hold without a break; with
+                           ///< When::time, the time in the state [s]
     std::string key;       ///< one letter or digit
     int button = 0;        ///< counted from 0
     int code = 0;          ///< trigger; 0: any
     std::string to;        ///< state
-    std::string outcome;   ///< of the trial, which ends
+    std::string outcome;   ///< ends the trial with this outcome
     bool redo = false;     ///< the trial is to be done again
     std::string feedback;  ///< shown for Task::feedback at least, then until the next message
     Place place;
@@ -68,12 +69,12 @@ struct Exit {
     }
 };
 
-/// A step of the simulated hand in a state: as a script's, or to a region.
+/// A step of the simulated hand in a state: as in a script, or to a region.
 struct HandStep {
     double duration = 0;             ///< [s]
     std::string reach;               ///< region that the hand's centre goes to
-    Vec3 move = Vec3::Zero();        ///< of the centre [m]
-    std::optional<double> aperture;  ///< at the end [m]
+    Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
+    std::optional<double> aperture;  ///< aperture at the end [m]
     Place place;
 
     template <class Visitor>
@@ -88,12 +89,12 @@ struct HandStep {
 
 struct State {
     std::string name;
-    std::vector<std::string> show;  ///< regions, while it lasts
+    std::vector<std::string> show;  ///< regions shown while the state lasts
     bool perturbed = true;          ///< the trial's perturbation acts
     std::string message;
     int marker = 0;              ///< event code on entering; 0: none
-    std::vector<Exit> exits;     ///< the first that is met counts
-    std::vector<HandStep> hand;  ///< what the simulated hand does, from entering it on
+    std::vector<Exit> exits;     ///< the first whose condition holds is taken
+    std::vector<HandStep> hand;  ///< steps of the simulated hand from entering the state on
     Place place;
 
     template <class Visitor>
@@ -109,7 +110,7 @@ struct State {
     }
 };
 
-/// Where a body begins the trial, in place of where the scene has it.
+/// Where a body begins the trial, in place of its position in the scene.
 struct BodyPlace {
     std::string body;
     Vec3 position = Vec3::Zero();  ///< [m]
@@ -123,7 +124,7 @@ struct BodyPlace {
     }
 };
 
-/// What a trial differs by: regions and perturbations in place of those of the same name, and where
+/// How trials differ: regions and perturbations that replace those of the same name, and where
 /// bodies begin.
 struct Condition {
     std::string name;
@@ -152,11 +153,11 @@ constexpr auto enum_names(TrialKind) {
     return std::array{"practice", "baseline", "perturbed", "catch", "error_clamp", "washout"};
 }
 
-/// Trials at random places of a block, of another kind.
+/// Trials of another kind, inserted at random places of a block.
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    std::string perturb;  ///< empty: none
+    std::string perturb;  ///< perturbation; empty: none
     Place place;
 
     template <class Visitor>
@@ -172,11 +173,11 @@ struct Block {
     std::string name;
     TrialKind kind = TrialKind::baseline;
     std::vector<std::string> conditions;  ///< empty: all
-    int repeats = 1;                      ///< of all of them
-    Order order = Order::shuffled;        ///< anew in each repeat
+    int repeats = 1;                      ///< number of times that each condition is done
+    Order order = Order::shuffled;        ///< order of the conditions, made anew in each repeat
     std::string perturb;                  ///< a perturbation; empty: none
     int ramp = 0;  ///< trials over which its share rises from 0 to 1; 0: at once
-    std::vector<std::string> procedures;  ///< whose trials, mixed, the block consists of
+    std::vector<std::string> procedures;  ///< if given, the block consists of their trials, mixed
     std::vector<Insert> insert;
     Place place;
 
@@ -195,18 +196,17 @@ struct Block {
     }
 };
 
-/// Where a trial goes that has to be done again.
+/// When a trial that failed is done again.
 enum class Redo { never, next, end_of_block, random };
 constexpr auto enum_names(Redo) {
     return std::array{"never", "next", "end_of_block", "random"};
 }
 
-/// What of a reach is measured, once in each trial, in one of its states.
+/// What is measured of a reach, once in each trial, in one of its states.
 ///
-/// angle    between the way to `to` and where the handle is when it is `distance` from `from`,
-/// about
-///          `axis`, by the right hand
-/// extent   how far the handle has gone along the way from `from` to `to` when its first stroke
+/// angle    about `axis`, right-handed, from the direction of `to` to the direction of the handle
+///          when it is `distance` from `from`; both seen from `from`
+/// extent   how far the handle has gone along the line from `from` to `to` when its first stroke
 ///          ends
 enum class Measure { angle, extent };
 constexpr auto enum_names(Measure) {
@@ -215,12 +215,12 @@ constexpr auto enum_names(Measure) {
 
 struct ReachMeasure {
     Measure measure = Measure::angle;
-    std::string finger;  ///< empty: the first
-    std::string from;
-    std::string to;
+    std::string finger;        ///< empty: the first
+    std::string from;          ///< region
+    std::string to;            ///< region
     std::string during;        ///< state
     double distance = 0.05;    ///< [m]
-    std::optional<Vec3> axis;  ///< unset: that of the block's perturbation, or z
+    std::optional<Vec3> axis;  ///< unset: the axis of the first perturbation that has one, or z
     Place place;
 
     template <class Visitor>
@@ -239,15 +239,15 @@ struct ReachMeasure {
 struct Task {
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
-    std::vector<State> states;          ///< the first one begins a trial
-    std::vector<Condition> conditions;  ///< empty: one, without a name
-    std::vector<Condition> rounds;      ///< the blocks are done once for each; empty: once
+    std::vector<State> states;          ///< each trial begins in the first one
+    std::vector<Condition> conditions;  ///< empty: one condition without a name
+    std::vector<Condition> rounds;      ///< the blocks are done once in each round; empty: once
     Order round_order = Order::sequential;
     std::vector<ProcedureSpec> procedures;
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
-    int most_attempts = 3;  ///< at a trial
-    /// So long a feedback stays: no message takes its place, and no trial begins [s].
+    int most_attempts = 3;  ///< largest number of attempts at a trial
+    /// Time for which a feedback stays: no message replaces it, and no trial begins [s].
     double feedback = 1;
     std::optional<ReachMeasure> reach;
     Place place;

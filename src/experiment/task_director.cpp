@@ -10,21 +10,21 @@
 namespace dihaptic::experiment {
 namespace {
 
-constexpr double kAtHome = 1e-6;  // a body is where it belongs [m], [rad]
+constexpr double kAtHome = 1e-6;  // tolerance for a body to be in its place [m], [rad], [m/s]
 constexpr double kNever = -1;
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
     return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
 }
 
-/// Where the hand is: as the simulated hand's steps and a person's eyes have it.
+/// Position of the hand, by which the simulated hand's steps and a person's eyes go.
 Vec3 middle(std::span<const haptics::Handle> handles) noexcept {
     Vec3 sum = Vec3::Zero();
     for (const haptics::Handle& handle : handles) sum += handle.p_WH;
     return sum / static_cast<double>(handles.size());
 }
 
-/// Of the finger; -1: of all.
+/// Whether the finger is slower than `speed` [m/s]; -1: whether all fingers are.
 bool slower(std::span<const haptics::Handle> handles, int finger, double speed) noexcept {
     for (size_t i = 0; i < handles.size(); ++i) {
         const bool counts = finger < 0 || i == static_cast<size_t>(finger);
@@ -56,7 +56,7 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
                               servo::Commands& commands) noexcept {
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
-    // taken in every tick: what comes between trials answers none
+    // taken in every tick, so that input between trials counts for no trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
                       trigger_.exchange(0, std::memory_order_relaxed)};
     if (queue_.empty()) {
@@ -85,7 +85,7 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
 }
 
 void TaskDirector::begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept {
-    if (now < feedback_until_) return;  // it is being read
+    if (now < feedback_until_) return;  // the feedback is still being read
     if (!clear(last)) {
         message_ = plan_.move_away;
         return;
@@ -101,8 +101,8 @@ void TaskDirector::begin(const servo::Frame& last, double now, servo::Commands& 
     enter(0, now, commands);
 }
 
-/// Whether nothing is put back where a finger is, which would be pushed out of the body, nor out of
-/// fingers that press it, which would clap together.
+/// Whether bodies can be put back. A body put where a finger is would push the finger out; a body
+/// taken from between fingers that press it would let them clap together.
 bool TaskDirector::clear(const servo::Frame& last) const noexcept {
     if (last.sequence < 0) return true;
     for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
@@ -131,7 +131,7 @@ const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
     const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
     for (size_t i = 0; i < ways.size(); ++i) {
         const TaskPlan::Way& way = ways[i];
-        // half a tick: times are sums of ticks, which round
+        // half a tick of tolerance, because times are sums of ticks, which round
         if (way.exit.when == When::time) {
             if (now - entered_ >= way.exit.hold - tick_ / 2) return &way;
             continue;
@@ -200,7 +200,7 @@ bool TaskDirector::lifted(const TaskPlan::Way& way, const servo::Frame& last) co
     return false;
 }
 
-/// Whether so many fingers, or the one, press the body.
+/// Whether at least `fingers` fingers press the body. Counts only `finger`, unless it is -1.
 bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
                            int fingers) const noexcept {
     const auto scene_bodies = static_cast<int>(last.bodies.size());
@@ -217,7 +217,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& c
     last_trial_ = queue_.trial() + 1;
     last_attempt_ = queue_.attempt();
     commands.trial = last_trial_;
-    // one that is skipped before it began has its only frame in its first state
+    // a trial skipped before it began has its only frame in its first state
     commands.phase = std::max(state_, 0) + 1;
     commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;
@@ -230,8 +230,8 @@ void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& c
     commands.stop = queue_.empty() && now >= feedback_until_;
 }
 
-/// After the last trial: until its feedback was seen. A session that was over when it was resumed
-/// ends at once.
+/// After the last trial, the session lasts until its feedback has been read. A session that was
+/// over when it was resumed ends at once.
 void TaskDirector::order_end(double now, servo::Commands& commands) const noexcept {
     commands.stop = now >= feedback_until_;
     commands.trial = last_trial_;
@@ -246,7 +246,7 @@ void TaskDirector::skip_done() noexcept {
         queue_.finish(false);
 }
 
-/// That the trial's procedure chose, as far as there are shares.
+/// The level that the trial's procedure chose, within the range of the shares.
 double TaskDirector::level() const noexcept {
     const auto i = static_cast<size_t>(trial().procedure);
     const ProcedureSpec& spec = plan_.task.procedures[i];
@@ -258,7 +258,8 @@ double TaskDirector::share_of_trial() const noexcept {
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
-/// Of the trial that ends so. An outcome that is none is no answer.
+/// Gives the outcome of the ending trial to its procedure. An outcome that is neither its yes nor
+/// its no is no answer.
 void TaskDirector::take_answer(int outcome) noexcept {
     if (trial().procedure < 0) return;
     const auto i = static_cast<size_t>(trial().procedure);

@@ -1,5 +1,6 @@
-// Runs a session's trials inside the tick: which state it is, what it shows and perturbs, what ends
-// it, and which trial is next. It allocates, locks and throws nothing once it is made.
+// Runs a session's trials inside the tick: keeps the current state, commands what it shows and
+// perturbs, judges its exits, and chooses the next trial. Once constructed it neither allocates,
+// locks nor throws.
 #pragma once
 
 #include <atomic>
@@ -11,21 +12,22 @@ namespace dihaptic::experiment {
 
 class TaskDirector {
   public:
-    /// `plan` outlives it. `done`: what an earlier part of the session did, in order.
+    /// `plan` must outlive the director. `done`: attempts made by an earlier part of the session,
+    /// in order.
     TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
                  const std::vector<Attempt>& done = {});
 
     void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
                     servo::Commands& commands) noexcept;
 
-    /// A key of the operator's, from any thread.
+    /// The operator pressed a key; from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
-    /// A trigger from outside, from any thread. `code`: 1 to 255, or kAnyTrigger.
+    /// A trigger came from outside; from any thread. `code`: 1 to 255, or kAnyTrigger.
     void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
-    static constexpr int kAnyTrigger = -1;  ///< whatever is waited for
-    /// The trial ends in the next tick, as skipped, and is not done again; from any thread.
+    static constexpr int kAnyTrigger = -1;  ///< counts as any code that is waited for
+    /// Ends the trial in the next tick, as skipped and not to be done again; from any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
-    /// Between two ticks: the trial that runs, if one does, begins anew.
+    /// Call between two ticks: a running trial begins anew.
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
         state_ = -1;
@@ -36,7 +38,7 @@ class TaskDirector {
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const servo::Frame& last) const noexcept;
-    /// The trial, once its feedback was read and bodies can be put back.
+    /// Begins the next trial once the last feedback has been read and bodies can be put back.
     void begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
     void enter(int state, double now, servo::Commands& commands) noexcept;
     /// What came in from outside since the last tick.
@@ -57,7 +59,7 @@ class TaskDirector {
     void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
                servo::Commands& commands) const noexcept;
 
-    /// On to a trial that is still to be done: procedures may need fewer than the list has.
+    /// Skips trials whose procedure is done: it may need fewer trials than the list has.
     void skip_done() noexcept;
     double level() const noexcept;
     double share_of_trial() const noexcept;
@@ -70,11 +72,12 @@ class TaskDirector {
     int state_ = -1;      // -1: between trials
     double entered_ = 0;  // [s]
     int message_ = -1;
-    int next_message_ = -1;       // waits until a feedback was seen
+    int next_message_ = -1;       // shown once the feedback has been read
     double feedback_until_ = -1;  // [s]
-    int last_trial_ = 0;          // that ended, from 1; 0: none yet
+    int last_trial_ = 0;          // last trial that ended, from 1; 0: none yet
     int last_attempt_ = 0;
-    std::vector<double> since_;  // by way: when its condition began to hold; -1: it does not [s]
+    std::vector<double>
+        since_;  // by way: when its condition began to hold; -1: it does not hold [s]
     std::atomic<char> key_{0};
     std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};

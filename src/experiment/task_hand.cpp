@@ -50,7 +50,8 @@ hand::FingerTarget TaskHand::do_target(int finger, double t) const noexcept {
 
 void TaskHand::do_see(const servo::Frame& frame) noexcept {
     const double now = seconds(frame.time);
-    const bool between = frame.phase == kBetween || frame.trial < 1;  // it ends what it does
+    // between trials the hand still ends the steps that it has begun
+    const bool between = frame.phase == kBetween || frame.trial < 1;
     const bool entered = !between && (frame.trial != trial_ || frame.phase != phase_ ||
                                       frame.task.attempt != attempt_);
     if (between && phase_ < 1) return;

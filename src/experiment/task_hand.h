@@ -1,5 +1,5 @@
-// The simulated hand of a task's file: on entering a state it begins that state's steps, from where
-// it is; by minimum jerk, as a script's.
+// The simulated hand that an experiment file describes for its task: on entering a state it begins
+// that state's steps from where it is, by minimum jerk as in a script.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace dihaptic::experiment {
 
 class TaskHand final : public SeeingDriver {
   public:
-    /// Throws Error when the spec names other fingers.
+    /// Throws Error when the spec names other fingers than `fingers`.
     TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
              const std::vector<std::string>& fingers);
 
@@ -38,7 +38,7 @@ class TaskHand final : public SeeingDriver {
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = -1;
-    size_t step_ = 0;      // of the state; as many as it has: all done
+    size_t step_ = 0;      // index among the state's steps
     double begun_ = 0;     // [s]
     double duration_ = 1;  // [s]
     Posture from_;

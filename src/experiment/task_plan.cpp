@@ -15,7 +15,7 @@ constexpr size_t kMostTrials = 100000;
 constexpr const char* kMoveAway = "Take the hands off the objects";
 constexpr const char* kSkipped = "skipped";
 
-/// Index of a text in a list, added when it is new; -1 for none.
+/// Index of a text in a list, to which it is added when new; -1 for an empty text.
 int listed(std::vector<std::string>& list, const std::string& text) {
     if (text.empty()) return -1;
     const auto found = std::find(list.begin(), list.end(), text);
@@ -24,7 +24,7 @@ int listed(std::vector<std::string>& list, const std::string& text) {
     return static_cast<int>(list.size()) - 1;
 }
 
-/// The list with what `others` have in place of what has the same name.
+/// The list, with each item replaced by the one of the same name in `others`, if there is one.
 template <class T>
 std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     for (T& item : list) {
@@ -166,7 +166,7 @@ class Planner {
         return any_finger ? -1 : 0;
     }
 
-    /// What has to be so for the exit to be taken.
+    /// Looks up the names in the exit's condition.
     void look_up_condition(const Exit& exit, TaskPlan::Way& out) {
         switch (exit.when) {
             case When::inside:
@@ -228,7 +228,7 @@ class Planner {
         return static_cast<int>(plan_.outcomes.size()) - 1;
     }
 
-    /// Every state must be on a way from the first one, and on a way out.
+    /// Every state must be reachable from the first one, and must lead out of the trial.
     void check_ways() {
         const size_t n = plan_.stages.size();
         std::vector<char> reached(n, 0);
@@ -262,7 +262,7 @@ class Planner {
         const auto or_one = [&](const std::vector<Condition>& list) {
             return list.empty() ? std::vector<Condition>{nothing} : list;
         };
-        std::set<std::string> said;  // the same is wrong in every cell
+        std::set<std::string> said;  // a mistake shows in every cell, and is reported once
         for (const Condition& round : or_one(plan_.task.rounds)) {
             for (const Condition& condition : or_one(plan_.task.conditions)) {
                 TaskPlan::Cell& cell = plan_.cells.emplace_back();
@@ -333,7 +333,7 @@ class Planner {
                     diagnostics_);
     }
 
-    /// That the block's procedures may ask for, in all.
+    /// Largest number of trials that the block's procedures may ask for in all.
     size_t most_answers(const Block& block) {
         size_t out = 0;
         for (const std::string& name : block.procedures) {
@@ -345,7 +345,7 @@ class Planner {
         return out;
     }
 
-    /// A block has a perturbation, ramped or not, or procedures that choose one, or neither.
+    /// A block has either a perturbation, ramped or not, or procedures that choose one, or neither.
     void check_ways_to_perturb(const Block& block) {
         if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
             error(block.place, "procedures", "choose the perturbation and its share by themselves",
@@ -374,7 +374,7 @@ class Planner {
             error(reach.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
     }
 
-    /// Where bodies begin, those of later conditions over those of earlier ones.
+    /// Where bodies begin a trial; places of later conditions replace those of earlier ones.
     std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const {
         std::vector<TaskPlan::Home> out;
         for (size_t i = 0; i < scene_.bodies.size(); ++i) {
@@ -439,8 +439,8 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
     for (size_t i = 0; i < plan.trials.size(); ++i) {
         const Trial& trial = plan.trials[i];
         const TaskPlan::Cell& cell = plan.cell(trial);
-        // trials without the block's perturbation are measured as those with it: about the axis of
-        // the round's first perturbation that has one
+        // trials without the block's perturbation are measured as those with it are: about the axis
+        // of the cell's first perturbation that has one
         Vec3 axis = Vec3::UnitZ();
         for (auto p = cell.perturbations.rbegin(); p != cell.perturbations.rend(); ++p)
             axis = p->axis().value_or(axis);

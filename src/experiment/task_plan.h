@@ -1,12 +1,12 @@
-// A task with its names looked up, for a scene: what the tick and the simulated hand read, and
-// nobody changes.
+// A task with its names looked up in a scene: constant data that the tick and the simulated hand
+// read.
 #pragma once
 
 #include "experiment/trials.h"
 
 namespace dihaptic::experiment {
 
-/// Index of the stretch before a trial's first state, among the phases that frames count.
+/// Phase number, in frames, of the time before a trial's first state.
 constexpr int kBetween = 0;
 
 struct TaskPlan {
@@ -24,9 +24,9 @@ struct TaskPlan {
         Exit exit;
         int region = -1;
         int body = -1;
-        int finger = -1;   ///< that is judged; -1: any, all, or the middle of all (Exit)
-        int state = -1;    ///< that it leads to
-        int outcome = -1;  ///< that it ends the trial with
+        int finger = -1;   ///< finger that is judged; -1: any, all, or the middle of all (Exit)
+        int state = -1;    ///< state that it leads to
+        int outcome = -1;  ///< outcome that it ends the trial with
         int feedback = -1;
     };
     struct Step {
@@ -34,7 +34,7 @@ struct TaskPlan {
         int reach = -1;  ///< region
     };
     struct Stage {
-        uint32_t shown = 0;  ///< regions, a bit each
+        uint32_t shown = 0;  ///< regions shown, one bit each
         bool perturbed = true;
         int message = -1;
         int marker = 0;
@@ -43,13 +43,13 @@ struct TaskPlan {
     };
     std::vector<Stage> stages;  ///< by state
 
-    /// A body that is put back between trials, and the box that must be clear of fingers for it.
+    /// A body that is put back between trials, and the box that must then be clear of fingers.
     struct Home {
         int body;
         Pose X_WB;
         scene::Bounds box;
     };
-    /// What one condition in one round has of regions, perturbations and places.
+    /// Regions, perturbations and bodies' places of one condition in one round.
     struct Cell {
         std::vector<Vec3> p_W;
         std::vector<double> radius;
@@ -57,26 +57,26 @@ struct TaskPlan {
         std::vector<Home> homes;
     };
     std::vector<Cell> cells;            ///< by round, then condition
-    std::vector<double> finger_radius;  ///< of the sphere around each finger's shape [m]
-    int move_away = -1;                 ///< message while one is in the way
+    std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
+    int move_away = -1;                 ///< message while a finger is in the way
 
     const Cell& cell(const Trial& trial) const {
         const size_t conditions = std::max<size_t>(1, task.conditions.size());
         return cells[static_cast<size_t>(trial.round) * conditions +
                      static_cast<size_t>(trial.condition)];
     }
-    /// "between trials", then the states.
+    /// Names of the phases: "between trials", then the states.
     std::vector<std::string> phases() const;
 };
 
-/// Everything that is wrong with the task goes to `diagnostics`. Without errors, trials may be
-/// made.
+/// Problems with the task go to `diagnostics`. If there is no error, trials may be made.
 TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics);
 
-/// trial-list.csv with what trials are measured by: columns named reach_... (ReachMeasure).
+/// trial-list.csv, with what is needed to measure each trial in columns named reach_...
+/// (ReachMeasure).
 Table frozen_list(const TaskPlan& plan, const scene::Scene& scene);
 
-/// procedures.csv: what those who fit the answers need to know of each.
+/// procedures.csv: what is needed of each procedure to fit its answers.
 Table procedure_table(const TaskPlan& plan);
 
 }  // namespace dihaptic::experiment

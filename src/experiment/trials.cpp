@@ -15,7 +15,7 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// Fisher and Yates.
+/// Shuffles by the method of Fisher and Yates.
 void shuffle(std::vector<int>& list, Random& random) {
     for (size_t i = list.size(); i > 1; --i) {
         const auto j = static_cast<size_t>(random.uniform(0, static_cast<double>(i)));
@@ -23,7 +23,7 @@ void shuffle(std::vector<int>& list, Random& random) {
     }
 }
 
-/// 0, n-1, 1, n-2, ... plus the row; rows from n on, for odd n, are mirrored.
+/// (0, n-1, 1, n-2, ...) + row, modulo n; for odd n, rows from n on are mirrored.
 std::vector<int> williams_row(int n, int row) {
     std::vector<int> out;
     const bool mirrored = n % 2 == 1 && row % (2 * n) >= n;
@@ -57,7 +57,8 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// As many of each procedure as it has at most, mixed: whose turn it is tells nothing.
+/// The largest number of trials of each procedure, mixed, so that the turn tells a participant
+/// nothing.
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
                                     Random& random) {
     trial.share = std::numeric_limits<double>::quiet_NaN();
@@ -78,7 +79,8 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     return out;
 }
 
-/// Of the block: by index among the task's, or the one that a task without any has.
+/// The block's conditions, as indices among the task's; all if the block names none, and the one
+/// without a name if the task has none.
 std::vector<int> conditions_of(const Task& task, const Block& block) {
     std::vector<int> out;
     for (const std::string& name : block.conditions)
@@ -90,7 +92,7 @@ std::vector<int> conditions_of(const Task& task, const Block& block) {
     return out;
 }
 
-/// Gives trials their conditions in the block's order, as often as it takes.
+/// Gives trials their conditions in the block's order, which is repeated until all have one.
 void deal_conditions(const std::vector<int>& conditions, Order order, int number, Random& random,
                      std::vector<Trial>& trials) {
     const int n = static_cast<int>(conditions.size());
@@ -118,7 +120,7 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
     return out;
 }
 
-/// At random places, each after another trial, so that none is first.
+/// Inserts trials at random places, each after another trial, so that none comes first.
 void insert_trials(const Insert& insert, const Task& task, Random& random,
                    std::vector<Trial>& trials) {
     const auto places = ordered(static_cast<int>(trials.size()), Order::shuffled, 0, random);
@@ -136,7 +138,7 @@ void insert_trials(const Insert& insert, const Task& task, Random& random,
     }
 }
 
-/// The block's trials, one after the other.
+/// The block's trials, in their order.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
                              Random& random) {
     Trial trial;
@@ -198,7 +200,7 @@ bool needs_number(const Task& task) {
 }
 
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
-    // whoever is first gets the first row: participants are counted from 1
+    // the first participant gets the first row: participants are counted from 1
     const int row = std::max(0, number - 1);
     Random rounds_random(seed, "rounds");
     const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
@@ -206,7 +208,7 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     int block_number = 0;
     for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
-            // a stream of its own: to change one block leaves the others as they were
+            // each block has its own random stream: a change to one leaves the others as they were
             Random random(seed, fmt::format("trials of block {} in round {}", b, round));
             ++block_number;
             for (Trial trial : trials_of(task, task.blocks[b], round, row, random)) {

@@ -1,5 +1,5 @@
-// How long a trial has waited for what a simulated hand never does: without an end, such a session
-// would fill the disk.
+// Ends a session in which a trial waits for something that its simulated hand never does: such a
+// session would go on until it had filled the disk.
 #pragma once
 
 #include <string>
@@ -13,28 +13,28 @@ namespace dihaptic::experiment {
 
 class Wait {
   public:
-    /// `stages`: of the task.
+    /// `stages`: the task's stages.
     explicit Wait(const std::vector<TaskPlan::Stage>& stages);
 
-    /// In each tick, with what is to come in it.
+    /// Call in each tick, with the last frame and the commands for this tick.
     void look(const servo::Frame& last, const servo::Commands& commands) noexcept;
-    /// It lasts too long: the session is to end.
+    /// Whether the wait is too long and the session is to end.
     bool over() const noexcept { return over_; }
-    /// What was waited for, and what to do. `phases`: the session's.
+    /// Says what was waited for, and what to do. `phases`: the session's phases.
     std::string describe(const std::vector<recording::PhaseInfo>& phases) const;
 
   private:
-    static constexpr double kLongestBetween = 60;  // trials [s]
+    static constexpr double kLongestBetween = 60;  // between trials [s]
     static constexpr double kLongest = 60;         // in a state, beyond its exit by time [s]
-    static constexpr double kRounds = 10;          // through all states, in one attempt
+    static constexpr double kRounds = 10;          // rounds of all states in one attempt
 
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = 0;
-    double since_ = 0;            // of the state [s]
-    double begun_ = 0;            // of the attempt [s]
-    double seen_ = 0;             // last [s]
-    std::vector<double> bounds_;  // by phase [s]
+    double since_ = 0;            // when the state began [s]
+    double begun_ = 0;            // when the attempt began [s]
+    double seen_ = 0;             // time of the last frame [s]
+    std::vector<double> bounds_;  // longest time in each phase [s]
     double attempt_bound_ = kLongestBetween;
     bool over_ = false;
 };

@@ -1,5 +1,5 @@
-// What moves the simulated fingers: the seam between the hand's mechanics and whoever decides where
-// its fingers want to be (a script, a recorded movement).
+// Driver is the interface between the hand's mechanics and whatever decides where its fingers want
+// to be: a script, a recorded movement or the mouse.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace dihaptic::hand {
 struct FingerTarget {
     Vec3 p_WT = Vec3::Zero();      ///< [m]
     Vec3 v_WT = Vec3::Zero();      ///< [m/s]
-    Quat R_WT = Quat::Identity();  ///< how it wants its handle turned
+    Quat R_WT = Quat::Identity();  ///< desired orientation of the handle
     Vec3 w_WT = Vec3::Zero();      ///< [rad/s]
 };
 
@@ -21,11 +21,11 @@ class Driver {
   public:
     virtual ~Driver() = default;
 
-    /// Where the finger wants to be. Called in the tick: neither allocates nor throws.
+    /// Where the finger wants to be. Called in the tick: must neither allocate nor throw.
     FingerTarget target(int finger, double t) const noexcept { return do_target(finger, t); }
-    /// How long the driver has something to do [s].
+    /// Time for which the driver moves the fingers [s].
     virtual double duration() const = 0;
-    /// The stretches that the movement is made of, in order: for summaries and trial tables.
+    /// A section of the movement, named for summaries and trial tables.
     struct Phase {
         std::string name;
         double start = 0;  ///< [s]

@@ -2,12 +2,13 @@
 //
 //     f = (k + k_f |f_felt|) (x_target - x) + c (v_target - v)
 //
-// and a torque alike on a handle that turns, with r the rotation vector from it to the target,
+// and, on a handle that turns, a torque, with r the rotation vector from the handle to the target,
 //
 //     t = k_r r + c_r (w_target - w)
 //
-// with x the handle that the finger holds. |f_felt| follows the device's force with a time constant
-// of kFeelTime, as muscle does, so that stiffening by itself adds no fast loop.
+// where x is the position of the handle that the finger holds. |f_felt| follows the device's force
+// with the time constant kFeelTime, as muscle does, so that stiffening adds no fast loop of its
+// own.
 #pragma once
 
 #include <vector>
@@ -22,8 +23,8 @@ class Finger {
   public:
     explicit Finger(const Impedance& impedance) : impedance_(impedance) {}
 
-    /// Force of the finger on the handle [N], for h seconds during which the device pushes with
-    /// f_device.
+    /// Force of the finger on the handle [N] over h seconds, during which the device pushes with
+    /// f_device [N].
     Vec3 pull(const FingerTarget& target, const Vec3& p_WH, const Vec3& v_WH,
               const Vec3& f_device_W, double h) noexcept {
         felt_ += (f_device_W.norm() - felt_) * h / kFeelTime;
@@ -43,7 +44,7 @@ class Finger {
     double felt_ = 0;  // [N]
 };
 
-/// Tremor of one finger's target.
+/// Physiological tremor of one finger's target.
 class Tremor {
   public:
     Tremor(const TremorSpec& spec, uint64_t seed, int finger);

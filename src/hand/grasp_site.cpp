@@ -8,8 +8,8 @@ namespace {
 constexpr size_t kStretch = 300;    // samples of 1 ms
 constexpr double kFarShare = 0.93;  // of the largest distance from the start
 constexpr double kBridgedPenalty =
-    0.02;                          // a stretch that was not seen counts as this much movement [m]
-constexpr double kOpening = 0.01;  // the fingers must have closed by this much before [m]
+    0.02;                          // movement that a stretch counts as if none of it was seen [m]
+constexpr double kOpening = 0.01;  // by which the fingers must have closed before [m]
 
 GraspSite site_at(const Path& path, size_t first) {
     const std::vector<Vec3>& thumb = path.p_WH[0];
@@ -48,7 +48,7 @@ std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at) 
     const std::vector<Vec3>& index = path.p_WH[1];
     const size_t n = path.size();
     const Vec3 home = (thumb[0] + index[0]) / 2;
-    // running sums and maxima, so that each stretch costs the same
+    // running sums and maxima, so that the cost of a stretch does not depend on its length
     std::vector<double> distance(n), moved(n, 0), unseen(n, 0), opened(n, 0);
     double furthest = 0;
     for (size_t s = 0; s < n; ++s) {

@@ -1,5 +1,5 @@
-// Where a recorded hand closed on its object: far from where the hand started, and after the
-// fingers had been open wider, the 0.3 s in which thumb and index moved least.
+// Finds where a recorded hand closed on its object: the 0.3 s in which thumb and index moved least,
+// far from where the hand started and after the fingers had been open wider.
 #pragma once
 
 #include <optional>
@@ -9,16 +9,16 @@
 namespace dihaptic::hand {
 
 struct GraspSite {
-    double start = 0;  ///< of the quiet stretch, from the path's beginning [s]
+    double start = 0;  ///< of the quiet stretch, from the start of the path [s]
     double end = 0;
     Vec3 centre = Vec3::Zero();  ///< midway between the fingers [m]
     Vec3 axis = Vec3::UnitX();   ///< from the first finger (thumb) to the second; unit
     double aperture = 0;         ///< distance between the fingers [m]
-    double peak_aperture = 0;    ///< before it [m]
+    double peak_aperture = 0;    ///< before the stretch [m]
 };
 
-/// Finds the grasp; nothing when the fingers never open and close away from the start. With `at`
-/// given [s], it is the stretch around that moment.
+/// Finds the grasp; returns nullopt if the fingers never open and close away from the start. If
+/// `at` [s] is given, the grasp is taken to be the stretch around that time.
 std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at = std::nullopt);
 
 }  // namespace dihaptic::hand

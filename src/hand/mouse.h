@@ -1,10 +1,10 @@
-// A hand that goes where somebody at a screen wants it, for those without devices. What is wanted
-// changes in jumps, as events come in; the hand follows, critically damped with the time constant
-// kFollow:
+// MouseDriver moves a hand as the user of a screen directs it, for setups without devices. The goal
+// changes in jumps, as input events arrive; the hand follows it, critically damped with the time
+// constant kFollow:
 //
 //     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
 //
-// for each coordinate x of the posture, with the goal g that was set at t0.
+// for each coordinate x of the posture, where g is the goal that was set at t0.
 #pragma once
 
 #include "base/latest.h"
@@ -25,16 +25,18 @@ class MouseDriver final : public Driver {
   public:
     static constexpr double kFollow = 0.04;  // [s]
 
-    /// Starts as a script of `spec` would: fingers with a centre or an aperture of their own keep
-    /// how these differ from the hand's. Throws Error as finger_places() does.
+    /// Starts as a script of `spec` would. Fingers with a centre or an aperture of their own keep
+    /// its difference from the hand's. Throws Error as finger_places() does.
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
-    /// From time `t` on, go to `goal`. From one thread that is not the servo's; `t` is the time of
-    /// the newest Frame that it knows, and what the servo computed since then changes hardly.
+    /// Makes the hand go to `goal` from time `t` on. Call it from one thread only, not the servo's.
+    /// `t` is the time of the newest Frame that the caller knows; the targets that the servo has
+    /// computed since then hardly change.
     void follow(const Posture& goal, double t) noexcept;
     const Posture& goal() const { return goal_; }
 
-    /// Until somebody ends it; a session must have an end.
+    /// The session goes on until it is stopped, but needs an end: the longest that a script may
+    /// last.
     double duration() const override { return kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
 

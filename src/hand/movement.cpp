@@ -19,7 +19,7 @@
 namespace dihaptic::hand {
 namespace {
 
-/// "3 frames".
+/// The number of items in a list: "3 frames".
 std::string counted_of(const auto& list, const std::string& noun) {
     return counted(static_cast<int64_t>(list.size()), noun);
 }
@@ -43,7 +43,7 @@ bool is_missing(const std::string& cell) {
     return lower.empty() || lower == "nan" || lower == "na";
 }
 
-/// Which cell of a line is what, from the header.
+/// Which cell of a line holds what, from the header.
 struct Columns {
     std::vector<std::string> keys;  ///< as in the file
     int time = -1;
@@ -71,7 +71,7 @@ constexpr const char* kHeaderRemedy =
     "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same "
     "for each other finger, and occluded if the tracker tells.";
 
-/// A table that is not separated by commas: said once, rather than of every column.
+/// Refuses a table that is not separated by commas: one error, rather than one for every column.
 void check_separator(const std::string& file, const std::string& header) {
     if (header.find(',') != std::string::npos) return;
     for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
@@ -82,12 +82,12 @@ void check_separator(const std::string& file, const std::string& header) {
     }
 }
 
-/// What a column's name says of it.
+/// What a column's name says about it.
 struct Heading {
     enum class Kind { unknown, occluded, time, position };
     Kind kind = Kind::unknown;
     std::string stem;       ///< without the unit: "thumb_x"
-    std::string unit_name;  ///< "" when there is none
+    std::string unit_name;  ///< "" if the name has no unit
     double unit = 1;
 };
 
@@ -115,7 +115,7 @@ Heading heading_of(const std::string& key) {
     return out;
 }
 
-/// A column of a finger's position along an axis.
+/// Adds a column that holds a finger's position along an axis.
 void add_position(Columns& columns, const Heading& heading, int column, const Place& place,
                   Diagnostics& diagnostics) {
     const std::string name = heading.stem.substr(0, heading.stem.size() - 2);
@@ -179,12 +179,12 @@ Columns read_header(const std::string& file, const std::string& header, Diagnost
                           key.empty() ? "a column has no name" : "is not a column of a movement",
                           kHeaderRemedy);
     }
-    // after a repeated column, the one that is missing is what the repetition was meant to be
+    // a repeated column was probably meant to be the missing one: only one of the two is reported
     if (!diagnostics.has_errors()) check_complete(columns, place, diagnostics);
     return columns;
 }
 
-/// One line after the other, with their numbers.
+/// Iterates over the lines of a text and counts them.
 class Lines {
   public:
     explicit Lines(std::string_view text) : rest_(text) {}
@@ -208,7 +208,7 @@ Vec3 to_world(const Vec3& p, RecordingAxes axes) {
     return axes == RecordingAxes::y_up ? Vec3(p.x(), -p.z(), p.y()) : p;
 }
 
-/// Reads a line's cells into a frame; false, with errors, when that makes no sense.
+/// Reads a line's cells into a frame; reports errors and returns false if they make no sense.
 bool read_frame(const Columns& columns, const std::vector<std::string>& cells, RecordingAxes axes,
                 const Place& place, Movement::Frame& frame, Diagnostics& problems) {
     bool readable = true;
@@ -245,7 +245,7 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     return readable;
 }
 
-/// Fingers, and the columns by world axis.
+/// Names the movement's fingers, and their columns by world axis.
 void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes) {
     movement.time_column = columns.key(columns.time);
     for (const Columns::Finger& finger : columns.fingers) {

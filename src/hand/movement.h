@@ -1,4 +1,5 @@
-// Recorded finger movements (CSV), as a tracker left them: docs/files.md describes the format.
+// Reads recorded finger movements (CSV) as a tracker exported them; docs/files.md describes the
+// format.
 #pragma once
 
 #include <array>
@@ -10,10 +11,10 @@
 
 namespace dihaptic::hand {
 
-/// How the axes of a recording lie.
+/// Directions of a recording's axes.
 enum class RecordingAxes {
-    world,  ///< x right, y away from the person, z up, as everywhere here
-    y_up,   ///< x right, y up, z toward the person, as motion trackers often have it
+    world,  ///< x right, y away from the person, z up, as everywhere in Dihaptic
+    y_up,   ///< x right, y up, z toward the person, as in many motion trackers
 };
 constexpr auto enum_names(RecordingAxes) {
     return std::array{"world", "y_up"};
@@ -22,30 +23,30 @@ constexpr auto enum_names(RecordingAxes) {
 struct Movement {
     std::string file;
     std::vector<std::string> fingers;
-    /// The file's columns, those of positions by finger and world axis: what messages call a value.
+    /// Column names as in the file, for messages; those of positions by finger and world axis.
     std::string time_column;
     std::vector<std::array<std::string, 3>> columns;
     struct Frame {
-        double time = 0;         ///< as in the file [s]
+        double time = 0;         ///< on the file's clock [s]
         int line = 0;            ///< of the file
-        bool occluded = false;   ///< the tracker said that it had lost a marker
-        std::vector<Vec3> p_WH;  ///< by finger, world axes; NaN where the file has none [m]
+        bool occluded = false;   ///< the tracker reported that it had lost a marker
+        std::vector<Vec3> p_WH;  ///< by finger, world axes; NaN where the file has no value [m]
     };
     std::vector<Frame> frames;
 };
 
-/// A recording keeps to these. Beyond them a time stamp is wrong, or its unit.
+/// Limits of a plausible recording: beyond them a time stamp, or its unit, is wrong.
 constexpr double kLongestGap = 5;         // between two lines [s]
 constexpr double kLongestMovement = 600;  // [s]
 constexpr double kSlowestTracker = 10;    // [Hz]
 constexpr double kFastestTracker = 5000;  // [Hz]
 
-/// Reads a recording. Lines that no reader could make sense of are errors in `diagnostics`, each
-/// with its line and remedy; cells without a number are kept as NaN, for repair.
+/// Reads a recording. Lines that cannot be read are errors in `diagnostics`, each with its line
+/// number and remedy; values that the file marks as missing are kept as NaN, for repair().
 Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics);
 
-/// Keeps the fingers named, in that order. Those that the movement lacks are errors in
-/// `diagnostics`, those that are left over warnings.
+/// Keeps the named fingers, in that order. Each one that the movement lacks is an error in
+/// `diagnostics`; each one of the movement that is not named is a warning.
 void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
                     Diagnostics& diagnostics);
 

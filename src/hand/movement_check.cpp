@@ -13,7 +13,8 @@ std::string unit_of(const std::string& column) {
     return column.substr(column.rfind('_') + 1);
 }
 
-/// How far a finger goes along any axis, the few furthest positions left out: they may be wild.
+/// How far a finger moves along any axis, leaving out the few furthest positions, which may be
+/// wild.
 double typical_extent(const Movement& movement, size_t finger) {
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -37,7 +38,7 @@ double median_step(const std::vector<Movement::Frame>& frames) {
     return *middle;
 }
 
-/// False, with an error, when no tracker records at such a rate.
+/// Reports an error and returns false if no tracker records at the movement's rate.
 bool check_rate(const Movement& movement, Diagnostics& problems) {
     const std::string& key = movement.time_column;
     const std::string unit = unit_of(key);
@@ -63,7 +64,7 @@ bool check_rate(const Movement& movement, Diagnostics& problems) {
     return true;
 }
 
-/// Each line's time is after that of the line before, and not by long.
+/// Checks that each line's time is after that of the line before, and not long after.
 void check_steps(const Movement& movement, Diagnostics& problems) {
     const auto& frames = movement.frames;
     const std::string& key = movement.time_column;

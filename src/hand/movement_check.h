@@ -1,20 +1,22 @@
-// What the values of a recorded movement tell about its units and its markers. What is judged line
-// by line, and bridged, is repair.h's business.
+// Checks the units and the markers of a recorded movement by its values. Faults that can be bridged
+// are judged frame by frame in repair.h.
 #pragma once
 
 #include "hand/movement.h"
 
 namespace dihaptic::hand {
 
-/// Of one file: more are no help.
+/// Errors reported for one file: more would not help its author.
 constexpr size_t kMostErrors = 20;
 
 constexpr const char* kLineRemedy = "Correct it, or delete the line: missing frames are bridged.";
 
-/// Times must rise, at a tracker's rate. A wrong unit is told once, before its consequences.
+/// Checks that times rise, and at a tracker's rate. A wrong unit is reported once, before its
+/// consequences.
 void check_times(const Movement& movement, Diagnostics& problems);
 
-/// A hand that reaches and grasps moves by centimetres to decimetres, and its fingers apart.
+/// Checks that the movement is plausible: a hand that reaches and grasps moves by centimetres to
+/// decimetres, and its fingers are apart.
 void check_plausible(const Movement& movement, Diagnostics& problems);
 
 }  // namespace dihaptic::hand

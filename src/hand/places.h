@@ -1,13 +1,14 @@
-// Where each finger is in the hand, as the spec says or by default.
+// Places each finger in the hand, as the spec says or by default.
 #pragma once
 
 #include "hand/spec.h"
 
 namespace dihaptic::hand {
 
-/// One place for each of `fingers`, in their order; `side` is a unit vector, or zero where the
-/// finger is the hand. Without a word on it, fingers stand on alternate sides along x. Throws Error
-/// when the spec names a finger that there is not, one twice, or one without a side.
+/// One place for each of `fingers`, in their order. `side` is a unit vector, or zero for a finger
+/// that is the whole hand. Fingers that the spec does not place are on alternate sides along x.
+/// Throws Error when the spec names an unknown finger, names one twice, or gives one of several
+/// fingers no side.
 std::vector<FingerPlace> finger_places(const HandSpec& spec,
                                        const std::vector<std::string>& fingers);
 

@@ -8,7 +8,8 @@
 namespace dihaptic::hand {
 namespace {
 
-/// The fingers close, hold and open within this of the quiet stretch.
+/// The grasp phase reaches this far beyond the quiet stretch at either end, so that it includes
+/// closing and opening.
 constexpr double kAround = 0.4;  // [s]
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace dihaptic::hand {
 
 class RecordedDriver final : public Driver {
   public:
-    /// `shift` is added to every position [m]; `fingers` are the scene's, in order. Phases are
+    /// `shift` is added to every position [m]; `fingers` are the scene's, in order. The phases are
     /// reach, grasp and return. Throws Error when the movement lacks one of the fingers.
     RecordedDriver(Path path, const GraspSite& site, const Vec3& shift,
                    const std::vector<std::string>& fingers);

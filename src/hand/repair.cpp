@@ -13,10 +13,10 @@
 namespace dihaptic::hand {
 namespace {
 
-constexpr double kGap = 1.75;  // frames further apart than this many frame times: some are missing
-constexpr size_t kFrozenRun = 5;       // as many equal positions in a row, and then a step: frozen
+constexpr double kGap = 1.75;     // frame times; if two frames are further apart, some are missing
+constexpr size_t kFrozenRun = 5;  // equal positions in a row, then a step: a frozen marker
 constexpr double kFrozenStep = 0.003;  // [m]
-constexpr size_t kWildRun = 5;         // a wild position may last so many frames
+constexpr size_t kWildRun = 5;         // longest run of wild positions [frames]
 
 double frame_time(const Movement& movement) {
     std::vector<double> steps;
@@ -38,7 +38,7 @@ class FingerRepair {
 
     void run(std::vector<Fault>& faults) {
         drop_missing(faults);
-        // wild ones first: a step to one is no sign that the marker had been frozen before it
+        // wild positions first: a step to one is no sign that the marker was frozen before it
         drop_wild(faults);
         drop_frozen(faults);
         widen_jumps(faults);
@@ -58,7 +58,7 @@ class FingerRepair {
         while (i < valid_.size() && !valid_[i]);
         return i;
     }
-    /// The last valid frame before i, or i itself when there is none.
+    /// The last valid frame before i, or i itself if there is none.
     size_t last_valid(size_t i) const {
         for (size_t j = i; j > 0; --j) {
             if (valid_[j - 1]) return j - 1;
@@ -97,7 +97,8 @@ class FingerRepair {
         }
     }
 
-    /// A lost marker repeats its last position; the tracker may or may not say so.
+    /// Drops repetitions of a lost marker's last position; the tracker may or may not report the
+    /// loss.
     void drop_frozen(std::vector<Fault>& faults) {
         for (size_t i = 0; i + 1 < valid_.size();) {
             size_t end = i + 1;
@@ -116,8 +117,8 @@ class FingerRepair {
         }
     }
 
-    /// Positions that no hand could have reached, and that the next frames take back. At the ends
-    /// of the recording there is only one side: the few frames there are wild when all others go
+    /// Drops positions that no hand could have reached and that the next frames take back. At an
+    /// end of the recording only one side can be compared: its few frames are wild if all others go
     /// on elsewhere.
     void drop_wild(std::vector<Fault>& faults) {
         const size_t n = valid_.size();
@@ -136,12 +137,12 @@ class FingerRepair {
             }
         }
     }
-    /// The frame after i from which a hand at `before` could go on; the end when there is none.
+    /// The frame after i at which a hand from `before` could go on, or the end if there is none.
     size_t taken_back(size_t before, size_t i) const {
         size_t last = i;
         size_t back = next_valid(i);
         for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
-            // it must jump back too: what goes on from the new place is a jump
+            // it must jump back, too: a movement that goes on from the new place is a jump
             if (!plausible(last, back) && plausible(before, back)) return back;
             last = back;
             back = next_valid(back);
@@ -156,7 +157,8 @@ class FingerRepair {
                                               valid_.begin() + static_cast<std::ptrdiff_t>(end),
                                               char{1}));
     }
-    /// How many frames, from i on, no implausible step lies between; no more than matter.
+    /// Number of frames from i on without an implausible step between them, counted no further than
+    /// matters.
     size_t together(size_t i) const {
         size_t count = 1;
         for (size_t next = next_valid(i);
@@ -167,7 +169,7 @@ class FingerRepair {
         }
         return count;
     }
-    /// Frames [first, end) are wild; `beside` is a good one next to them.
+    /// Drops the wild frames [first, end); `beside` is a good frame next to them.
     void drop(std::vector<Fault>& faults, size_t first, size_t end, size_t beside) {
         const bool thousandth = at(first).norm() < 2e-3 * at(beside).norm() &&
                                 at(first).norm() > 0.5e-3 * at(beside).norm();
@@ -175,7 +177,7 @@ class FingerRepair {
         report(faults, FaultKind::wild_position, first, end, thousandth);
     }
 
-    /// A step from one place to another: give it time, frame by frame on both sides.
+    /// Gives a step from one place to another more time, by dropping frames on both sides of it.
     void widen_jumps(std::vector<Fault>& faults) {
         for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
             size_t before = last_valid(i);
@@ -206,7 +208,7 @@ class FingerRepair {
     std::vector<char> valid_;
 };
 
-/// Monotone cubic interpolation (Fritsch and Carlson 1980): never overshoots its samples.
+/// Monotone cubic interpolation (Fritsch and Carlson 1980), which never overshoots its samples.
 class MonotoneCubic {
   public:
     MonotoneCubic(std::vector<double> x, std::vector<double> y)
@@ -292,7 +294,7 @@ Path repair(const Movement& movement) {
             throw Error({movement.file, 0}, movement.fingers[f],
                         "fewer than four frames are usable", "Record this movement again.");
         }
-        // what lies between frames that are too far apart is bridged, at the ends too
+        // samples between frames that are too far apart, and at the ends, are bridged
         const auto mark = [&](double from, double to) {
             const auto first = static_cast<size_t>(std::max(0.0, std::ceil(from * Path::kRate)));
             for (size_t s = first; s < samples && static_cast<double>(s) / Path::kRate < to; ++s)

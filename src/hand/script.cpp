@@ -40,7 +40,7 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     }
 }
 
-/// Goes on from where the last segment ends.
+/// Appends a step, which goes on from where the last segment ends.
 void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& fingers) {
     const Segment& last = segments_.back();
     Segment segment;
@@ -88,7 +88,7 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     const Way& way = segment->ways[static_cast<size_t>(finger)];
     const double T = segment->duration;
     const double s = (t - segment->start) / T;
-    // a way that does not start or end at rest has its speed there inside only
+    // a motion that does not start or end at rest has its speed only inside the segment
     const bool inside = segment->steady ? s > 0 && s < 1 : s >= 0 && s < 1;
     const model::MinimumJerk step =
         segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), 1.0} : model::minimum_jerk(s);

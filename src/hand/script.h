@@ -1,9 +1,11 @@
-// A hand that follows a script: aperture, centre and turn change step by step, by minimum jerk.
+// ScriptDriver moves the hand by a script: aperture, centre and turn change step by step, by
+// minimum jerk.
 //
 //     p_WT = c + R (offset + a / 2 side),    R_WT = R
 //
-// Each finger has a centre c, an aperture a and a turn R of its own, all changed alike by the steps
-// that move it: fingers with the same are a hand, and a scene may have several.
+// Each finger has a centre c, an aperture a and a turn R of its own. A step changes those of all
+// the fingers that it moves alike: fingers with equal c, a and R are one hand, and a scene may have
+// several.
 #pragma once
 
 #include "hand/driver.h"
@@ -13,7 +15,7 @@ namespace dihaptic::hand {
 
 class ScriptDriver final : public Driver {
   public:
-    /// `fingers` names the fingers that there are, in order. Throws Error when the script names
+    /// `fingers` are the names of the scene's fingers, in order. Throws Error when the script names
     /// others.
     ScriptDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
@@ -23,12 +25,12 @@ class ScriptDriver final : public Driver {
   private:
     FingerTarget do_target(int finger, double t) const noexcept override;
 
-    /// What one finger's hand does in a step.
+    /// The motion of one finger's hand in a step.
     struct Way {
         double aperture0 = 0, aperture1 = 0;                  // [m]
         Vec3 centre0 = Vec3::Zero(), centre1 = Vec3::Zero();  // [m]
         Vec3 v0 = Vec3::Zero(), v1 = Vec3::Zero();            // of the centre [m/s]
-        Quat R0 = Quat::Identity();                           // turn done before
+        Quat R0 = Quat::Identity();                           // turn at the start of the step
         Vec3 axis = Vec3::UnitX();
         double angle = 0;  // turn in this step [rad]
     };

@@ -1,4 +1,4 @@
-// How the simulated hand is described in scene and experiment files.
+// Describes the simulated hand as it is given in scene and experiment files.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@
 
 namespace dihaptic::hand {
 
-/// What a script may ask for. Beyond, a unit is wrong.
+/// Limits of what a script may ask for; beyond them a unit is wrong.
 constexpr double kLongestScript = 3600;  // [s]
 constexpr double kFarthest = 100;        // [m]
 constexpr double kFastest = 20;          // [m/s]
 constexpr double kMostTurn = 100;        // [rad]
 
-/// Mechanics of one finger: a mass pulled to its equilibrium point by a spring and a damper. The
+/// Mechanics of one finger: a mass that a spring and a damper pull to its equilibrium point. The
 /// spring stiffens with the force that the finger feels, as muscle does.
 struct Impedance {
-    double mass = 0;                 ///< added to the device's [kg]
+    double mass = 0;                 ///< added to the mass of the device [kg]
     double stiffness = 300;          ///< [N/m]
     double damping = 3;              ///< [N*s/m]
     double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
-    double turn_stiffness = 1;       ///< against turning a handle: of a wrist's order [N*m/rad]
-    double turn_damping = 0.02;      ///< critical with the inertia of a stylus [N*m*s/rad]
-    Place place{};                   ///< in the file; the same below
+    double turn_stiffness = 1;   ///< against turning a handle; of the order of a wrist's [N*m/rad]
+    double turn_damping = 0.02;  ///< critical for the inertia of a stylus [N*m*s/rad]
+    Place place{};               ///< where the file gives it; likewise below
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -38,8 +38,8 @@ struct Impedance {
     }
 };
 
-/// Physiological tremor of the equilibrium point: one sine per axis, of a frequency and phase drawn
-/// once from the band, at the same amplitude.
+/// Physiological tremor of the equilibrium point: one sine per axis. All have the same amplitude;
+/// the frequency, drawn from the band, and the phase are drawn once for each.
 struct TremorSpec {
     double amplitude = 0;  ///< per axis [m]
     double low = 8;        ///< band [Hz]
@@ -57,10 +57,10 @@ struct TremorSpec {
 struct FingerPlace {
     std::string name;
     Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
-    Vec3 offset = Vec3::Zero();  ///< added in world axes, and turned with the hand [m]
+    Vec3 offset = Vec3::Zero();  ///< added to the position, in world axes; turns with the hand [m]
     Place place{};
-    std::optional<Vec3> centre{};      ///< of a finger of another hand: where that is [m]
-    std::optional<double> aperture{};  ///< of that hand at the start [m]
+    std::optional<Vec3> centre{};      ///< centre at the start, of a finger of another hand [m]
+    std::optional<double> aperture{};  ///< aperture of that hand at the start [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -73,7 +73,7 @@ struct FingerPlace {
     }
 };
 
-/// One step of a script: fingers go from where the last step left them, by minimum jerk.
+/// One step of a script: fingers move, by minimum jerk, from where the last step left them.
 struct ScriptStep {
     std::string name;
     double duration = 0;  ///< [s]
@@ -84,7 +84,7 @@ struct ScriptStep {
     Vec3 turn = Vec3::Zero();  ///< of the hand about its centre, with the handles that it holds:
                                ///< world axis times angle [rad]
     Vec3 end_velocity = Vec3::Zero();    ///< of the centre; the next step starts with it [m/s]
-    std::vector<std::string> fingers{};  ///< that move, the others stay; empty: all
+    std::vector<std::string> fingers{};  ///< only these move; empty: all
     Place place{};
 
     template <class Visitor>

@@ -1,11 +1,11 @@
-// Watches that the force on a hand does not alternate from tick to tick: no hand and no contact
-// makes it do so, but a spring that is stiffer than the step bears.
+// Chatter detects a force on a hand that alternates from tick to tick. Neither a hand nor a contact
+// makes a force do so, but a spring that is too stiff for the step does.
 //
 //     d = |f - 2 f_old + f_older| / 4
 //
-// is the amplitude of what alternates; a step of f has it for two ticks, a slope never. The force
-// chatters when d has been above kChatter for more than kChattering of the last kChatterTime (a low
-// pass of first order).
+// is the amplitude of the alternating part; a step of f has it for two ticks, a slope never. The
+// force chatters when d has been above kChatter for more than the share kChattering of the last
+// kChatterTime (by a first-order low-pass filter).
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace dihaptic::haptics {
 
-/// An amplitude that is felt as a blow in each tick. Encoder steps of 0.03 mm at 8000 N/m have half
-/// of it [N].
+/// Amplitude that is felt as a blow in each tick [N]. Encoder steps of 0.03 mm at 8000 N/m make
+/// half of it.
 constexpr double kChatter = 0.25;
 constexpr double kChatterTime = 0.03;  // [s]
-constexpr double kChattering = 0.8;    // reached 48 ms after it began
+constexpr double kChattering = 0.8;    // reached 48 ms after the chatter begins
 
 class Chatter {
   public:
-    /// Once a tick of h [s], with the force that the device is told.
+    /// Adds a tick of h [s] with the force sent to the device.
     void add(const Vec3& force, double h) noexcept {
         const double d = (force - 2 * last_ + older_).norm() / 4;
         share_ += std::min(1.0, h / kChatterTime) * ((d > kChatter ? 1 : 0) - share_);
@@ -30,7 +30,7 @@ class Chatter {
         older_ = last_;
         last_ = force;
     }
-    /// Amplitude of a force that chatters, or else 0 [N].
+    /// Amplitude of the force if it chatters, else 0 [N].
     double amplitude() const noexcept { return share_ > kChattering ? amplitude_ : 0; }
 
   private:

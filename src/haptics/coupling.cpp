@@ -5,7 +5,7 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// What the step's contact can bear of it.
+/// The part of the spring's force that the step's contact can bear.
 Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
     const double normal = std::max(0.0, spring.dot(touch.n_W));
     Vec3 tangential = spring - spring.dot(touch.n_W) * touch.n_W;
@@ -49,7 +49,7 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
     const double k = settings_.stiffness;
     const double c = damping_;
     const double folded_mass = mass_ + h * c + h * h * k;
-    // a share of the whole equation: the velocity is the same, what contacts have to stop is less
+    // scales the whole equation: the velocity stays the same, contacts have less mass to stop
     world.set_mass(proxy, onset_.share() * folded_mass);
     world.set_velocity(
         proxy, (mass_ * state.v_WB + h * k * (handle.p_WH - state.X_WB.p) + h * c * handle.v_WH) /
@@ -62,7 +62,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& h
     begin_step(handle, h);
     const double k = settings_.stiffness;
     const double c = damping_;
-    // lighter, no velocity that ends at the handle could pass on what the spring gives
+    // with less mass, no velocity that ends at the handle could pass on the spring's force
     const double mass = std::max(mass_, h * c + h * h * k);
     const Vec3 stretch = handle.p_WH - state.X_WB.p;
     const Vec3 change = stretch / h - state.v_WB;
@@ -70,7 +70,8 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& h
     const double size = change.norm();
     double given = std::min(size, most);
     if (was_touching && size > 0) {
-        // at the end of the step, were the proxy to go on as it goes; a pull takes it off a surface
+        // the force at the end of the step if the proxy kept its velocity; a pull takes it off a
+        // surface
         const Vec3 spring = k * (stretch - h * state.v_WB) + c * (handle.v_WH - state.v_WB);
         given = std::clamp(h / mass * spring.dot(change) / size, -most, given);
     }
@@ -83,8 +84,8 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle
     const dynamics::BodyState& state = world.state(proxy);
     double k = settings_.stiffness;
     if (!was_touching) {
-        // no stiffer than what takes the proxy to the handle in a step or two: beyond, the explicit
-        // spring diverges
+        // no stiffer than what takes the proxy to the handle in one or two steps: beyond that, the
+        // explicit spring diverges
         k = std::max(k,
                      std::min(settings_.free_stiffening * k, 0.5 * settings_.body_mass / (h * h)));
     }

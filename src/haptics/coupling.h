@@ -1,4 +1,4 @@
-// Couplings between a handle and its proxy. README.md has the equations.
+// Couplings connect a handle to its proxy. README.md has the equations.
 #pragma once
 
 #include "dynamics/world.h"
@@ -10,44 +10,44 @@ namespace dihaptic::haptics {
 using dynamics::BodyIndex;
 using dynamics::World;
 
-/// What a device measures of its endpoint, in world axes.
+/// What a device measures at its endpoint, in world axes.
 struct Handle {
     Vec3 p_WH = Vec3::Zero();  ///< [m]
     Vec3 v_WH = Vec3::Zero();  ///< [m/s]
-    /// Turn of the handle from the device's neutral orientation, and its angular velocity [rad/s];
-    /// none where the device does not measure it.
+    /// Rotation of the handle from the device's neutral orientation, and its angular velocity
+    /// [rad/s]; identity and zero if the device does not measure orientation.
     Quat R_WH = Quat::Identity();
     Vec3 w_WH = Vec3::Zero();
 };
 
-/// Whether a device says the same as before.
+/// Whether a device reports the same as before.
 inline bool same(const Handle& a, const Handle& b) noexcept {
     return a.p_WH == b.p_WH && a.v_WH == b.v_WH && a.R_WH.coeffs() == b.R_WH.coeffs() &&
            a.w_WH == b.w_WH;
 }
 
-/// All contacts of a proxy in the last step, taken together.
+/// All contacts of a proxy in the last step, combined.
 struct ProxyTouch {
-    bool touching = false;    ///< something pressed against it
+    bool touching = false;    ///< something pressed against the proxy
     Vec3 n_W = Vec3::Zero();  ///< direction of the summed normal force on the proxy; unit, or zero
     double normal_force = 0;  ///< magnitude of that sum [N]
-    double friction = 0;      ///< coefficient, weighted by normal force
-    Vec3 f_P_W = Vec3::Zero();  ///< whole contact force on the proxy [N]
+    double friction = 0;      ///< coefficient of friction, weighted by normal force
+    Vec3 f_P_W = Vec3::Zero();  ///< total contact force on the proxy [N]
 };
 
-/// Force on the handle, and the energy of the springs that give it.
+/// Force on the handle, and the energy of the springs that exert it.
 struct Pull {
     Vec3 f_H_W = Vec3::Zero();  ///< [N]
     double stored = 0;          ///< [J]
 };
 
-/// What the hand feels of a proxy that is a body: a spring and a damper, as long as it touches
+/// Force on the handle from a proxy that is a body: a spring and a damper, while the proxy touches
 /// something. The couplings below differ in how they move the body.
 class BodyCoupling {
   public:
-    /// Now: nothing in free space, where the spring only moves the proxy's own mass. Between steps
-    /// of the world the handle moves on: the spring then stays within the friction cone of the
-    /// step's contact, and only what acts of it counts as stored.
+    /// The force now: zero in free space, where the spring only moves the proxy's own mass. When
+    /// the handle moves on between steps of the world, the force stays within the friction cone of
+    /// the step's contact, and only the part of the stretch that acts counts as stored energy.
     Pull pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
               const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
@@ -56,7 +56,7 @@ class BodyCoupling {
   protected:
     BodyCoupling(const CouplingSettings& settings, double mass)
         : settings_(settings), mass_(mass), onset_(settings.onset) {}
-    /// The coming step of the world, of h [s].
+    /// Starts the coming step of the world, of h [s].
     void begin_step(const Handle& handle, double h) noexcept;
 
     CouplingSettings settings_;
@@ -68,21 +68,22 @@ class BodyCoupling {
     Handle handle_;  // of the last step
 };
 
-/// The spring holds at the end of the step; any contact solver does the rest.
+/// The spring acts as it will at the end of the step (backward Euler); the contact solver does the
+/// rest.
 class ImplicitCoupling : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg].
     ImplicitCoupling(const CouplingSettings& settings, double mass)
         : BodyCoupling(settings, mass) {}
 
-    /// Folds spring and damper into the proxy's mass and velocity. `h`: the coming step of the
-    /// world [s].
+    /// Folds spring and damper into the proxy's mass and velocity. `h`: duration of the coming step
+    /// of the world [s].
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
 };
 
-/// Before each step the proxy is given the velocity that takes it to the handle in that step, by an
-/// impulse that is bounded: in free space by the largest force that the hand may feel, in touch by
-/// what spring and damper give. The report's idea of 2012.
+/// Before each step the proxy gets the velocity that takes it to the handle within the step, by a
+/// bounded impulse: in free space the bound is the largest force that the hand may feel, in touch
+/// what spring and damper give. Proposed in the report of 2012.
 class VelocityImpulse : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].
@@ -96,8 +97,8 @@ class VelocityImpulse : public BodyCoupling {
     double max_force_;
 };
 
-/// Springs and dampers as explicit forces on both sides, smoothed toward the hand: the 2012 system.
-/// Both forces follow from where proxy and handle are at the tick, before the world steps on.
+/// The 2012 system: springs and dampers as explicit forces on both sides, smoothed toward the hand.
+/// Both forces follow from the positions of proxy and handle at the tick, before the world steps.
 class DualSpring {
   public:
     explicit DualSpring(const CouplingSettings& settings)
@@ -105,13 +106,13 @@ class DualSpring {
 
     void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
                      bool was_touching) noexcept;
-    /// Every tick, before the world steps if it does: takes up the tick's force.
+    /// Takes up the force of a tick; called in every tick, before the world steps if it does.
     void sample(const World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
     Pull pull(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
         return {f_H_W_, onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm()};
     }
-    /// Begins at the handle, where the spring is not stretched.
+    /// Starts with the proxy at the handle, where the spring is not stretched.
     void place() noexcept { f_H_W_.setZero(); }
     Onset& onset() noexcept { return onset_; }
     void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
@@ -119,12 +120,12 @@ class DualSpring {
   private:
     CouplingSettings settings_;
     Onset onset_;
-    Vec3 f_H_W_ = Vec3::Zero();  // smoothed [N]
+    Vec3 f_H_W_ = Vec3::Zero();  // force on the handle, smoothed [N]
 };
 
-/// c, the setting or else its default for a world step of h [N*s/m].
+/// c: the setting, or else its default for a world step of h [N*s/m].
 double damping(const CouplingSettings& settings, double h);
-/// The same of the rotational spring: c_r [N*m*s/rad].
+/// c_r of the rotational spring: the setting, or else its default [N*m*s/rad].
 double turn_damping(const CouplingSettings& settings, double h);
 
 }  // namespace dihaptic::haptics

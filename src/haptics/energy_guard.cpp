@@ -6,19 +6,19 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Of a torque that is held while something turns from A to B [J].
+/// Work of a torque that is held while something turns from A to B [J].
 double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
     if (torque_W == Vec3::Zero()) return 0;
     return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
 }
 
-/// The same of a force and a torque on something that moves as well.
+/// Work of a force and a torque that are held while something moves from A to B [J].
 double work(const Wrench& on_it_W, const Pose& X_WA, const Pose& X_WB) noexcept {
     return on_it_W.force.dot(X_WB.p - X_WA.p) + work(on_it_W.torque, X_WA.R, X_WB.R);
 }
 
-/// Force against a velocity, or torque against an angular one, that takes an excess of energy
-/// within h, by no stronger a damper than may be.
+/// Force against a velocity, or torque against an angular velocity, that takes up an excess of
+/// energy within h, with a damper no stronger than `strongest`.
 Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) noexcept {
     const double speed2 = velocity.squaredNorm();
     if (!(speed2 > 0)) return Vec3::Zero();
@@ -27,7 +27,8 @@ Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) no
 
 }  // namespace
 
-/// A window ends with a step of the world, until which nothing is judged.
+/// Ends a window at the first step of the world after kActiveWindow: nothing is judged before a
+/// step.
 void EnergyGuard::count_windows(bool stepped, double h) noexcept {
     window_ += h;
     if (!stepped || window_ < kActiveWindow) return;
@@ -46,7 +47,8 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
                            work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
     const bool slack = asked_W.is_zero();
-    // what does not act gets nothing, and keeps what it did not give, as far as it stays stretched
+    // a coupling that does not act gets no energy, and keeps what it did not give while it is
+    // stretched
     if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
         for (size_t i = 0; i < generated_.size(); ++i) {
@@ -59,7 +61,7 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     if (started_) {
         const bool was_slack = asked_.is_zero();
         double at_end = work(asked_W, X_WP_, X_WP);
-        // a proxy that comes to touch was moved by nobody's work until then, unless it was hit
+        // a proxy that comes into touch moved without work until then, unless it was hit
         if (was_slack) at_end = std::max(0.0, at_end);
         const double held = was_slack || slack ? at_end : work(asked_, X_WP_, X_WP);
         const double rest = stored - stored_ + to_hand;

@@ -72,7 +72,7 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
 }
 
 void Finger::after_step(World& world, const Handle& handle) noexcept {
-    // apart, a point feels bodies where they are now: in pull()
+    // a point with friction "apart" feels bodies where they are now, in pull()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
 }

@@ -1,5 +1,5 @@
-// One finger in the world: its proxy, and the coupling that ties the proxy to the handle. Every
-// force passes a ForceGuard on its way to the device.
+// Finger is one finger in the world: its proxy, and the coupling that ties the proxy to the handle.
+// Every force passes a ForceGuard on its way to the device.
 #pragma once
 
 #include <span>
@@ -14,47 +14,49 @@ namespace dihaptic::haptics {
 
 class Finger {
   public:
-    /// `finger`'s proxy is body `proxy` of the world. `max_force`: the largest that the hand may
-    /// feel [N].
+    /// The proxy of `finger` is body `proxy` of the world. `max_force`: largest force that the hand
+    /// may feel [N].
     Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
            double max_force);
-    /// The same with a point for a proxy.
+    /// A finger whose proxy is a point.
     Finger(PointProxy point, BodyIndex proxy);
     Finger(SolvedPoint point, BodyIndex proxy);
 
-    /// Lets the proxy turn with the handle; its body in the world can.
+    /// Lets the proxy turn with the handle; its body in the world must be able to turn.
     void turn_with_handle(const RotationalCoupling& coupling) { turn_ = coupling; }
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
-    /// Contacts that the world does not know of: a point's, of the last force().
+    /// Contacts that the world does not know of: those of a point proxy whose friction is "apart",
+    /// as of the last force().
     std::span<const contact::Contact> contacts() const noexcept;
 
-    /// From the coming tick on. The kind is of bodies: a point has one of its own.
+    /// Sets the coupling from the coming tick on. Its kind applies to bodies only: a point has its
+    /// own.
     void retune(const CouplingSettings& coupling) noexcept;
 
-    /// Of a point whose friction is apart from the world's.
+    /// Applies to a point whose friction is "apart"; otherwise the world scales friction.
     void set_friction_scale(double scale) noexcept;
 
-    /// Puts the proxy at the handle, before the first tick.
+    /// Puts the proxy at the handle: before the first tick, and wherever it must start anew.
     void place(World& world, const Handle& handle) noexcept;
 
-    /// Turns a proxy that does not turn with its handle, from where it was placed, with the
-    /// workspaces: by R_WT, which goes on at w_WT [rad/s].
+    /// Turns a proxy that does not turn with its handle along with the workspaces: from where it
+    /// was placed by R_WT, which turns on at w_WT [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
-    /// First in every tick; `step` is the world's [s].
+    /// First call in every tick; `step` is the world's time step [s].
     void begin_tick(const World& world, const Handle& handle, double step) noexcept;
-    /// In ticks in which the world steps: before it does, and after.
+    /// Called before and after the step, in ticks in which the world steps.
     void before_step(World& world, const Handle& handle, double step) noexcept;
     void after_step(World& world, const Handle& handle) noexcept;
 
-    /// Last in every tick: what the coupling wants the handle to feel as it is now [N]. `tick`: its
-    /// length [s].
+    /// Last call in every tick: the force that the coupling wants the handle to feel as it is now
+    /// [N]. `tick`: its duration [s].
     Vec3 force(World& world, const Handle& handle, double tick) noexcept;
-    /// The torque that goes with the last force() [N*m].
+    /// Torque that goes with the last force() [N*m].
     const Vec3& torque() const noexcept { return torque_; }
-    /// Energy in its coupling's springs then [J].
+    /// Energy in the coupling's springs at the last force() [J].
     double stored() const noexcept { return stored_; }
 
   private:
@@ -65,10 +67,10 @@ class Finger {
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
     CouplingKind kind_ = CouplingKind::implicit;
-    double mass_ = 0;       // of a body [kg]
-    double max_force_ = 0;  // that the hand may feel of a body [N]
+    double mass_ = 0;       // of the proxy if it is a body [kg]
+    double max_force_ = 0;  // that the hand may feel from a body [N]
     std::optional<RotationalCoupling> turn_;
-    Quat R_TP_ = Quat::Identity();  // where it was placed
+    Quat R_TP_ = Quat::Identity();  // orientation in which it was placed
     ProxyTouch touch_;
     Vec3 torque_ = Vec3::Zero();
     double stored_ = 0;

@@ -1,9 +1,10 @@
-// Between what a finger's coupling wants and what its device is told, in every tick:
+// ForceGuard stands between the force that a finger's coupling wants and the force that its device
+// is sent, in every tick:
 //
 //     energy guard -> workspace wall -> share of soft start and dead-man switch -> Limiter
 //
-// The first acts in the world, the others in axes that stand still with the device: where the
-// workspace turns (servo/workspace_turn.h), those of the world without that turn.
+// The energy guard acts in the world; the others act in axes that are fixed to the device: where
+// the workspace turns (servo/workspace_turn.h), in those of the world without the turn.
 #pragma once
 
 #include <limits>
@@ -15,17 +16,17 @@
 
 namespace dihaptic::haptics {
 
-/// What a device can do, for its limits: in the world's measure where its movement is scaled.
+/// Capabilities of a device, for its limits; if its movement is scaled, in the world's measure.
 struct DeviceLimits {
     double peak_force;                      ///< [N]
     double continuous_force;                ///< that it can hold for ever; infinite: not known [N]
     std::optional<WorkspaceBox> workspace;  ///< that the handle is kept in
-    double peak_torque = 0;                 ///< 0: it renders none [N*m]
+    double peak_torque = 0;                 ///< 0: it renders no torque [N*m]
     double continuous_torque = std::numeric_limits<double>::infinity();  ///< [N*m]
-    double scale = 1;  ///< forces and lengths here over those of the hand
+    double scale = 1;  ///< of forces and lengths here over those of the hand
 };
 
-/// What the guard had to do: see also LimitFlags and EnergyFlags.
+/// What the guard had to do; see also LimitFlags and EnergyFlags.
 enum GuardFlags : unsigned {
     kPushedInward = 1u << 16,  ///< the handle was pushed back into the workspace
     kSoftStarted = 1u << 17,   ///< the force was still rising
@@ -35,28 +36,28 @@ enum GuardFlags : unsigned {
 
 class ForceGuard {
   public:
-    /// `tick` [s].
+    /// `tick`: duration of a tick [s].
     ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick);
 
-    /// What the handle is to feel of its coupling, for what that wants. `X_WP`: its proxy after the
-    /// tick's step; `stored`: energy in the coupling's springs [J]; `stepped`: the world did in
-    /// this tick. No torque where the device renders none.
+    /// Wrench that the handle is to feel from its coupling, which asks for `asked_W`. `X_WP`: its
+    /// proxy after the tick's step; `stored`: energy in the coupling's springs [J]; `stepped`:
+    /// whether the world stepped in this tick. The torque is zero if the device renders none.
     Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
                  bool stepped, unsigned& flags) noexcept;
-    /// And of the wall [N].
+    /// Force of the workspace wall on the handle [N].
     Vec3 push(const Handle& handle, unsigned& flags) const noexcept;
-    /// The part of both that the device may be told. `allowed`: by the dead-man switch, without
-    /// which it is zero at once; `share`: of SoftStart.
+    /// The part of both together that the device may be sent. `allowed`: by the dead-man switch,
+    /// without which it is zero at once; `share`: that of SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept;
-    /// Zero was sent in place of what limit() gave: force rises again from there.
+    /// Notes that zero was sent instead of the result of limit(): force rises again from there.
     void drop() noexcept;
-    /// After a pause: force begins at zero, and what the coupling generated before is forgotten.
+    /// Begins anew after a pause: force begins at zero, and energy generated before is forgotten.
     void restart() noexcept;
-    /// Energy that the coupling has gone on feeding into the hand, EnergyGuard::feeding() [J].
+    /// Energy that the coupling keeps feeding into the hand: EnergyGuard::feeding() [J].
     double feeding() const { return energy_.feeding(); }
-    /// Amplitude of a force that alternates from tick to tick, Chatter::amplitude() [N].
+    /// Amplitude of a force that alternates from tick to tick: Chatter::amplitude() [N].
     double chatter() const { return chatter_.amplitude(); }
-    /// Energy that the coupling generated, as EnergyGuard counts it [J].
+    /// Energy that the coupling generated, by EnergyGuard::generated() [J].
     double generated() const { return energy_.generated(); }
 
   private:

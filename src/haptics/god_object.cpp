@@ -6,15 +6,15 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// A point this near to a surface is on it, after solvers as well [m].
+/// A point this near to a surface is on it; leaves room for solvers' errors [m].
 constexpr double kTouching = 1e-6;
-/// Further than so many times of how deep it is in surfaces, a point is not moved out of them after
-/// a step: it would slip out between two that the step pinches it with.
+/// After a step, a point is not moved out of surfaces by more than this many times its depth in
+/// them: it would slip out between two bodies that pinch it.
 constexpr double kMostSlip = 10;
-/// A way that need not be gone [m].
+/// A way this short is not taken [m].
 constexpr double kNoWay = 1e-10;
 /// Moves in a tick. A few are usual, some dozens where a round body is pressed nearly to its
-/// middle; what is left of the way is gone in the next tick.
+/// centre; the rest of the way is left to the next tick.
 constexpr int kMostMoves = 64;
 
 }  // namespace
@@ -56,7 +56,7 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     leave_insides();
 }
 
-/// A body is left when all of its parts are.
+/// A body is left once the point is outside all of its parts.
 void GodObject::leave_insides() noexcept {
     for (size_t i = 0; i < parts_.size();) {
         const size_t body = parts_[i].body;
@@ -89,7 +89,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
     const size_t on = met_count_;
-    // the rest is found by going there, and coming back
+    // the other obstacles are found by going there and coming back
     const Vec3 p = p_;
     push_out(p, coming_);
     count_ = 0;
@@ -104,7 +104,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         const Vec3 p_S = in_surface(out.surface, p_);
         out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
         out.gap = surface.distance(out.face, p_S);
-        // behind a face that it is not on, it is met on a way around: later
+        // a point that is behind a face and not on it meets it on a way around: later
         if (i < on || out.gap >= -kTouching) met_[kept++] = out;
     }
     met_count_ = kept;
@@ -157,7 +157,8 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (const PointContact& c : contacts()) {
-        // without friction a body takes nothing along; what it pushes away comes next
+        // without friction a body takes nothing along; it may still push the point, which comes
+        // next
         const double w = friction(c.body) * c.depth;
         sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
@@ -165,14 +166,15 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     return weight > 0 ? Vec3(p_ + sum / weight) : p_;
 }
 
-/// X_WS_ goes from the last tick's poses to this one's. Returns how deep the point was in what it
-/// was pushed out of [m].
+/// Moves the surfaces from the last tick's poses to this tick's, and the point out of them. Returns
+/// the point's depth in what it was pushed out of [m].
 double GodObject::push_out(const Vec3& start,
                            std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
     std::array<size_t, kMostHalfSpaces> surface_of{};
-    // a surface whose face the point already obeys cannot be entered again: each adds one at most
+    // a surface whose face the point obeys cannot be entered again: each adds at most one
+    // constraint
     for (bool found = true; found && walls.count < kMostHalfSpaces;) {
         found = false;
         for (size_t i = 0; i < parts_.size() && walls.count < kMostHalfSpaces; ++i) {
@@ -195,7 +197,7 @@ double GodObject::push_out(const Vec3& start,
             }
             if (face < 0) continue;
             const Vec3 n = surface.normal(face, at);
-            // the tangent plane at the entry, seen from where the point was carried
+            // the tangent plane at the entry, relative to where the point was carried
             const double below = surface.distance(face, at) + n.dot(after - at);
             const Vec3 n_W = X_WS.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
@@ -212,7 +214,7 @@ double GodObject::push_out(const Vec3& start,
                : *std::max_element(bounds, bounds + static_cast<std::ptrdiff_t>(walls.count));
 }
 
-/// No path goes further from the handle than it starts: bodies beyond play no part.
+/// Collects the surfaces within reach: no path leads further from the handle than it starts.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
@@ -241,7 +243,8 @@ void GodObject::refresh_normals() noexcept {
     }
 }
 
-/// The way toward the handle that no contact forbids; what each of them forbids is its depth.
+/// The way toward the handle that the contacts leave free; sets each contact's depth to what it
+/// blocks.
 Vec3 GodObject::way_to(const Vec3& p_WH) noexcept {
     refresh_normals();
     HalfSpaces walls;
@@ -257,9 +260,9 @@ double GodObject::friction_depth() const noexcept {
     return sum;
 }
 
-/// Along a round face of radius r, with the handle at depth l, the nearest place is further by
-/// 1 / (1 - l / r) than the tangent says: Newton's step for the distance. At most twice as far,
-/// since beyond a path could lead away from the handle.
+/// Along a round face of radius r, with the handle at depth l, the nearest position is further than
+/// the tangent gives by 1 / (1 - l / r), as Newton's step for the distance. The factor is limited
+/// to two, beyond which a path could lead away from the handle.
 Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     if (count_ != 1) return way;
     const PointContact& c = contacts_[0];
@@ -280,9 +283,9 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
         held_ = left;
         const double size = left.norm();
         const double grip = rubs ? friction_depth() : 0;
-        // it starts to slide beyond static friction, and goes on as far as dynamic friction lets it
+        // sliding starts beyond static friction and ends where dynamic friction holds
         const double rest = (sliding_ ? sliding_ratio_ : 1.0) * grip;
-        // out of moves, it still has to come down on what it was lifted off
+        // out of moves, the point must still come down on what it was lifted off
         const bool tired = move >= kMostMoves && (count_ > 0 || move >= kMostMoves + 8);
         if (size <= rest + kNoWay || tired) break;
         Vec3 way = left;
@@ -333,7 +336,7 @@ GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     return out;
 }
 
-/// What does not hold it, or lies behind it after the move.
+/// Drops contacts that do not hold the point, or that it has left with this move.
 void GodObject::leave_behind(const Event& event) noexcept {
     for (size_t i = count_; i-- > 0;) {
         const PointContact& c = contacts_[i];
@@ -343,7 +346,7 @@ void GodObject::leave_behind(const Event& event) noexcept {
     }
 }
 
-/// Over the next face, unless the handle is outside of it.
+/// Continues a contact over the next face, unless the handle is outside that face.
 void GodObject::go_past_edge(const PointContact& next, const Vec3& p_WH) noexcept {
     const auto c =
         std::find_if(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(count_),

@@ -1,10 +1,10 @@
-// The point nearest to v that obeys a few constraints n_i . x >= b_i:
+// HalfSpaces finds the point nearest to v that satisfies a few constraints n_i . x >= b_i:
 //
 //     minimise |x - v|^2 / 2    subject to    n_i . x >= b_i
 //
 // by its optimality conditions x = v + sum l_i n_i, l_i >= 0, l_i (n_i . x - b_i) = 0 (Zilles and
-// Salisbury 1995). In space at most three constraints carry the solution, so all sets of up to
-// three are tried, the smallest first: exact, and bounded work.
+// Salisbury 1995). In space at most three constraints determine the solution, so all sets of up to
+// three are tried, the smallest first: exact, with bounded work.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct HalfSpaceSet {
     std::array<size_t, 3> index{};
     size_t size = 0;
 
-    /// All of them are among the first `count`.
+    /// Whether all of them are among the first `count`.
     constexpr bool within(size_t count) const noexcept {
         return size == 0 || index[size - 1] < count;
     }
@@ -43,7 +43,7 @@ constexpr auto kHalfSpaceSets = [] {
 struct HalfSpaces {
     std::array<Vec3, kMostHalfSpaces> n;  // unit
     std::array<double, kMostHalfSpaces> b{};
-    std::array<double, kMostHalfSpaces> multiplier{};  // l, of the last nearest()
+    std::array<double, kMostHalfSpaces> multiplier{};  // l of the last nearest()
     size_t count = 0;
 
     void add(const Vec3& normal, double bound = 0) noexcept {
@@ -51,7 +51,8 @@ struct HalfSpaces {
         b[count++] = bound;
     }
 
-    /// x, and the multipliers. When nothing obeys all constraints: what misses them least.
+    /// x; sets the multipliers. If no point satisfies all constraints, the one that violates them
+    /// least.
     Vec3 nearest(const Vec3& v) noexcept {
         const double slack = 1e-13 + 1e-12 * v.norm();
         double least_miss = std::numeric_limits<double>::infinity();
@@ -75,8 +76,9 @@ struct HalfSpaces {
     }
 
   private:
-    /// Moves x to the nearest place on all of a set's boundaries, by the multipliers l. False: they
-    /// pull, or the normals are as good as dependent, so that a smaller set has the answer.
+    /// Moves x to the nearest position on all boundaries of a set, and sets the multipliers l.
+    /// False if a multiplier is negative or the normals are nearly dependent: a smaller set then
+    /// has the solution.
     bool meet(const HalfSpaceSet& set, Vec3& x, Vec3& l) const noexcept {
         // Gram matrix of the set's normals, padded by ones
         Mat3 gram = Mat3::Identity();

@@ -5,9 +5,9 @@
 namespace dihaptic::haptics {
 namespace {
 
-// A damper of more than m / T takes more than a handle's momentum in a period T. As a share of the
-// stiffness that is held: m / (2 kHeldShare b) with 75 g and 3 N*s/m, and so with a gimbal's
-// inertia.
+// A damper of more than m / T takes away more than a handle's momentum in a period T. As a multiple
+// of the stiffness held, its limit is m / (2 kHeldShare b), with 75 g and 3 N*s/m, and likewise
+// with a gimbal's inertia.
 constexpr double kDamperTime = 0.075 / (2 * kHeldShare * 3);
 constexpr double kTurnDamperTime = 1e-4 / (2 * kHeldShare * 0.02);
 
@@ -21,7 +21,7 @@ CouplingSettings softened(CouplingSettings asked, double b, double lateness, dou
     if (asked.damping) asked.damping = std::min(*asked.damping, kDamperTime * k);
     if (asked.turn_damping)
         asked.turn_damping = std::min(*asked.turn_damping, kTurnDamperTime * kTurnHeld * k);
-    // it delays by ticks, which are longer now: what it is to smooth is over in one
+    // smoothing delays by ticks, which are longer now: limit it to about one late tick
     asked.smoothing = std::max(asked.smoothing, lateness / (lateness + tick));
     return asked;
 }

@@ -1,15 +1,15 @@
-// What a loop may render whose ticks come late: how stiff, and how fast a force may rise.
+// Limits what a loop may render whose ticks come late: how stiff, and how fast a force may rise.
 //
-// A spring k and its damper k h / 2, held from a tick to the next one T_i later while the handle
-// moves at v, give it energy that nobody put in, k v^2 T_i (T_i - h) / 2: the damper takes the hold
-// of a tick h that is in time, and lateness is what remains. A handle and a hand of damping b take
-// b v^2 T_i. So over a while the loop gives out nothing as long as
+// A spring k and its damper k h / 2, held from one tick to the next a time T_i later while the
+// handle moves at v, give the handle energy that nobody put in, k v^2 T_i (T_i - h) / 2: the damper
+// makes up for the hold of a tick that is in time, h, and not for lateness. A handle and a hand of
+// damping b take up b v^2 T_i. So over some time the loop gives out no energy as long as
 //
 //     k <= 2 b / L,        L = sum T_i (T_i - h) / sum T_i,
 //
-// L being the mean lateness, each interval counted by its length (servo/lateness.h measures it).
-// README.md compares this with where a sampled loop really begins to shake, and so takes kHeldShare
-// of it.
+// where L is the mean lateness, each interval weighted by its duration (servo/lateness.h measures
+// it). README.md compares this with where a sampled loop really begins to shake, which is why only
+// kHeldShare of it is used.
 #pragma once
 
 #include <limits>
@@ -19,37 +19,37 @@
 
 namespace dihaptic::haptics {
 
-/// Damping of handle and hand where nobody knows better: of a hand that holds loosely [N*s/m].
+/// Damping of handle and hand if nothing better is known: of a hand that holds loosely [N*s/m].
 constexpr double kLooseDamping = 1;
-/// Of 2 b / L, which loops with the mass of a handle do not quite hold.
+/// Share of 2 b / L that is used: loops with the mass of a handle do not quite hold all of it.
 constexpr double kHeldShare = 0.7;
-/// A loop that holds less than this renders nothing that is worth its force [N/m].
+/// A loop that can hold only less than this renders nothing worth its force [N/m].
 constexpr double kLeastHeld = 100;
 
-/// Stiffness that a loop holds which comes late by L [s], with damping b [N*s/m] of handle and
-/// hand; infinite when it is in time [N/m].
+/// Stiffness that a loop with mean lateness L [s] can hold, with damping b of handle and hand
+/// [N*s/m]; infinite if the loop is in time [N/m].
 inline double held_stiffness(double b, double lateness) noexcept {
     return lateness > 0 ? kHeldShare * model::passive_stiffness(b, lateness)
                         : std::numeric_limits<double>::infinity();
 }
 
-/// No more of each than is held: what is asked for already stays as it is, so that this done twice
-/// is the same as once. `tick` [s].
+/// The settings reduced to what the loop can hold; values within that are unchanged, so that
+/// softening twice is the same as once. `tick` [s].
 CouplingSettings softened(CouplingSettings asked, double b, double lateness, double tick) noexcept;
 
-/// The part of a force that may follow on `last` after the handle `moved`: its rise is that of a
-/// spring of stiffness k, and no more than `creep` where the handle rests. Falling is free. Where a
-/// stiffer spring had gone on rising, in late ticks each force is farther off than the one before;
-/// this leaves what is held at rest as it is. The same for a torque, and a turn.
+/// The part of a force that may follow on `last` after the handle `moved`: it may rise as that of a
+/// spring of stiffness k would, plus `creep`, and may fall freely. A stiffer spring would go on
+/// rising in late ticks, each force further from the one before; a force held at rest stays as it
+/// is. Also for a torque and a rotation.
 Vec3 bound_rise(const Vec3& asked, const Vec3& last, const Vec3& moved, double k,
                 double creep) noexcept;
 
-/// Of bound_rise(): so fast the spring's other end may follow. Faster, it would feed a hand that
-/// swings [m/s]; as turning [rad/s].
+/// For bound_rise(): speed at which the spring's other end may follow; if it were faster, it would
+/// feed a swinging hand [m/s], and for rotations [rad/s].
 constexpr double kCreep = 0.2e-3;
 constexpr double kTurnCreep = 4e-3;
-/// Held stiffness against turning, as a share of that against moving: what a hand's two dampings
-/// are (0.02 N*m*s/rad and 3 N*s/m) [m^2].
+/// Rotational stiffness that can be held, relative to the translational: the ratio of a hand's two
+/// dampings (0.02 N*m*s/rad and 3 N*s/m) [m^2].
 constexpr double kTurnHeld = 0.02 / 3;
 
 }  // namespace dihaptic::haptics

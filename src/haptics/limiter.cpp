@@ -9,7 +9,7 @@ namespace dihaptic::haptics {
 Vec3 Limiter::limit(const Vec3& asked, double h, unsigned& flags) noexcept {
     if (!asked.allFinite()) faulted_ = true;
     if (faulted_) {
-        // straight to zero: a fault is the one case in which force may drop faster than the limit
+        // straight to zero: only in a fault may force drop faster than the limit
         flags |= kNotFinite;
         last_.setZero();
         return last_;

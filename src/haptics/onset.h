@@ -1,8 +1,7 @@
-// The soft first touch: proxy, spring and damper together are rendered as a share s of what they
-// are set to. s grows from kFirstShare to 1 over the onset's time while the proxy touches
-// something, and falls back as fast while it does not. The force is s times a spring that has just
-// begun to be stretched, so that it has no step: not on touch, nor on leaving, nor on touching
-// again.
+// Onset makes the first touch soft: proxy, spring and damper together are rendered at a share s of
+// their settings. s grows from kFirstShare to 1 over the onset's time while the proxy touches
+// something, and falls back as fast while it does not. The force is s times that of a spring whose
+// stretch has just begun, so it has no step: not on touching, leaving or touching again.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +15,9 @@ class Onset {
     /// `time`: from first touch to full stiffness [s]; 0: at once.
     explicit Onset(double time) : time_(time), share_(time > 0 ? kFirstShare : 1) {}
 
-    /// s of this tick, 0 to 1.
+    /// The share s in this tick, 0 to 1.
     double share() const noexcept { return share_; }
-    /// Last in a tick of h [s].
+    /// Last call in a tick of h [s].
     void advance(bool touching, double h) noexcept {
         if (time_ <= 0) return;
         const double way = (1 - kFirstShare) * h / time_;

@@ -43,7 +43,7 @@ Pull PointProxy::render(World& world, const Handle& handle, double h, double ste
     Vec3 f_H_W = Vec3::Zero();
     for (const contact::Contact& c : contacts()) {
         f_H_W += c.f_B_W;
-        // over all ticks of a step of the world this makes their mean
+        // summed over all ticks in a step of the world, this is their mean
         world.apply_at(c.a, -c.f_B_W * (h / step), p_WP);
     }
     for (const contact::Contact& c : contacts()) {
@@ -53,13 +53,13 @@ Pull PointProxy::render(World& world, const Handle& handle, double h, double ste
     return {f_H_W, stored(handle)};
 }
 
-/// In the spring to the point where it is now [J].
+/// Energy of the spring to the point where it is now [J].
 double PointProxy::stored(const Handle& handle) const noexcept {
     return onset_.share() * coupling_.stiffness / 2 *
            (point_.position() - handle.p_WH).squaredNorm();
 }
 
-/// Of what the point rests on, there.
+/// Velocity at the point of the surfaces that it rests on, weighted by depth.
 Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
     Vec3 sum = Vec3::Zero();
     double weight = 0;
@@ -71,18 +71,18 @@ Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
     return sum / weight;
 }
 
-/// Into contacts, each with its part of the force on the handle.
+/// Resolves a force into contacts, each with its part of the force on the handle.
 void PointProxy::resolve(const Vec3& f_W) noexcept {
     HalfSpaces walls;
     for (const PointContact& c : point_.contacts()) walls.add(c.n_W);
-    // what surfaces cannot take of the handle's pull at them is what friction has to
+    // what the surfaces cannot take of the handle's pull is left to friction
     Vec3 along = -walls.nearest(-f_W);
     double grip = 0;
     const auto touched = point_.contacts();
     for (size_t i = 0; i < touched.size(); ++i)
         grip += point_.friction(touched[i].body) * walls.multiplier[i];
     if (point_.sliding()) {
-        // Coulomb's law: its size is friction's, whatever the spring and the damper say
+        // Coulomb's law: the size is that of friction, whatever spring and damper give
         const double size = point_.held().norm();
         along = size > 0 ? Vec3(-point_.sliding_ratio() * grip / size * point_.held())
                          : Vec3(Vec3::Zero());

@@ -1,13 +1,13 @@
-// The point proxy: a point kept on surfaces (god_object.h), a spring and a damper from the handle
-// to it, and the reaction on what it touches. This is rendering as OpenHaptics' HL did it, friction
-// included: outside the dynamics, which feel the reaction in their next step.
+// PointProxy is a point kept on surfaces (god_object.h), with a spring and a damper from the handle
+// to it, and the reaction on what it touches. It renders as OpenHaptics' HL did, friction included:
+// outside the dynamics, which feel the reaction in their next step.
 //
-//     f = k (p_P - p_H) + c (v_S - v_H)      v_S: of the surfaces at P, by how hard each is pressed
+//     f = k (p_P - p_H) + c (v_S - v_H)      v_S: of the surfaces at P, weighted by pressure
 //
-// is resolved into what each surface can give: N_i along its normal, at least 0, and the rest along
-// the surfaces, T. While the point rests T is at most sum mu_i N_i; while it slides T is r times
-// that, toward where the point was left behind. Damping acts on the approach to surfaces and on
-// sticking only: it neither pulls nor makes a smooth surface viscous.
+// is resolved into what each surface can give: N_i along its normal, at least 0, and the rest T
+// along the surfaces. While the point rests, T is at most sum mu_i N_i; while it slides, T is r
+// times that, toward where the point stayed behind. Damping acts only on the approach to surfaces
+// and on sticking: it neither pulls nor makes a smooth surface viscous.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -17,17 +17,18 @@ namespace dihaptic::haptics {
 
 class PointProxy {
   public:
-    /// The finger `finger` of the scene; `body` stands for it in the world.
+    /// The proxy of the scene's finger `finger`; `body` represents it in the world.
     PointProxy(const scene::Scene& scene, size_t finger, BodyIndex body,
                const CouplingSettings& coupling, const ProxySettings& settings);
 
-    /// Puts it somewhere, before the first tick.
+    /// Puts the point somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
-    /// One tick h [s] of a world that steps by `step` [s]: moves the point, gives each body that it
-    /// touches its share of the reaction of the coming step, and returns the pull on the handle.
+    /// Does one tick of h [s] in a world with a time step of `step` [s]: moves the point, applies
+    /// to each body that it touches its share of the reaction in the coming step, and returns the
+    /// pull on the handle.
     Pull render(World& world, const Handle& handle, double h, double step) noexcept;
 
-    /// Of the last tick, from body to point.
+    /// Contacts of the last tick, from body to point.
     std::span<const contact::Contact> contacts() const noexcept {
         return {contacts_.data(), count_};
     }

@@ -9,19 +9,20 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Numbers, and an orientation that is one.
+/// Whether all values are numbers, and the orientation is one.
 bool is_sound(const Handle& read) noexcept {
     constexpr double kUnit = 1e-3;
     return read.p_WH.allFinite() && read.v_WH.allFinite() && read.w_WH.allFinite() &&
            std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
 }
 
-/// Of a handle that was at `last` so long ago [s]; 0: it was not seen before.
+/// Judges a reading of a handle that was at `last` a time `elapsed` ago [s]; 0: it was not seen
+/// before.
 void judge_motion(const Handle& read, const Handle& last, double elapsed, double max_speed,
                   Fault& fault) noexcept {
     double speed = read.v_WH.norm();
     if (elapsed > 0) speed = std::max(speed, (read.p_WH - last.p_WH).norm() / elapsed);
-    // written so that a speed which overflowed to infinity, or to NaN, fails too
+    // written so that a speed that is infinite or NaN fails, too
     if (!(speed <= max_speed)) {
         fault.kind = FaultKind::too_fast;
         fault.value = speed;

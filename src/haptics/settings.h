@@ -1,4 +1,4 @@
-// What an experiment may choose about haptic rendering.
+// The settings of haptic rendering that an experiment may choose.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace dihaptic::haptics {
 
-/// The stiffest admittance displays render some 5e4 N/m and 1e3 N*s/m; no hand is asked to bear
-/// more than a kilonewton.
+/// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
+/// is asked to bear more than a kilonewton.
 constexpr double kMostStiffness = 1e5;  // [N/m]
 constexpr double kMostDamping = 1000;   // [N*s/m]
 constexpr double kMostForce = 1000;     // [N]
@@ -22,7 +22,7 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
-/// What may change while a session runs.
+/// Coupling settings that may change while a session runs.
 struct Tuning {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 0;           ///< k [N/m]
@@ -32,21 +32,21 @@ struct Tuning {
     bool operator==(const Tuning&) const = default;
 };
 
-/// How a handle and its proxy pull at each other; equations in README.md.
+/// How a handle and its proxy pull at each other; README.md has the equations.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
     std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
-    /// The two as shares of what the devices render calmly; unset, once that is known and they are
-    /// in N/m and N*s/m.
+    /// Stiffness and damping as shares of what the devices render calmly. They become N/m and
+    /// N*s/m, and are reset, once that is known.
     std::optional<double> stiffness_share;
     std::optional<double> damping_share;
-    double turn_stiffness = 1;           ///< k_r, where the device measures orientation [N*m/rad]
+    double turn_stiffness = 1;           ///< k_r, if the device measures orientation [N*m/rad]
     std::optional<double> turn_damping;  ///< c_r [N*m*s/rad]; unset: k_r h / 2
-    double onset = 0;  ///< from first touch to full stiffness and damping; 0: at once [s]
+    double onset = 0;  ///< time from first touch to full stiffness and damping; 0: at once [s]
 
     // dual spring only
-    double body_mass = 0.02;  ///< of the proxy, in place of its own: an explicit spring diverges
+    double body_mass = 0.02;  ///< of the proxy, instead of its own: an explicit spring diverges
                               ///< above about m / h^2 [kg]
     double body_damping_along = 2;   ///< c_b,par: along the line from handle to proxy [N*s/m]
     double body_damping_across = 2;  ///< c_b,perp: across it [N*s/m]
@@ -87,8 +87,8 @@ struct CouplingSettings {
     }
 
   private:
-    /// A value and its share are two spellings of one setting: the later file's counts, and a file
-    /// has one of them.
+    /// A value and its share are two ways to give one setting: the later file's counts, and a file
+    /// may have only one of them.
     template <class Reader>
     static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
                            std::optional<double>& share) {
@@ -105,22 +105,22 @@ struct CouplingSettings {
 
 using scene::ProxyKind;
 
-/// Where a point's friction is computed: in the step of the world, with all that it acts on, or
-/// outside of it, as OpenHaptics' HL did.
+/// Where a point's friction is computed: together with all that it acts on in the step of the
+/// world, or apart from it, as OpenHaptics' HL did.
 enum class PointFriction { together, apart };
 constexpr auto enum_names(PointFriction) {
     return std::array{"together", "apart"};
 }
 
-/// What fingers are in the world.
+/// How fingers are represented in the world.
 struct ProxySettings {
-    ProxyKind kind = ProxyKind::rigid;  ///< of fingers that the scene gives none of their own
+    ProxyKind kind = ProxyKind::rigid;  ///< of fingers for which the scene gives none
     PointFriction friction = PointFriction::together;  ///< point
-    double sliding_friction = 1;  ///< point: dynamic friction, as a share of static friction
-    /// Point: a body that is pressed harder yields, and is not felt again until the point has left
-    /// it [N]. Unset: none does.
+    double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
+    /// Point: a body that is pressed harder than this yields, and is not felt again until the point
+    /// has left it [N]. Unset: no body yields.
     std::optional<double> popthrough;
-    bool changeable = false;  ///< the kind may change while a session runs: a window's wish
+    bool changeable = false;  ///< the kind may change while a session runs, as the user wishes
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -139,42 +139,44 @@ constexpr auto enum_names(EnergyGuardMode) {
     return std::array{"off", "warn", "act"};
 }
 
-/// In what time any force has fallen to zero when nothing asks for it any more: a slower slew limit
-/// would go on pushing a hand that has left everything for longer than it takes to notice [s]. The
-/// Limiter sees to it.
+/// Time within which any force falls to zero when nothing asks for it any more; the Limiter ensures
+/// it. A slower slew limit would go on pushing a hand that has left everything for longer than it
+/// takes to notice [s].
 constexpr double kLongestFall = 0.1;
-/// What brings a Premium's 8.5 N down in that time, and the sigma.7's 0.4 N*m.
+/// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero in that time.
 constexpr double kLeastForceRate = 85;  // [N/s]
 constexpr double kLeastTorqueRate = 4;  // [N*m/s]
 
-/// What no force may exceed, whatever computed it, and what switches force off.
+/// Limits on every force, whatever computed it, and conditions that switch force off.
 struct SafetySettings {
     std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
-    double max_force_rate = 3000;      ///< change of force, magnitude [N/s]
+    double max_force_rate = 3000;      ///< magnitude of the change of force [N/s]
     std::optional<double> max_torque;  ///< magnitude [N*m]; unset: the device's peak torque
     double max_torque_rate = 150;      ///< change of torque: of that force at 5 cm [N*m/s]
     double max_speed = 10;             ///< of a handle; a hand that throws reaches a few m/s [m/s]
-    /// From one tick to the next, longer than any tick: so long a force may be held [s].
+    /// Longest time from one tick to the next, during which a force is held; longer than any tick
+    /// [s].
     double max_pause = 0.04;
-    /// Of a tick, after when it was due; unset: only `max_pause` counts [s].
+    /// Latest start of a tick after it was due; unset: only `max_pause` counts [s].
     std::optional<double> max_late;
-    /// Of handle and hand, that the stiffness is judged by which a late loop holds; unset: what the
-    /// devices tell, or that of a loose hand [N*s/m].
+    /// Damping of handle and hand, from which the stiffness that a late loop can hold follows;
+    /// unset: what the devices state, or that of a loose hand [N*s/m].
     std::optional<double> hand_damping;
-    /// In which the device's motors warm, and cool: of the order of a small motor's winding [s].
+    /// Time constant with which the device's motors warm and cool: of the order of a small motor's
+    /// winding [s].
     double heating_time = 10;
-    double workspace_stiffness = 500;  ///< of the wall where a device's reach ends; 0: none [N/m]
-    double soft_start = 0.5;           ///< in which force comes on, where there is one [s]
-    std::string dead_man_finger;       ///< whose device has the dead-man switch; empty: none
-    int dead_man_button = 0;           ///< which of its buttons
+    double workspace_stiffness = 500;  ///< of the wall at the end of the reach; 0: no wall [N/m]
+    double soft_start = 0.5;           ///< time over which force comes on after a start [s]
+    std::string dead_man_finger;  ///< finger whose device has the dead-man switch; empty: no switch
+    int dead_man_button = 0;      ///< index of the switch among the device's buttons
     EnergyGuardMode energy_guard = EnergyGuardMode::warn;
 
-    /// Magnitude limit with a device of so much peak force, which is `scale` times what the hand
-    /// gets of it [N].
+    /// Limit of the force's magnitude for a device of this peak force, both `scale` times as large
+    /// as what the hand feels of them [N].
     double largest_force(double peak, double scale = 1) const {
         return max_force ? std::min(*max_force * scale, peak) : peak;
     }
-    /// The same of torque [N*m].
+    /// Limit of the torque's magnitude for a device of this peak torque [N*m].
     double largest_torque(double peak) const { return std::min(max_torque.value_or(peak), peak); }
 
     template <class Visitor>
@@ -195,7 +197,7 @@ struct SafetySettings {
         v("workspace_stiffness", workspace_stiffness,
           limit(Quantity::stiffness, 0, 2000, Tighter::more));
         v("soft_start", soft_start, limit(Quantity::time, 0, 10, Tighter::more));
-        // one that the rig asks for stays what it is
+        // a dead-man switch that the rig asks for cannot be changed
         v("dead_man_finger", dead_man_finger);
         v("dead_man_button", dead_man_button, Field::number().within(0, 31));
         v("energy_guard", energy_guard, Field::number().tighter_when(Tighter::more));

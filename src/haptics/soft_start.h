@@ -1,10 +1,11 @@
-// How force comes on: after activation and a pause, and when a dead-man switch is pressed again.
+// SoftStart lets force come on gently: after activation and a pause, and when a dead-man switch is
+// pressed again.
 //
-// What a hand is in at that moment (an object, a wall, a field) would strike it. So the share of
-// the force that is sent rises from 0 to 1 in the time T, on all devices alike. When nothing is
-// asked of any device there is nothing to strike with, and the rise is over at once: what is
-// touched later is felt as it is. Ramping that too would let a hand sink into a wall that then
-// throws it out.
+// Whatever a hand is in at that moment (an object, a wall, a field) would strike it. So the share
+// of the force that is sent rises from 0 to 1 in the time T, on all devices alike. When no device
+// is asked for a force there is nothing to strike with, and the rise is over at once: what is
+// touched later is felt as it is. Ramping that as well would let a hand sink into a wall, which
+// then throws it out.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +14,11 @@ namespace dihaptic::haptics {
 
 class SoftStart {
   public:
-    /// T [s].
+    /// `duration`: T [s].
     explicit SoftStart(double duration) : duration_(duration) {}
 
     /// The share of this tick's force that may be sent. `allowed`: by the dead-man switch; `asked`:
-    /// some device is to give some force; h: the tick [s].
+    /// whether some device is asked for a force; `h`: duration of the tick [s].
     double share(bool allowed, bool asked, double h) noexcept {
         if (!allowed) {
             elapsed_ = 0;
@@ -29,7 +30,7 @@ class SoftStart {
         return share;
     }
 
-    /// After a pause.
+    /// Begins anew after a pause.
     void restart() noexcept { elapsed_ = 0; }
 
   private:

@@ -5,7 +5,7 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Slower than this along a surface, a point rests [m/s]. Solvers leave some nm/s.
+/// A point that moves slower than this along a surface is at rest [m/s]. Solvers leave some nm/s.
 constexpr double kRest = 1e-6;
 
 }  // namespace
@@ -15,7 +15,7 @@ SolvedPoint::SolvedPoint(const scene::Scene& scene, BodyIndex body,
     : coupling_(coupling),
       onset_(coupling.onset),
       body_(body),
-      // where it goes is the step's to say: friction, too
+      // the step decides where the point goes, including friction
       point_(scene.bodies, std::vector<double>(scene.bodies.size(), 0), 1),
       sliding_friction_(settings.sliding_friction),
       popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())) {}
@@ -87,7 +87,7 @@ double SolvedPoint::energy(const Vec3& stretch) const noexcept {
     return onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
 }
 
-/// What the step's contacts can take of it.
+/// The part of the spring's force that the step's contacts can take.
 Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
     HalfSpaces walls;
     for (size_t i = 0; i < press_count_; ++i) walls.add(presses_[i].n_W);
@@ -99,7 +99,7 @@ Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
     return pressing + along;
 }
 
-/// A surface that is met between two steps does not rub until the next one.
+/// Until the next step, a surface that is first met between two steps has no friction.
 Vec3 SolvedPoint::meet_between_steps(World& world, const Handle& handle, double h) noexcept {
     point_.slide(handle.p_WH);
     world.set_point(body_, point_.position(), handle.v_WH);

@@ -1,8 +1,9 @@
-// The point proxy whose friction is solved together with the dynamics: a body without mass, shape
-// or turn of its own, which the implicit coupling pulls to the handle (README.md). What it may meet
-// in a step is found as for any point on surfaces (god_object.h), and becomes contacts of the step:
-// with Coulomb's cone and, for a soft finger, torsion, among all other contacts of what it touches.
-// The handle feels the contact forces, so nothing is gained or lost between hand and bodies.
+// SolvedPoint is a point proxy whose friction is solved together with the dynamics: a body without
+// mass, shape or rotation of its own, which the implicit coupling pulls to the handle (README.md).
+// What it may meet in a step is found as for any point on surfaces (god_object.h) and becomes
+// contacts of the step, with Coulomb's cone and, for a soft finger, torsion, among all other
+// contacts of what it touches. The handle feels the contact forces, so nothing is gained or lost
+// between hand and bodies.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -12,19 +13,19 @@ namespace dihaptic::haptics {
 
 class SolvedPoint {
   public:
-    /// A finger of the scene; `body` stands for it in the world.
+    /// The proxy of a finger of the scene; `body` represents it in the world.
     SolvedPoint(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
                 const ProxySettings& settings);
 
-    /// Puts it somewhere, before the first tick.
+    /// Puts the point somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
-    /// Around a step of the world h [s].
+    /// Called before and after a step of the world of h [s].
     void before_step(World& world, const Handle& handle, double h) noexcept;
     void after_step(World& world, const Handle& handle) noexcept;
-    /// On the handle now: the force of the step's contacts. In a tick h [s] without a step, what
-    /// the spring asks of them now; a surface that only this tick has met is felt at once, and its
-    /// body gets the reaction in the next step. Between steps, what acts of the spring counts as
-    /// stored.
+    /// The force on the handle now: that of the step's contacts. In a tick of h [s] without a step,
+    /// what the spring asks of those contacts now; a surface that is first met in this tick is felt
+    /// at once, and its body gets the reaction in the next step. Between steps, only the part of
+    /// the spring that acts counts as stored energy.
     Pull pull(World& world, const Handle& handle, double h) noexcept;
 
     Onset& onset() noexcept { return onset_; }

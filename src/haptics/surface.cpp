@@ -13,7 +13,7 @@ using scene::ShapeKind;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Roots of |p + s d| = r for p outside and d toward the origin, in as many dimensions as the
-/// vectors have. The first is written without a difference of near equals.
+/// vectors have. The form of the first avoids the difference of nearly equal numbers.
 struct Roots {
     double first = kInfinity;
     double last = -kInfinity;
@@ -49,8 +49,8 @@ Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
                 flats_.push_back({face.normal, face.offset + skin});
                 inner = std::min(inner, face.offset - face.normal.dot(centre));
             }
-            // moved outward, the faces stay within the shape grown about a point inside by
-            // 1 + skin / inner
+            // the faces moved outward stay within the shape scaled by 1 + skin / inner about a
+            // point inside
             for (const Vec3& v : hull.vertices)
                 reach_ = std::max(reach_, centre.norm() + (v - centre).norm() * (1 + skin / inner));
             break;
@@ -75,7 +75,7 @@ Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
             flats_.push_back({-Vec3::UnitZ(), half_});
             break;
         case ShapeKind::compound:
-            break;  // its parts have surfaces
+            break;  // surfaces exist for its parts only
     }
 }
 
@@ -97,7 +97,7 @@ Vec3 Surface::normal(int face, const Vec3& p) const noexcept {
     if (is_flat(face)) return flats_[static_cast<size_t>(face)].n;
     const Vec3 from_axis = has_side() ? Vec3(p.x(), p.y(), 0) : Vec3(p - axis_point(p));
     const double size = from_axis.norm();
-    // on the axis every direction is as good as any
+    // on the axis any direction is as good
     return size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
 }
 
@@ -126,8 +126,9 @@ std::optional<Surface::Entry> Surface::enter(const Vec3& p, const Vec3& d) const
     if (apart > d.norm() + kOnSurface) return {};
     if (apart > kOnSurface && flats_.empty()) return enter_ball(p, d);
     if (apart > kOnSurface) return over_seams(enter_faces(p, d), p, d);
-    // Faces through p: a convex solid lies below each of them, so a path that one of them does not
-    // block never enters. The one that blocks least is the one that p slides along first.
+    // Faces through p: a convex solid lies below each of them, so a path that is not blocked by one
+    // of them never enters. Of faces that block, the least blocking is the one that p slides along
+    // first.
     Entry least{0, -1};
     double fastest = -kInfinity;
     for (int face = 0; face < std::max(1, faces()); ++face) {
@@ -201,7 +202,7 @@ std::optional<Surface::Entry> Surface::over_seams(std::optional<Entry> entry, co
     for (int face = 0; face < static_cast<int>(flats_.size()); ++face) {
         const Flat& flat = flats_[static_cast<size_t>(face)];
         if (face == entry->face || flat.n.dot(at) - flat.offset < -kSeam) continue;
-        // along that face, or away from it: the part is not entered at all
+        // along that face or away from it: the path does not enter the part at all
         if (flat.n.dot(p + d) - flat.offset >= -kSeam) return {};
         entry->face = face;
         return entry;
@@ -218,7 +219,7 @@ Surface::Crossing Surface::cross(int face, const Vec3& p, const Vec3& d) const n
     for (int i = 0; i < static_cast<int>(flats_.size()); ++i) {
         const Flat& flat = flats_[static_cast<size_t>(i)];
         const double speed = flat.n.dot(d);
-        // a face that is as good as parallel to this one is no edge's other side
+        // a face nearly parallel to this one does not share an edge with it
         if (i != face && speed > 1e-12 * d.norm()) at((flat.offset - flat.n.dot(p)) / speed, i);
     }
     if (has_side() && is_flat(face)) {

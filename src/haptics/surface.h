@@ -1,5 +1,5 @@
-// The surface of a convex shape as a point feels it: where a straight path enters the solid, which
-// face keeps the point out there, and where a path along that face leaves it.
+// Surface is the surface of a convex shape as a point feels it: where a straight path enters the
+// solid, which face keeps the point out there, and where a path along that face leaves it.
 //
 // A polyhedron has the faces of its hull; a cylinder has its side and two ends; sphere, capsule and
 // plane have one face. Everything is in the frame of the shape's body B.
@@ -12,51 +12,52 @@
 
 namespace dihaptic::haptics {
 
-/// A point is on a surface when it is no further off. Positions are kept this exact; a stiffness of
+/// A point no further than this from a surface is on it: the accuracy of positions. A stiffness of
 /// 10 000 N/m makes 10 uN of it [m].
 constexpr double kOnSurface = 1e-9;
 
-/// Where two parts of a body share a plane, rounding leaves a step, at which a sliding point would
-/// stop. Who enters a part through a side face no deeper than this below another face of it enters
-/// through that one [m].
+/// Where two parts of a body share a plane, rounding leaves a step at which a sliding point would
+/// stop. A point that enters a part through a side face, no deeper than this below another face,
+/// enters through that other face [m].
 constexpr double kSeam = 1e-7;
 
 class Surface {
   public:
-    /// The shape, with its faces moved outward by `skin` [m]. `has_seams`: it is a part of a body,
-    /// whose other parts continue its faces; see kSeam.
+    /// The surface of a shape with its faces moved outward by `skin` [m]. `has_seams`: the shape is
+    /// a part of a body whose other parts continue its faces; see kSeam.
     Surface(const scene::Shape& shape, double skin, bool has_seams = false);
 
-    /// How far p is outside: negative inside, a lower bound of the distance outside [m].
+    /// Distance of p outside the solid: negative inside, a lower bound outside [m].
     double separation(const Vec3& p_B) const noexcept;
 
     struct Entry {
-        double share = 0;  ///< of the path: where it enters
-        int face = -1;     ///< through which
+        double share = 0;  ///< of the path covered at the entry
+        int face = -1;     ///< through which it enters
     };
-    /// Where the straight path p + s d, 0 <= s <= 1, enters the solid. A point on the surface, or
-    /// below it, enters at once unless d leads it along a face there or away from it.
+    /// Where the straight path p + s d, 0 <= s <= 1, enters the solid; nullopt if it does not. A
+    /// point on or below the surface enters at once unless d leads along a face there or away from
+    /// it.
     std::optional<Entry> enter(const Vec3& p_B, const Vec3& d_B) const noexcept;
-    /// The face that p is nearest to, as seen from inside.
+    /// The face nearest to p, as seen from inside.
     int shallowest(const Vec3& p_B) const noexcept;
-    /// Outward, unit, at the point of that face nearest to p.
+    /// Outward unit normal at the point of a face that is nearest to p.
     Vec3 normal(int face, const Vec3& p_B) const noexcept;
-    /// Signed distance of p from that face, or its plane [m].
+    /// Signed distance of p from a face, or its plane [m].
     double distance(int face, const Vec3& p_B) const noexcept;
 
     struct Crossing {
-        double share = 1;  ///< of the path, at which it ends or leaves the face
-        int face = -1;     ///< that lies beyond the edge; -1: it stays
+        double share = 1;  ///< of the path covered where it ends or leaves the face
+        int face = -1;     ///< that lies beyond the edge; -1: the path stays on the face
     };
-    /// How far a path along that face stays over it.
+    /// How far a path along a face stays over it.
     Crossing cross(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
 
-    /// The part of a tangent d along which the face bends at p, and its radius there [m]; zero
-    /// where it is flat.
+    /// The part of a tangent d along which a face is curved at p; zero where it is flat.
+    /// bend_radius() is the radius of that curve [m].
     Vec3 bent_part(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
     double bend_radius() const noexcept { return radius_; }
 
-    /// No point of the shape is further from B's origin; infinite for a plane [m].
+    /// Largest distance of any point of the shape from B's origin; infinite for a plane [m].
     double reach() const noexcept { return reach_; }
 
   private:

@@ -1,4 +1,4 @@
-// A raw log to record a bench's ticks to, in a temporary folder that goes away with it.
+// A raw log that a bench records its ticks to, in a temporary folder that is removed with it.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ class BenchLog {
   public:
     BenchLog(const scene::Scene& scene, const servo::Settings& settings);
 
-    /// A recorder of this log, from its beginning; the one before must be finished.
+    /// Makes a recorder that writes this log anew; the one before must be finished.
     recording::Recorder record(recording::Writing writing) const;
-    /// A file beside it.
+    /// Path of a file beside the log.
     std::string file(const std::string& name) const { return folder_.file(name); }
 
   private:

@@ -1,4 +1,4 @@
-// Boxes and tables that the benches' scenes are made of.
+// Makes the boxes and tables of the benches' scenes.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& po
     return body;
 }
 
-/// Fixed, its top at z = 0.
+/// A fixed table with its top at z = 0.
 inline scene::Body table(double width, double friction) {
     scene::Body body = box("table", {width, width, 0.1}, {0, 0, -0.05}, friction);
     body.fixed = true;

@@ -1,4 +1,4 @@
-// Bullet as it comes.
+// Runs a scene in Bullet with its default settings, as a peer of our own solvers.
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
@@ -17,7 +17,7 @@ using dynamics::to_bullet;
 struct Body {
     Pose X_MB;
     std::vector<std::unique_ptr<dynamics::CollisionPart>>
-        parts;  // one: the benches' bodies are convex
+        parts;  // a single part: the benches' bodies are convex
     std::unique_ptr<btRigidBody> body;
 };
 
@@ -30,7 +30,7 @@ Body make_body(const scene::Body& body) {
     btRigidBody::btRigidBodyConstructionInfo info(
         solid.mass, nullptr, out.parts.front()->shape.get(), to_bullet(solid.inertia));
     info.m_startWorldTransform = to_bullet(body.pose() * solid.X_BM);
-    info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two of a pair
+    info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two coefficients of a pair
     out.body = std::make_unique<btRigidBody>(info);
     if (moves) {
         out.body->setLinearFactor(factors(body.moves));

@@ -11,13 +11,14 @@ namespace {
 using dynamics::from_bullet;
 using dynamics::to_bullet;
 
-/// Where an inverse is zero, Bullet takes zero for infinite.
+/// Inverse of a value; 0 for a value that is about 0, since Bullet takes 0 for infinite.
 double inverse(double value, double largest) {
     return value > 1e-12 * largest ? 1 / value : 0;
 }
 
 std::unique_ptr<btRigidBody> bullet_body(const contact::ProblemBody& body) {
-    const Vec3 lightness = body.inverse_mass.diagonal();  // Bullet has one mass and three switches
+    const Vec3 lightness =
+        body.inverse_mass.diagonal();  // Bullet has one mass, and a switch per axis
     const double largest = lightness.maxCoeff();
     assert(body.inverse_mass.isDiagonal());
     const Eigen::SelfAdjointEigenSolver<Mat3> axes(body.inverse_inertia);
@@ -98,7 +99,7 @@ void BulletProblem::solve(btSequentialImpulseConstraintSolver& solver, int itera
     info.m_warmstartingFactor = 1;
     info.m_numIterations = iterations;
     info.m_leastSquaresResidualThreshold = 0;
-    info.m_erp2 = 1;  // the bias has its share in it
+    info.m_erp2 = 1;  // the problem's bias already has its error reduction
     info.m_timeStep = kStep;
     info.m_splitImpulse = 0;
     solver.solveGroup(moving_.data(), static_cast<int>(moving_.size()), manifold_list_.data(),

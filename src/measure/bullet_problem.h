@@ -1,9 +1,9 @@
-// A contact problem as Bullet's sequential-impulse solver takes it: made once, then solved as often
-// as one likes from the same velocities and impulses.
+// A contact problem in the form of Bullet's sequential-impulse solver: made once, then solved any
+// number of times from the same velocities and impulses.
 //
-// Bullet sees bodies and contact points only relative to each other's centres, so all bodies stand
-// at the origin, each contact point where it is from its body's centre. A gap is what the bias
-// closes in one step.
+// Bullet uses contact points only relative to the bodies' centres, so all bodies stand at the
+// origin, with each contact point at its place from its body's centre. The gap given to Bullet is
+// the one that the bias closes in one step.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -20,10 +20,10 @@ class BulletProblem {
   public:
     BulletProblem(const contact::ContactProblem& problem, std::span<const contact::Impulse> start);
 
-    /// Velocities and impulses as they were before a solve. Of the start Bullet takes the normal
-    /// impulses; friction it always starts from zero.
+    /// Sets velocities and impulses back to those before a solve. Bullet takes only the normal
+    /// impulses of the start, and always begins friction at zero.
     void reset();
-    /// So many iterations, neither more nor less, with two directions of friction and warm starts.
+    /// Solves with exactly `iterations` iterations, two directions of friction, and a warm start.
     void solve(btSequentialImpulseConstraintSolver& solver, int iterations);
     /// The impulses of the last solve.
     std::vector<contact::Impulse> impulses() const;
@@ -31,7 +31,7 @@ class BulletProblem {
   private:
     const contact::ContactProblem& problem_;
     std::vector<contact::Impulse> start_;
-    std::vector<std::unique_ptr<btRigidBody>> bodies_;  // the fixed one last
+    std::vector<std::unique_ptr<btRigidBody>> bodies_;  // the fixed body is last
     std::vector<btCollisionObject*> moving_;
     std::vector<std::unique_ptr<btPersistentManifold>> manifolds_;
     std::vector<btPersistentManifold*> manifold_list_;

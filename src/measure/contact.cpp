@@ -15,9 +15,9 @@ namespace dihaptic::measure {
 namespace {
 
 constexpr int kRuns = 7;
-constexpr double kEnough = 0.3e6;  // no further run after so long [us]
+constexpr double kEnough = 0.3e6;  // no further run after this time [us]
 
-/// The shortest of several runs, each of which returns its time [us].
+/// Shortest time of several runs, each of which returns its time [us].
 template <class Run>
 double best_time(const Run& run) {
     double best = std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
-// `dihaptic bench contact`: definitions in docs/measures.md.
+// The command `dihaptic bench contact`: solves recorded contact problems with several solvers and
+// compares them. docs/measures.md defines the figures.
 #pragma once
 
 #include <optional>
@@ -10,13 +11,13 @@
 
 namespace dihaptic::measure {
 
-/// What is to be solved with what.
+/// The solvers to compare.
 struct ContactBench {
     std::vector<contact::Solver> solvers{contact::Solver::newton,
                                          contact::Solver::staggered_projections,
                                          contact::Solver::stewart_trinkle};
     contact::PolygonSettings polygon;
-    bool peers = true;  ///< those too that this build knows
+    bool peers = true;  ///< also other libraries' solvers, if this build has them
 };
 
 /// One problem, solved by one solver from zero impulses.
@@ -25,19 +26,19 @@ struct ContactFigures {
     int contacts = 0;
     std::string solver;
     double residual = 0;                 ///< natural map over 1 + |q|, of the problem as given
-    std::optional<double> lcp_residual;  ///< stewart_trinkle: of its own problem
-    double us = 0;                       ///< the best of several runs
+    std::optional<double> lcp_residual;  ///< stewart_trinkle: residual of its own problem
+    double us = 0;                       ///< shortest time of several runs [us]
     int iterations = 0;
-    std::string route;  ///< what found the answer: a contact::Route; none of peers
+    std::string route;  ///< contact::Route that found the answer; empty for peers
     bool fallback = false;
 };
 
-/// The files named, with a folder's *.hdf5 in place of the folder. What is neither goes through:
-/// whoever reads it says so.
+/// The files named, with a folder replaced by the *.hdf5 files in it. A name that is neither is
+/// kept: reading it gives the error.
 std::vector<std::string> contact_files(const std::vector<std::string>& names,
                                        Diagnostics& diagnostics);
 
-/// Files that cannot be used go to `diagnostics`; the others are measured.
+/// Measures all files; those that cannot be used are reported to `diagnostics`.
 std::vector<ContactFigures> bench_contact(const std::vector<std::string>& files,
                                           const ContactBench& bench, Diagnostics& diagnostics,
                                           const Progress& progress);

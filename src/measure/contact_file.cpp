@@ -32,7 +32,7 @@ Id own(hid_t id, herr_t (*close)(hid_t)) {
 constexpr auto kRemedy =
     "Give a file of the FCLIB kind: fclib_local/W/{m,n,nz,p,i,x} and fclib_local/vectors/{q,mu}.";
 
-/// W is kept as a dense matrix, of which the solvers make several.
+/// Largest problem: W is kept as a dense matrix, of which the solvers make several copies.
 constexpr size_t kMostContacts = 2000;
 constexpr hssize_t kMostNumbers = 9 * kMostContacts * kMostContacts;
 
@@ -54,7 +54,7 @@ std::vector<T> read(hid_t file, const std::string& path, hid_t type, const std::
 Id open_file(const std::string& name) {
     if (!std::filesystem::is_regular_file(name))
         throw Error({name, 0}, "", "there is no such file", "Check the name and the folder.");
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // we say what is wrong ourselves
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // we report errors ourselves
     Id file = own(H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file) {
         const bool signed_as_one = H5Fis_hdf5(name.c_str()) > 0;
@@ -66,7 +66,7 @@ Id open_file(const std::string& name) {
     return file;
 }
 
-/// What a file says, word by word; W in compressed columns or rows.
+/// Contents of a file as they stand, with W in compressed columns or rows.
 struct Fclib {
     static constexpr int kColumns = -1;
     static constexpr int kRows = -2;
@@ -100,7 +100,7 @@ void require(bool holds, const std::string& name, const char* key, const char* o
     if (!holds) throw Error({name, 0}, key, otherwise, kRemedy);
 }
 
-/// Throws Error where values or sizes cannot be.
+/// Throws Error when values or sizes are impossible.
 void check_fclib(const Fclib& in, const std::string& name) {
     const auto want = [&](bool holds, const char* key, const char* otherwise) {
         require(holds, name, key, otherwise);

@@ -1,4 +1,4 @@
-// Contact problems of other simulators, in the FCLIB layout (HDF5).
+// Reads contact problems of other simulators from files of the FCLIB layout (HDF5).
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dihaptic::measure {
 
-/// Reads `fclib_local`: W, q and mu, three rows a contact.
-/// Throws Error when the file cannot be read, has not that layout, or W does not fit q and mu.
+/// Reads `fclib_local`: W, q and mu; W and q have three rows per contact. Throws Error when the
+/// file cannot be read, does not have that layout, or has a W that does not fit q and mu.
 contact::DelassusProblem read_contact_file(const std::string& file);
 
 }  // namespace dihaptic::measure

@@ -18,9 +18,9 @@
 namespace dihaptic::measure {
 namespace {
 
-constexpr int kMostLate = 1000000;  // [us]; cyclictest counts later wake-ups apart
+constexpr int kMostLate = 1000000;  // [us]; cyclictest counts later wake-ups separately
 
-/// Runs it to its end, silently. Returns what failed.
+/// Runs a program to its end, without its output. Returns what failed; "" if nothing did.
 std::string run(std::vector<std::string> arguments) {
     std::vector<char*> argv;
     argv.reserve(arguments.size() + 1);

@@ -1,5 +1,5 @@
-// cyclictest, of Debian's rt-tests: the ruler of how late this machine wakes a real-time thread
-// that does nothing else. Measured beside our own thread, as a peer.
+// Runs cyclictest, of Debian's rt-tests, which measures how late this machine wakes a real-time
+// thread that does nothing else: a reference for the lateness of our own thread.
 #pragma once
 
 #include <map>
@@ -9,31 +9,32 @@
 
 namespace dihaptic::measure {
 
-/// How late wake-ups were.
+/// A histogram of how late wake-ups were.
 class Wakeups {
   public:
     /// `us`: whole microseconds, rounded down.
     void add(int us, int64_t count = 1) { counts_[us] += count; }
     int64_t count() const;
-    /// How many were later than this.
+    /// Number of wake-ups later than `us` [us].
     int64_t later_than(double us) const;
-    /// The share-quantile [us]; NaN without wake-ups.
+    /// Quantile of the lateness [us]; NaN without wake-ups.
     double quantile(double share) const;
 
   private:
     std::map<int, int64_t> counts_;
 };
 
-/// What cyclictest is to measure, as our thread did: with the same priority and locked memory, or
-/// without where that was refused us.
+/// Options of cyclictest, which should measure as our thread did: with the same priority and locked
+/// memory, or without them if our thread was refused them.
 struct Cyclictest {
     servo::Settings settings;
     bool priority = true;
     bool locked_memory = true;
-    std::string file;  ///< that it may write its figures to
+    std::string file;  ///< file for its figures
 };
 
-/// Adds its wake-ups of so many seconds. Returns why there are none; "" when all went well.
+/// Runs cyclictest for `seconds`, and adds its wake-ups. Returns why there are none; "" if all went
+/// well.
 std::string run_cyclictest(const Cyclictest& wanted, double seconds, Wakeups& wakeups);
 
 }  // namespace dihaptic::measure

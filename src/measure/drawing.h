@@ -1,4 +1,4 @@
-// A view that draws as fast as it can, in a thread of its own, as a load beside the servo.
+// A view that draws as fast as it can in a thread of its own, as a load beside the servo.
 #pragma once
 
 #include <atomic>

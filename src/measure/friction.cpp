@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 using model::kGravity;
-constexpr double kFallen = 0.02;  // what moved so far has fallen [m]
+constexpr double kFallen = 0.02;  // a body that moved this far has fallen [m]
 
 scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {
     scene::Body body = box(name, size, X_WB.p, friction);
@@ -38,7 +38,7 @@ struct Drift {
     double drawn = 0;    ///< from where it was drawn
     double settled = 0;  ///< from where it was after a second, when soft contacts bear their load
 };
-/// Of what moves further than `fallen`, some displacement beyond that.
+/// Stops when a body moves further than `fallen`; `drawn` is then some displacement beyond it.
 Drift drift(const scene::Scene& scene, const Simulator& simulator, double time,
             double fallen = std::numeric_limits<double>::infinity()) {
     const int settling = steps(1);
@@ -69,7 +69,7 @@ std::optional<double> standing(double drift) {
     return drift < kFallen ? std::optional(drift * 1e3) : std::nullopt;
 }
 
-/// Storeys of the highest house of cards, of 2 to 6, that stands for 3 s.
+/// Storeys of the highest house of cards, from 2 to 6, that stands for 3 s; 0 if none does.
 int storeys_held(const Simulator& simulator, const std::function<void(int)>& say) {
     for (int storeys = 6; storeys >= 2; --storeys) {
         say(storeys);
@@ -79,7 +79,7 @@ int storeys_held(const Simulator& simulator, const std::function<void(int)>& say
 }
 
 /// How a block slides from rest: its acceleration down the slope, and its angle off the fall line,
-/// of the last 0.8 of a second. Soft contacts take the first 0.2 to settle.
+/// over the last 0.8 s of one second. Soft contacts need the first 0.2 s to settle.
 struct Slide {
     double acceleration = 0;
     double off_fall_line = 0;
@@ -102,7 +102,7 @@ Slide slide(double slope, double turn, const Simulator& simulator) {
     return {gained.dot(fall) / (time * time), std::atan2(way.cross(fall).norm(), way.dot(fall))};
 }
 
-/// Largest slip of a pad, in the block's frame, in a minute after the first second [m].
+/// Largest slip of a pad, in the block's frame, in the minute after the first second [m].
 double pinch_slip(const Simulator& simulator) {
     const int settled = steps(1);
     const auto pad_on_block = [](std::span<const Pose> X_WB, size_t pad) {
@@ -128,8 +128,8 @@ double pinch_slip(const Simulator& simulator) {
 }  // namespace
 
 scene::Scene incline_scene(double slope, double turn, double friction, scene::ShapeKind kind) {
-    // the fall line is turned about the vertical; the block's edges keep to the world's, so that
-    // nothing is aligned
+    // the fall line is turned about the vertical, and the block's edges keep the world's
+    // directions, so that nothing is aligned
     const Quat R_table(Eigen::AngleAxisd(turn, Vec3::UnitZ()) *
                        Eigen::AngleAxisd(slope, Vec3::UnitY()));
     const Quat R_block(R_table * Quat(Eigen::AngleAxisd(-turn, Vec3::UnitZ())));
@@ -166,7 +166,7 @@ scene::Scene cards_scene(int storeys) {
     const double u = length / 2, n = thick / 2;
     const double centre_x = u * std::sin(lean) + n * std::cos(lean);
     const double centre_z = u * std::cos(lean) + n * std::sin(lean);
-    const double height = 2 * centre_z;  // of a pair's highest corners
+    const double height = 2 * centre_z;  // height of a pair's highest corners
     // neighbouring pairs stand clear of each other
     const double outermost = centre_x + u * std::sin(lean) + n * std::cos(lean);
     const double pitch = 2 * outermost + thick;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
                                1500, 2000, 3000, 4000, 5000, 6000, 8000};
-constexpr double kLastSeconds = 3;  // of the hold: what is judged there has settled
+constexpr double kLastSeconds = 3;  // end of the hold, which is judged, when all has settled [s]
 using model::kGravity;
 
 double degrees(double rad) {
@@ -30,8 +30,8 @@ BenchSetup with(BenchSetup setup, double k, Fingering fingering = Fingering::ide
     return setup;
 }
 
-/// A spring of the same K that pushes at every instant, sampled by nothing: the best that the kick
-/// can be.
+/// Peak force of a spring of stiffness K that acts continuously, without sampling: the least that
+/// the kick can be [N].
 double perfect_peak(const BenchSetup& setup, double speed) {
     const double h = 1e-6;
     const double mass = 0.075;
@@ -53,8 +53,9 @@ double perfect_peak(const BenchSetup& setup, double speed) {
     return peak;
 }
 
-/// Mean of the normal forces along the grasp axis, by statics. Pads keep the block upright; between
-/// two points it turns until the line between the contacts lies along that between the targets.
+/// Mean of the normal forces along the grasp axis, by statics [N]. Pads keep the block upright;
+/// between two points it turns until the line between the contacts is parallel to the line between
+/// the targets.
 double closed_form_grip(const BenchSetup& setup) {
     if (setup.settings.proxy.kind == haptics::ProxyKind::rigid) return press_force(setup);
     const hand::HandSpec hand = grasp_hand(setup);
@@ -118,7 +119,7 @@ bool calm_wall(const BenchSetup& setup) {
 KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
     const double way = kStartGap + setup.squeeze;
-    // real devices let their own force come on slowly
+    // a wait first, because real devices let their force rise slowly
     hand.script = {{"wait", 0.25, {}, Vec3::Zero(), false},
                    {"press", way / speed, {}, {way, 0, 0}, true},
                    {"stay", 1, {}, Vec3::Zero(), false},
@@ -206,7 +207,7 @@ double measure_torsion_limit(const BenchSetup& base) {
     analysis::GraspTrace trace(1, setup.settings.tick());
     const double begin = bench.driver().phases()[kHold].start + 1;
     const double limit = torsion_limit(setup);
-    // from half the limit to 1.2 times it
+    // from 0.5 to 1.2 times the limit
     const auto torque_at = [&](double now) { return limit * (0.5 + 0.1 * (now - begin)); };
     double let_go = 0;
     size_t start = 0;

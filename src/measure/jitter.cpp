@@ -15,10 +15,10 @@
 namespace dihaptic::measure {
 namespace {
 
-// ours, then cyclictest's, short enough for the machine's other load to fall on both [s]
+// our turn, then cyclictest's: short enough for the machine's other load to affect both alike [s]
 constexpr double kTurn = 5;
 
-/// Lifts the block on the virtual clock; returns when it is held.
+/// Lifts the block on the virtual clock; returns the time at which it is held.
 Time lift(Bench& bench) {
     const double held = bench.driver().phases()[kRise].end;
     Time reached{0};
@@ -28,7 +28,7 @@ Time lift(Bench& bench) {
     return reached;
 }
 
-/// A block that is held on the machine's clock, turn by turn, and recorded.
+/// A block that is held in real time, turn by turn, and recorded.
 class HeldBlock {
   public:
     explicit HeldBlock(const BenchSetup& setup)
@@ -39,7 +39,7 @@ class HeldBlock {
         for (servo::Frame& frame : newest_.values()) bench_.servo().reserve(frame);
     }
 
-    /// For so long [s]; `published`: for a view to draw.
+    /// Holds the block for `turn` [s]; `published`: publishes the frames for a view to draw.
     void hold(servo::Timing& timing, double turn, bool published, const std::atomic<bool>& stop) {
         recording::Recorder recorder = log_.record(recording::Writing::in_thread);
         const Time period = bench_.servo().period();
@@ -70,7 +70,7 @@ class HeldBlock {
     Latest<servo::Frame> newest_;
     Time reached_;
     double height_ = 0;    // [m]
-    int64_t dropped_ = 0;  // frames that were not recorded
+    int64_t dropped_ = 0;  // number of frames that were not recorded
 };
 
 Spread spread(const auto& times) {
@@ -79,7 +79,7 @@ Spread spread(const auto& times) {
 
 constexpr std::array kSteps{0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
-/// A count, drawn by its logarithm: what is rare matters here.
+/// A count as a bar with the length of its logarithm, since rare events matter here.
 std::string bar(int64_t count) {
     const auto length = count > 0 ? static_cast<size_t>(std::log2(count)) + 1 : 0;
     return fmt::format("{:<22s} {:8d}", std::string(length, '#'), count);
@@ -171,7 +171,7 @@ Json as_json(const JitterFigures& f) {
     return out;
 }
 
-/// Median, least and most of one figure of several runs.
+/// Median, least and most of a figure over several runs.
 struct OfRuns {
     double median = 0;
     double least = 0;

@@ -1,4 +1,4 @@
-// MuJoCo: a scene as its MJCF, and its steps.
+// Runs a scene in MuJoCo, as a peer of our own solvers: writes it as MJCF, and steps it.
 #include "measure/simulator.h"
 
 #ifdef DIHAPTIC_PEERS
@@ -28,8 +28,8 @@ struct Delete {
 template <class T>
 using Owned = std::unique_ptr<T, Delete>;
 
-/// Where boxes touch exactly, this version reports contacts that are centimetres deep, and throws
-/// cards and stacks apart. Boxes are drawn in by so much on each side.
+/// Boxes are drawn in by this much on each side: where boxes touch exactly, this version reports
+/// contacts that are centimetres deep, and throws cards and stacks apart.
 constexpr double kDrawnIn = 5e-6;  // [m]
 
 /// Attributes that differ from MuJoCo's defaults.
@@ -42,7 +42,7 @@ std::string text(const Vec3& v) {
     return fmt::format("{} {} {}", v.x(), v.y(), v.z());
 }
 
-/// MuJoCo takes the larger friction of a pair: the bench's scenes have one for all.
+/// MuJoCo takes the larger friction of a pair; in the bench's scenes all bodies have the same.
 std::string geometry(const scene::Body& body, size_t index) {
     switch (body.shape.kind) {
         case scene::ShapeKind::box:
@@ -81,7 +81,7 @@ std::string inertia(const scene::Body& body) {
                        I(1, 2));
 }
 
-/// Bodies in the order of the scene: MuJoCo's body i + 1 is the scene's i.
+/// The scene as MJCF, with bodies in the scene's order: MuJoCo's body i + 1 is the scene's body i.
 std::string mjcf(const scene::Scene& scene, const Choice& choice) {
     std::string meshes;
     std::string bodies;
@@ -97,7 +97,7 @@ std::string mjcf(const scene::Scene& scene, const Choice& choice) {
                               X_WB.R.w(), X_WB.R.x(), X_WB.R.y(), X_WB.R.z(), joints(body),
                               inertia(body), geometry(body, i));
     }
-    // meshes get one contact a pair unless multiccd is on: four make a face
+    // meshes get one contact per pair unless multiccd is on; a face needs four
     return fmt::format(
         "<mujoco><option timestep='{}' gravity='{}' cone='elliptic' {}><flag multiccd='enable'/>"
         "</option><default><geom {}/></default><asset>{}</asset><worldbody>{}</worldbody></mujoco>",
@@ -120,7 +120,8 @@ Owned<mjModel> load(const std::string& xml) {
 }
 
 void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch) {
-    // by default it writes a file beside the user's, and waits for a key before it exits
+    // by default MuJoCo writes a log file to the working folder, and waits for a key before it
+    // exits
     mju_user_warning = [](const char*) {};
     mju_user_error = [](const char* what) {
         fmt::print(stderr, "MuJoCo: {}\n", what);
@@ -134,7 +135,7 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     for (int i = 0; i < steps; ++i) {
         const double before = data->time;
         mj_step(model.get(), data.get());
-        if (data->time <= before) {  // it met a bad number, and began again from the start
+        if (data->time <= before) {  // MuJoCo met a bad number, and began again from the start
             for (Pose& X : X_WB) X.p.setConstant(std::numeric_limits<double>::infinity());
             watch(X_WB);
             return;
@@ -160,7 +161,7 @@ Simulator simulator(const std::string& name, const Choice& choice) {
 }  // namespace
 
 std::vector<Simulator> mujoco_simulators() {
-    // contacts give way less, or friction creeps less: what users of small, hard things set
+    // settings for small, hard objects, with which contacts give way less, or friction creeps less
     const std::string stiff = "solref='0.005 1'";
     return {simulator("mujoco", {}),
             simulator("mujoco_stiff", {"impratio='100' tolerance='1e-12'", stiff}),

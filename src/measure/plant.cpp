@@ -31,7 +31,7 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
     }
 }
 
-/// The setup's devices, with what its row does to them.
+/// The setup's devices, with the imperfections of its row.
 rig::Rig devices_of(const BenchSetup& setup, const std::vector<std::string>& fingers) {
     rig::Rig rig = rig::simulated_rig(fingers);
     for (size_t i = 0; i < fingers.size(); ++i) {
@@ -61,7 +61,7 @@ devices::simulated::Options simulated_options(const rig::Device& device) {
 }
 
 double press_force(const BenchSetup& setup) {
-    // F = x k (a + b F) / (k + a + b F), the hand's a growing by b for each newton
+    // F = x k (a + b F) / (k + a + b F), where the hand's stiffness a grows by b per newton
     const double k = setup.settings.coupling.stiffness;
     const double a = setup.impedance.stiffness;
     const double b = setup.impedance.stiffness_per_force;

@@ -12,7 +12,7 @@
 namespace dihaptic::measure {
 namespace {
 
-/// What the fingers did in each tick, so that the bare world can be driven through the same grasp.
+/// The handles in each tick, with which the bare world is driven through the same grasp.
 using HandleTrace = std::vector<std::vector<haptics::Handle>>;
 
 Cost measure_ticks(const BenchSetup& setup, HandleTrace* trace) {
@@ -85,7 +85,7 @@ class BareWorld {
         if (mass > 0) shapes_.back()->calculateLocalInertia(mass, inertia);
         btRigidBody::btRigidBodyConstructionInfo body(mass, nullptr, shapes_.back().get(), inertia);
         body.m_startWorldTransform = btTransform(btQuaternion::getIdentity(), vector(position));
-        body.m_friction = std::sqrt(friction);  // Bullet multiplies the two
+        body.m_friction = std::sqrt(friction);  // Bullet multiplies the two coefficients of a pair
         bodies_.push_back(std::make_unique<btRigidBody>(body));
         bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
         world_.addRigidBody(bodies_.back().get());

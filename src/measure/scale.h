@@ -1,4 +1,5 @@
-// `dihaptic bench scale`: what a tick costs as the table fills. Definitions in docs/measures.md.
+// The command `dihaptic bench scale`: measures the cost of a tick as the table fills with blocks.
+// docs/measures.md defines the figures.
 #pragma once
 
 #include <string>
@@ -18,16 +19,16 @@ struct ScaleFigures {
     int extra = 0;
     Cost awake;
     Cost asleep;
-    double bullet_us = 0;  ///< median bare Bullet step of the same world, nothing asleep
+    double bullet_us = 0;  ///< median of bare Bullet steps of that world, with nothing asleep
 
-    /// The bar: what else a tick does may take so much on top of a bare step.
+    /// The bar: a tick may take this many times a bare step, and this much more.
     static constexpr double kMostTimes = 1.3;
     static constexpr double kMostMore = 10;  ///< [us]
     double most_us() const { return kMostTimes * bullet_us + kMostMore; }
     bool within_bar() const { return awake.median_us <= most_us(); }
 };
 
-/// The whole tick, recording included, over the script of `bench grasp`.
+/// Measures the whole tick, recording included, over the script of `bench grasp`.
 std::vector<ScaleFigures> bench_scale(const BenchSetup& setup, const std::vector<int>& extras,
                                       const Progress& progress);
 

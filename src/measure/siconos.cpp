@@ -25,7 +25,7 @@ std::vector<std::string> siconos_solvers() {
 }
 
 PeerAnswer solve_by_siconos(const std::string& solver, const contact::DelassusProblem& problem) {
-    // Siconos writes into what it is given
+    // copies, because Siconos writes to its input
     Eigen::MatrixXd W = problem.W;
     Eigen::VectorXd q = problem.q;
     Eigen::VectorXd mu = problem.mu;
@@ -56,7 +56,7 @@ PeerAnswer solve_by_siconos(const std::string& solver, const contact::DelassusPr
 
     solver_options_delete(options);
     std::free(options);
-    M->matrix0 = nullptr;  // W keeps its own
+    M->matrix0 = nullptr;  // W owns the numbers
     NM_clear(M);
     std::free(M);
     return out;

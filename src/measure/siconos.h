@@ -1,4 +1,5 @@
-// Siconos (INRIA) beside our solvers, where this was built with peers (docs/measures.md).
+// Solves contact problems with Siconos (INRIA), as a peer of our solvers, in builds with peers
+// (docs/measures.md).
 #pragma once
 
 #include <string>
@@ -11,12 +12,13 @@ namespace dihaptic::measure {
 struct PeerAnswer {
     Eigen::VectorXd r;
     int iterations = 0;
-    double us = 0;  ///< of the solve alone; the problem was put into Siconos' form before
+    double us = 0;  ///< time of the solve alone, without converting the problem [us]
 };
 
-/// Names of its solvers; none where this was built without it.
+/// Names of Siconos' solvers; empty in builds without peers.
 std::vector<std::string> siconos_solvers();
-/// Solves from zero impulses, to the tolerance of our solvers.
+/// Solves from zero impulses, to the tolerance of our solvers. Throws Error in builds without
+/// peers.
 PeerAnswer solve_by_siconos(const std::string& solver, const contact::DelassusProblem& problem);
 
 }  // namespace dihaptic::measure

@@ -1,4 +1,5 @@
-// Whatever moves the bodies of a scene, in steps of 1 ms: our solvers, and peers beside them.
+// A common interface to simulators that move the bodies of a scene in steps of 1 ms: our solvers,
+// and peers beside them.
 #pragma once
 
 #include <functional>
@@ -13,7 +14,7 @@ namespace dihaptic::measure {
 
 constexpr double kStep = 1e-3;  // [s]
 
-/// A scene, and the forces that act in it all the time.
+/// A scene, and forces that act in it all the time.
 struct Trial {
     struct Push {
         size_t body = 0;
@@ -23,14 +24,14 @@ struct Trial {
     std::vector<Push> pushes;
 };
 
-/// Sees the poses X_WB of all bodies after each step; false ends the run. Bodies whose simulator
-/// gave up are infinitely far away.
+/// Gets the poses X_WB of all bodies after each step; returns false to end the run. When a
+/// simulator gives up, its bodies are infinitely far away.
 using Watch = std::function<bool(std::span<const Pose> X_WB)>;
 
 struct Simulator {
     std::string name;
     std::function<void(const Trial& trial, int steps, const Watch& watch)> run;
-    /// What blocks slide on: a box, or a plane if contacts with that are the better ones.
+    /// Shape that blocks slide on: a box, or a plane if its contacts are better.
     scene::ShapeKind slope = scene::ShapeKind::box;
 };
 
@@ -41,10 +42,10 @@ Simulator world_simulator(dynamics::Settings settings);
 /// Nothing sleeps.
 Simulator bullet_simulator();
 
-/// MuJoCo with elliptic cones, by settings; none where this was built without peers.
+/// MuJoCo with elliptic cones, one simulator per choice of settings; empty in builds without peers.
 std::vector<Simulator> mujoco_simulators();
 
-/// All that stand beside ours.
+/// All simulators that ours are compared with.
 std::vector<Simulator> peer_simulators();
 
 }  // namespace dihaptic::measure

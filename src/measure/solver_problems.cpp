@@ -16,10 +16,10 @@ namespace {
 
 using model::kGravity;
 constexpr double kFriction = 0.6;
-constexpr std::array kGrowth{8, 20, 52, 100, 164, 200};  // contacts of walls and piles
+constexpr std::array kGrowth{8, 20, 52, 100, 164, 200};  // numbers of contacts of walls and piles
 
-/// A force and a torque on one body: along each axis three sines of 10 to 40 Hz, so that it is
-/// shaken and yet stays about where it is. Each may reach `size`.
+/// A force and a torque on one body: along each axis three sines of 10 to 40 Hz, so that the body
+/// is shaken and yet stays about where it is. Each axis may reach `force` [N] or `torque` [N*m].
 class Shaking {
   public:
     Shaking(Random& random, double force, double torque) : force_(force), torque_(torque) {
@@ -53,7 +53,7 @@ class Shaking {
     std::array<std::array<Sine, 3>, 6> sines_;
 };
 
-/// Keeps problems with nearly so many contacts.
+/// Keeps problems with nearly the wanted number of contacts.
 class Recorder {
   public:
     explicit Recorder(std::vector<RecordedProblem>& out) : out_(out) {}
@@ -72,21 +72,21 @@ class Recorder {
     std::vector<RecordedProblem>& out_;
 };
 
-/// At most so many, evenly from first to last.
+/// Keeps at most `most` problems, evenly from first to last.
 void thin_out(std::vector<RecordedProblem>& problems, size_t most) {
     if (problems.size() <= most) return;
     for (size_t i = 0; i < most; ++i) problems[i] = problems[i * problems.size() / most];
     problems.resize(most);
 }
 
-/// What happens to a world while its problems are recorded.
+/// How a world is shaken while its problems are recorded.
 struct Course {
-    double settle = 0;  ///< before, with Bullet's solver [s]
-    double time = 1;    ///< recorded [s]
-    double force = 1;   ///< on each body at the end of that time, over its weight
+    double settle = 0;  ///< time to settle before, with Bullet's solver [s]
+    double time = 1;    ///< time recorded [s]
+    double force = 1;   ///< force on each body at the end of that time, over its weight
 };
 
-/// Shakes every body that can move, ever more.
+/// Shakes every body that can move, more and more.
 std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, const Course& course) {
     dynamics::Settings settings;
     settings.solver = dynamics::Solver::sequential_impulse;
@@ -108,7 +108,7 @@ std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, cons
         shakings.push_back(
             {{static_cast<int>(i)}, {random, course.force * weight, course.force * weight * arm}});
     }
-    for (int i = 0; i < 20; ++i) world.step(kStep);  // at rest by Newton's method too
+    for (int i = 0; i < 20; ++i) world.step(kStep);  // comes to rest by Newton's method too
     recorder.on = true;
     for (double time = 0; time < course.time; time += kStep) {
         const double share = time / course.time;
@@ -119,7 +119,7 @@ std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, cons
     return out;
 }
 
-/// The block of `bench grasp` between the pads, shaken while phase `phase` lasts.
+/// The block of `bench grasp` between the pads, shaken from phase `first` to the end of the hold.
 std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::HandSpec& hand,
                                          BenchSetup setup, int contacts, GraspPhase first,
                                          double force) {
@@ -135,7 +135,7 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
     std::vector<std::pair<dynamics::BodyIndex, Shaking>> shakings;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!scene.bodies[i].moves_at_all()) continue;
-        // what is gripped is held by far more than its weight
+        // the gripped block is held by far more than its weight
         const double size = i == 1 ? force : 0.8 * scene::mass(scene.bodies[i]) * kGravity;
         shakings.push_back({{static_cast<int>(i)}, {random, size, size * kBlockSize / 4}});
     }
@@ -160,7 +160,7 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
 
 scene::Scene brick_wall_scene(int bricks, int courses) {
     const Vec3 size(0.06, 0.04, 0.02);
-    const double pitch = size.x() + 0.002;  // joints stay open: bricks touch above and below alone
+    const double pitch = size.x() + 0.002;  // joints stay open: bricks touch only above and below
     const double shift = 0.4 * pitch;       // less than half, or end bricks would stand on an edge
     scene::Scene scene;
     scene.bodies = {table(2, kFriction)};
@@ -233,7 +233,7 @@ std::vector<ProblemGroup> record_problems(size_t most, const Progress& progress)
         upper.position.z() += kBlockSize;
         scene.bodies.push_back(upper);
         hand::HandSpec hand = grasp_hand(setup);
-        hand.script.resize(2);  // it stays on the table
+        hand.script.resize(2);  // the block stays on the table
         hand.script[1].duration = 3;
         return shake_grasp(scene, hand, setup, 16, kWait, 6);
     });
@@ -246,7 +246,7 @@ std::vector<ProblemGroup> record_problems(size_t most, const Progress& progress)
                          {0, 1, 1});
         });
     }
-    // contacts of piles depend on how they fall
+    // numbers of boxes; the number of contacts depends on how they fall
     constexpr std::array<int, kGrowth.size()> kPiles{2, 4, 13, 22, 36, 46};
     for (size_t i = 0; i < kGrowth.size(); ++i) {
         add("pile", kGrowth[i], [&] {

@@ -18,7 +18,7 @@ namespace {
 using contact::Impulse;
 using contact::Solver;
 
-/// Microseconds of one call.
+/// Time of one call [us].
 template <class Call>
 double time_of(const Call& call) {
     const auto begin = std::chrono::steady_clock::now();
@@ -35,13 +35,13 @@ double quantile(std::vector<double> values, double share) {
     return values[at];
 }
 
-/// Which problems were solved, and how long each took [us].
+/// Indices of the problems that were solved, and the time of each [us].
 struct Times {
     std::vector<size_t> solved;
     std::vector<double> us;
 };
 
-/// 0 ... count - 1 so that any first part of it is spread evenly (van der Corput).
+/// 0 ... count - 1 in an order whose first part, of any length, is spread evenly (van der Corput).
 std::vector<size_t> spread_over(size_t count) {
     std::vector<size_t> out;
     unsigned bits = 0;
@@ -54,10 +54,10 @@ std::vector<size_t> spread_over(size_t count) {
     return out;
 }
 
-/// Finds how many problems half the budget [s] allows, spread evenly over the scene's time, one at
-/// least. Then each is solved once more, now in their order, so that it meets the memory that the
-/// one of the tick before left behind, as in a session. That one time counts, whatever happened in
-/// it: the shortest of several would leave out what a p99 is about.
+/// Finds how many problems, spread evenly over the scene's time, half the budget [s] allows; at
+/// least one. Then each is solved once more, now in their order, so that it meets the caches that
+/// the problem of the tick before left behind, as in a session. Only that time counts, whatever
+/// happened in it: the shortest of several would leave out what a p99 should show.
 template <class Solve>
 Times times(size_t count, double budget, const Solve& solve) {
     Times out;
@@ -72,7 +72,7 @@ Times times(size_t count, double budget, const Solve& solve) {
     return out;
 }
 
-/// Our solvers on the problems of one scene, Bullet's beside them.
+/// Measures our solvers, and Bullet's, on the problems of one scene.
 class Measurement {
   public:
     Measurement(const ProblemGroup& group, double budget) : group_(group), budget_(budget) {
@@ -115,7 +115,8 @@ class Measurement {
         ProblemFigures out{group_.family, group_.contacts, 0, 0, 0, 0, 0};
         double all = 0;
         out.problems = static_cast<int>(group_.problems.size());
-        const size_t stride = 1 + group_.problems.size() / 50;  // enough for shares
+        const size_t stride =
+            1 + group_.problems.size() / 50;  // about 50 problems are enough for shares
         int seen = 0;
         for (size_t i = 0; i < group_.problems.size(); i += stride, ++seen) {
             const RecordedProblem& p = group_.problems[i];
@@ -232,7 +233,7 @@ std::vector<Growth> growth_of(const std::vector<SolverCost>& costs,
 }  // namespace
 
 SolversFigures bench_solvers(const SolversBench& bench, const Progress& progress) {
-    constexpr double kRecording = 0.3;  // its share of the time
+    constexpr double kRecording = 0.3;  // share of the time that recording takes
     const std::vector<ProblemGroup> groups =
         record_problems(bench.most_problems, [&](const std::string& what, double share) {
             if (progress) progress(what, kRecording * share);

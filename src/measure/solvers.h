@@ -1,4 +1,5 @@
-// `dihaptic bench solvers`: definitions in docs/measures.md.
+// The command `dihaptic bench solvers`: measures the solvers' times on recorded contact problems.
+// docs/measures.md defines the figures.
 #pragma once
 
 #include <string>
@@ -10,30 +11,30 @@
 namespace dihaptic::measure {
 
 struct SolversBench {
-    /// Measured beside Bullet's, which always is.
+    /// Solvers to measure beside Bullet's, which is always measured.
     std::vector<contact::Solver> solvers{contact::Solver::newton,
                                          contact::Solver::staggered_projections,
                                          contact::Solver::stewart_trinkle};
-    size_t most_problems = 400;  ///< of each scene
-    double budget = 0.7;         ///< for one solver on one scene's problems [s]
+    size_t most_problems = 400;  ///< most problems of each scene
+    double budget = 0.7;         ///< time for one solver on one scene's problems [s]
 };
 
 /// One solver on the problems of one scene.
 struct SolverCost {
     contact::Solver solver{};
     std::string family;
-    int contacts = 0;          ///< about so many
-    double mean_contacts = 0;  ///< of the problems solved
+    int contacts = 0;          ///< approximate number (ProblemGroup)
+    double mean_contacts = 0;  ///< mean number in the problems solved
     double median_us = 0;
     double p99_us = 0;
-    double ratio_median = 0;  ///< of its times over Bullet's, problem by problem
-    int fallbacks = 0;        ///< another method answered, or sweeps did
-    int missed = 0;           ///< even the fallback stayed above tolerance
+    double ratio_median = 0;  ///< median of its times over Bullet's, problem by problem
+    int fallbacks = 0;        ///< number of problems that another method, or sweeps, solved
+    int missed = 0;           ///< number in which even the fallback stayed above tolerance
     double residual_p99 = 0;  ///< natural map over 1 + |q|
     int solves = 0;
 };
 
-/// What contacts do at the solution: what makes problems hard.
+/// States of the contacts at the solution, which decide how hard the problems are.
 struct ProblemFigures {
     std::string family;
     int contacts = 0;
@@ -42,7 +43,7 @@ struct ProblemFigures {
     int problems = 0;
 };
 
-/// Time grows with contacts to this power, from 8 to 200 of them.
+/// Power of the number of contacts, from 8 to 200, with which a solver's time grows.
 struct Growth {
     contact::Solver solver{};
     std::string family;

@@ -17,11 +17,11 @@ namespace dihaptic::measure {
 namespace {
 
 using model::kGravity;
-constexpr double kHandSpread = 3;   // firm over usual, usual over loose
-constexpr double kGripShare = 0.4;  // of the weaker device's peak force
-constexpr double kNotMargin = 1.5;  // so much stiffer a proposal need not bear
-constexpr double kAsStiff = 0.95;   // of the stiffest, where it saves damping
-constexpr int kBisections = 3;      // of the way between two stiffnesses of the map
+constexpr double kHandSpread = 3;   // impedance of firm over usual, and usual over loose hand
+constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
+constexpr double kNotMargin = 1.5;  // stiffness of TuneResult::stiffer over the proposal's
+constexpr double kAsStiff = 0.95;   // this share of the stiffest is enough if it saves damping
+constexpr int kBisections = 3;      // between two stiffnesses of the map
 constexpr std::array kAllBurdens{Burden::none, Burden::delay, Burden::light, Burden::loose,
                                  Burden::firm};
 
@@ -30,8 +30,8 @@ bool dual(const TuneSetup& setup) {
            setup.settings.proxy.kind == haptics::ProxyKind::rigid;
 }
 
-/// Does `work(i)` for every i below `count`, on several threads; `done(i)` on this one, with how
-/// many are. Each result belongs to its i: in which order they come makes no difference.
+/// Calls `work(i)` for every i below `count`, on several threads, and on this thread `done(n)` with
+/// the number that are finished. Each result belongs to its i, so their order makes no difference.
 template <class Work, class Done>
 void in_parallel(size_t count, unsigned threads, const std::atomic<bool>& stop, const Work& work,
                  const Done& done) {
@@ -71,12 +71,12 @@ Verdict judge(const TuneSetup& setup, const TunePoint& point, Burden burden) {
     double friction = 0;
     for (const rig::Device& device : setup.devices)
         friction = std::max(friction, simulated_options(device).friction);
-    // a device's friction takes its part of the hand's force, one way or the other
+    // a device's friction takes part of the hand's force, in either direction
     if (calm_grasp(hold, friction / setup.grip)) return Verdict::calm;
     return hold.held ? Verdict::shaking : Verdict::dropped;
 }
 
-/// Judges points: first all as they are, then what is calm under each burden.
+/// Judges points: first all as they are, then the calm ones under each burden.
 void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
                const std::atomic<bool>& stop, const std::function<void(double)>& share) {
     const auto n = static_cast<double>(points.size());
@@ -103,7 +103,7 @@ void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
         });
 }
 
-/// To two digits, down: what people write into files.
+/// Rounded down to two digits, as people write numbers into files.
 double rounded_down(double k) {
     const double unit = std::pow(10, std::floor(std::log10(k)) - 1);
     return std::floor(k / unit * (1 + 1e-12)) * unit;
@@ -113,11 +113,11 @@ double one_digit_less(double k) {
     return rounded_down(k * 0.99);
 }
 
-/// The rows of the map that get as far as any, each between its last good and its first bad K.
+/// A row of the map that gets as far as any, with its last good and its first bad K.
 struct Bracket {
     double c;
     double smoothing;
-    double of_map;  ///< the last good one of the map
+    double of_map;  ///< last good K of the map
     double good;
     double bad;
 };
@@ -139,7 +139,7 @@ std::vector<Bracket> best_rows(const TuneSetup& setup, const TuneResult& result)
     return rows;
 }
 
-/// Passes a part's share on as one of the whole, between `from` and `to`.
+/// Reports the share of a part as a share of the whole, between `from` and `to`.
 std::function<void(double)> part_of(const Progress& progress, const char* what, double from,
                                     double to) {
     return [&progress, what, from, to](double share) {
@@ -147,7 +147,7 @@ std::function<void(double)> part_of(const Progress& progress, const char* what, 
     };
 }
 
-/// Brings each row's last good and first bad stiffness closer to each other.
+/// Brings each row's last good and first bad stiffness closer together.
 void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomic<bool>& stop,
             const Progress& progress) {
     for (int i = 0; i < kBisections && !stop; ++i) {
@@ -167,8 +167,8 @@ void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomi
     }
 }
 
-/// The least damped (rows rise) of those that are as stiff as any within what bisection resolves: a
-/// damper is felt on every touch.
+/// The least damped row (damping rises over rows) of those that are about as stiff as the stiffest,
+/// since a damper is felt at every touch.
 const Bracket& least_damped(const std::vector<Bracket>& rows) {
     const double stiffest =
         std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
@@ -178,7 +178,8 @@ const Bracket& least_damped(const std::vector<Bracket>& rows) {
                          [&](const Bracket& row) { return row.good >= kAsStiff * stiffest; });
 }
 
-/// In steps of the second digit: where calm and shaking alternate, down to what the map found calm.
+/// The stiffest K that is calm with margin, found downward in steps of the second digit, because
+/// calm and shaking may alternate; at least the K that the map found calm.
 TunePoint stiffest_calm(const TuneSetup& setup, const Bracket& row, const std::atomic<bool>& stop,
                         const Progress& progress) {
     const auto judged = [&](double k) {
@@ -249,7 +250,7 @@ BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden bur
         out.impedance.damping *= factor;
         out.impedance.stiffness_per_force *= factor;
     }
-    // all hands grip with the same force, and lift to the same height
+    // hands of any stiffness grip with the same force, and lift to the same height
     const double k_hand = out.impedance.stiffness + out.impedance.stiffness_per_force * setup.grip;
     out.squeeze = model::series_spring_stretch(setup.grip, k_hand, point.k);
     out.lift += model::series_spring_stretch(out.mass * kGravity / 2, k_hand, point.k);

@@ -1,5 +1,6 @@
-// `dihaptic tune`: which stiffness, damping and smoothing hold a block calmly on a given device in
-// a given hand, and the stiffest that still does when things get worse (docs/measures.md).
+// The command `dihaptic tune`: finds the stiffness, damping and smoothing that hold a block calmly
+// on a given device in a given hand, and the stiffest that still do under the burdens below
+// (docs/measures.md).
 #pragma once
 
 #include <array>
@@ -12,13 +13,13 @@
 
 namespace dihaptic::measure {
 
-/// What became of a hold. Judged as in `bench grasp`: offset fingers, no tremor.
+/// Result of a hold, judged as in `bench grasp`: offset fingers, no tremor.
 enum class Verdict { calm, shaking, dropped };
 constexpr auto enum_names(Verdict) {
     return std::array{"calm", "shaking", "dropped"};
 }
 
-/// As it is, and what a proposal must bear besides.
+/// Changes of the setup that a proposal must bear besides the setup as it is.
 enum class Burden {
     none,
     delay,  ///< forces act one tick later
@@ -33,18 +34,18 @@ constexpr size_t kBurdens = 5;
 
 struct TuneSetup {
     servo::Settings settings;
-    std::vector<rig::Device> devices;  ///< of thumb and index, simulated
+    std::vector<rig::Device> devices;  ///< simulated devices of thumb and index
     hand::Impedance hand;
-    double grip = 0;  ///< with which the block is held [N]
-    // what is searched
+    double grip = 0;  ///< grip force with which the block is held [N]
+    // the grid of the search
     std::vector<double> stiffness;  ///< rising [N/m]
     std::vector<double> damping;    ///< rising [N*s/m]
     std::vector<double> smoothing;
-    unsigned threads = 0;  ///< 0: as many as there are processors; results do not depend on it
+    unsigned threads = 0;  ///< 0: one per processor; results do not depend on it
 };
 
-/// The search for two fingers of a rig, on the usual grid. Throws Error when there are not two, or
-/// when their devices are not simulated ones.
+/// Sets up the search for two fingers of a rig, on the usual grid. Throws Error when there are
+/// fewer than two, or when their devices are not simulated.
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
                      const servo::Settings& settings, const hand::Impedance& hand);
 
@@ -52,7 +53,7 @@ struct TunePoint {
     double k = 0;
     double c = 0;
     double smoothing = 1;
-    /// By Burden; beyond `none` unmeasured unless that is calm.
+    /// Verdicts by Burden; those beyond `none` are only measured if `none` is calm.
     std::array<std::optional<Verdict>, kBurdens> verdicts;
 
     bool calm(Burden burden) const {
@@ -62,26 +63,26 @@ struct TunePoint {
 };
 
 struct TuneResult {
-    /// By smoothing, then damping, then stiffness.
+    /// Points by smoothing, then damping, then stiffness.
     std::vector<TunePoint> map;
     std::optional<TunePoint> proposal;
-    /// 1.5 times as stiff, for what ends it.
+    /// A point 1.5 times as stiff as the proposal, to show what limits it.
     std::optional<TunePoint> stiffer;
     bool interrupted = false;
 };
 
-/// Holds on one point of the map.
+/// Setup of a hold at one point of the map.
 BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden burden);
 
 TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Progress& progress);
 
-/// Highest K of a row of the map (one damping and smoothing) up to which every K is calm as it is
-/// and under the burden; 0 when none is.
+/// Highest K of a row of the map (one damping and smoothing) up to which every K is calm, both as
+/// it is and under the burden; 0 if there is none.
 double calm_limit(const TuneResult& result, double damping, double smoothing, Burden burden);
 
 std::string to_json(const TuneResult& result, const TuneSetup& setup);
 std::string to_table(const TuneResult& result, const TuneSetup& setup);
-/// The proposal as a file of Dihaptic has it.
+/// The proposal as settings in the form of Dihaptic's files.
 std::string settings_block(const TuneResult& result, const TuneSetup& setup);
 
 /// The map at the proposal's smoothing, as a picture (SVG): tune_map.cpp.

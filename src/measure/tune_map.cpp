@@ -1,5 +1,5 @@
-// The picture of a search: stiffness to the right, damping upward, a cell a setting. Blue is calm,
-// orange shakes, grey fell; and each has its own mark, for eyes and printers that see no colours.
+// Draws the map of a search: stiffness to the right, damping upward, one cell per setting. Blue is
+// calm, orange shakes, grey fell; each also has a mark, for eyes and printers without colours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void dot(Picture& picture, double x, double y) {
                  "#ffffff");
 }
 
-/// Which burdens it does not bear, a letter each.
+/// The burdens that a point does not bear, one letter each.
 std::string lacking(const TunePoint& point) {
     std::string out;
     if (!point.calm(Burden::delay)) out += 'D';
@@ -62,7 +62,7 @@ void draw_point(Picture& picture, double x, double y, const TunePoint& point) {
     }
 }
 
-/// Where a value stands among rising ones, as a real index: between them by `scale`.
+/// Position of a value among rising ones, as a real index, interpolated by `scale`.
 double index_of(const std::vector<double>& values, double value, double (*scale)(double)) {
     const auto above = std::upper_bound(values.begin(), values.end(), value);
     if (above == values.begin()) return 0;
@@ -79,7 +79,7 @@ double logarithm(double value) {
     return std::log(value);
 }
 
-/// A cell for each setting that was tried.
+/// The grid of the map, with a cell for each setting that was tried.
 class Grid {
   public:
     explicit Grid(const TuneSetup& setup) : setup_(setup) {}
@@ -124,7 +124,7 @@ void draw_axes(Picture& picture, const Grid& grid, const TuneSetup& setup) {
                  fmt::format("transform=\"rotate(-90 36 {:g})\"", middle));
 }
 
-/// The damping that the program takes when none is given.
+/// Draws the damping that the program takes when none is given.
 void draw_default_damping(Picture& picture, const Grid& grid, const TuneSetup& setup) {
     std::string line;
     const double per_k = setup.settings.step() / 2;
@@ -154,7 +154,7 @@ void draw_proposal(Picture& picture, const Grid& grid, const TunePoint& proposal
                  "font-weight=\"bold\"");
 }
 
-/// What the marks mean, from `y` down.
+/// Draws the key to the marks, from `y` down.
 void draw_key(Picture& picture, double y) {
     const double key = kLeft;
     picture.cell(key, y, "#0a5ea8");

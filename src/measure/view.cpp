@@ -67,7 +67,7 @@ std::vector<ViewFigures> bench_view(int frames, const Progress& progress) {
                 offscreen.wait();
                 const std::chrono::duration<double, std::milli> took =
                     std::chrono::steady_clock::now() - begin;
-                // the first makes what the others use
+                // the first picture makes resources that the others use
                 if (i > 0) times[drawn == &variance ? 0 : 1].push_back(took.count());
             }
         }

@@ -1,4 +1,5 @@
-// `dihaptic bench view`: what a picture costs. Definitions in docs/measures.md.
+// The command `dihaptic bench view`: measures the time to draw a picture. docs/measures.md defines
+// the figures.
 #pragma once
 
 #include <string>
@@ -12,11 +13,11 @@ struct ViewFigures {
     std::string renderer;
     int width = 0;
     int height = 0;
-    double variance_ms = 0;  ///< median time of a frame
-    double plain_ms = 0;     ///< with a plain shadow map, in turn with the others
+    double variance_ms = 0;  ///< median time of a picture, with a variance shadow map
+    double plain_ms = 0;     ///< median time with a plain shadow map; the two take turns
 };
 
-/// The scene of `bench grasp`, the block swinging above the table.
+/// Draws a block that swings above a table.
 std::vector<ViewFigures> bench_view(int frames, const Progress& progress);
 
 std::string to_json(const std::vector<ViewFigures>& figures);

@@ -3,7 +3,7 @@
 namespace dihaptic::model {
 namespace {
 
-/// What the process would come to if it left a lasting error of 1.
+/// The state that the process would approach if its error stayed 1.
 double gain(const SingleRate& rate) {
     return rate.learning / (1 - rate.retention);
 }

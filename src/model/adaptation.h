@@ -1,12 +1,13 @@
-// Trial-by-trial adaptation to a perturbation f, by one process or by two side by side,
+// Trial-by-trial adaptation to a perturbation f, by a single process or by two in parallel:
 //
 //     e(n) = f(n) - x(n)        0 in an error clamp
 //     x(n+1) = A x(n) + B e(n)
 //
-// x is what the person compensates for in trial n, in the unit of f, before that trial teaches
-// anything. A is the retention and B the learning rate, in [0, 1]. Two-rate: x = x_fast + x_slow,
-// each with an A and a B of its own and with the same e; A_fast < A_slow, B_fast > B_slow. Source:
-// Smith, Ghazizadeh and Shadmehr 2006; single-rate for familiar dynamics: Ingram et al. 2011.
+// x is the compensation that the person makes in trial n, before learning from that trial; it has
+// the unit of f. A is the retention and B the learning rate, both in [0, 1]. Two-rate model: x =
+// x_fast + x_slow, each with its own A and B and driven by the same e; A_fast < A_slow, B_fast >
+// B_slow. Sources: Smith, Ghazizadeh and Shadmehr 2006; single-rate for familiar dynamics: Ingram
+// et al. 2011.
 #pragma once
 
 #include <span>
@@ -14,8 +15,9 @@
 
 namespace dihaptic::model {
 
-/// One trial, as far as adaptation goes. Washout and catch trials have a perturbation of 0, and the
-/// error that it makes teaches; a trial without feedback teaches as much as a clamp: nothing.
+/// A trial as the model sees it. In washout and catch trials the perturbation is 0, and the person
+/// learns from the error that this makes. A trial without feedback counts as an error clamp: it
+/// teaches nothing.
 struct AdaptationTrial {
     double perturbation = 0;  ///< f
     bool clamp = false;       ///< no error is seen, whatever the person does
@@ -40,12 +42,12 @@ struct TwoRateState {
 /// Estimates of Smith et al. 2006, as quoted in PMC2585408.
 inline constexpr TwoRate kSmith2006{.fast = {0.59, 0.21}, .slow = {0.992, 0.02}};
 
-/// The error that a trial shows to somebody who compensates for x.
+/// The error that a person who compensates for x sees in a trial.
 constexpr double adaptation_error(const AdaptationTrial& trial, double x) {
     return trial.clamp ? 0 : trial.perturbation - x;
 }
 
-/// The state after a trial that showed this error.
+/// The state after a trial in which this error was seen.
 constexpr double next(const SingleRate& rate, double x, double error) {
     return rate.retention * x + rate.learning * error;
 }
@@ -53,12 +55,12 @@ constexpr TwoRateState next(const TwoRate& rates, const TwoRateState& state, dou
     return {next(rates.fast, state.fast, error), next(rates.slow, state.slow, error)};
 }
 
-/// Compensation x in each of the trials, from none.
+/// Compensation x in each trial, starting at 0.
 std::vector<double> compensation(const SingleRate& rate, std::span<const AdaptationTrial> trials);
 std::vector<double> compensation(const TwoRate& rates, std::span<const AdaptationTrial> trials);
 
-/// Share of a lasting perturbation that is compensated for in the end: G / (1 + G) where G is the
-/// sum of B / (1 - A). 1 when nothing is ever forgotten.
+/// Share of a lasting perturbation that is compensated for in the end: G / (1 + G), where G is the
+/// sum of B / (1 - A) over the processes. 1 if a process that learns has a retention of 1.
 double asymptote(const SingleRate& rate);
 double asymptote(const TwoRate& rates);
 

@@ -10,8 +10,8 @@ namespace {
 struct Biquad {
     double b0, b1, b2, a1, a2;
 
-    /// One pass, from the state of rest at the first sample's value (`gain` is the filter's at 0
-    /// Hz).
+    /// Filters once, starting from the steady state at the first sample's value; `gain` is the
+    /// filter's gain at 0 Hz.
     void run(std::vector<double>& x, double gain) const {
         double x1 = x.front(), x2 = x.front();
         double y1 = gain * x.front(), y2 = y1;
@@ -27,7 +27,7 @@ struct Biquad {
 };
 
 /// Extends a signal at both ends by its point reflection, so that the filter has settled where the
-/// signal begins; then both passes.
+/// signal begins, and runs both passes.
 std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain,
                               size_t pad) {
     if (signal.size() < 2) return signal;

@@ -1,14 +1,15 @@
-// Second-order Butterworth filters, run forward and backward: no phase shift, and the magnitude
-// squared, so that the cut-off lies 6 dB down. Bilinear transform with the cut-off pre-warped.
+// Second-order Butterworth filters, run forward and backward: there is no phase shift, and the
+// magnitude is squared, so that the cut-off frequency is attenuated by 6 dB. The filters come from
+// the bilinear transform with the cut-off pre-warped.
 #pragma once
 
 #include <vector>
 
 namespace dihaptic::model {
 
-/// The signal below `cutoff` [Hz]; `rate` is samples per second [Hz].
+/// The part of the signal below `cutoff` [Hz]; `rate` is the sampling rate [Hz].
 std::vector<double> low_pass(const std::vector<double>& signal, double cutoff, double rate);
-/// The signal above `cutoff` [Hz].
+/// The part of the signal above `cutoff` [Hz].
 std::vector<double> high_pass(const std::vector<double>& signal, double cutoff, double rate);
 
 }  // namespace dihaptic::model

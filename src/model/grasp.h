@@ -1,4 +1,5 @@
-// Closed forms of a two-finger grasp and of pressing a surface, for checks and predictions.
+// Closed-form solutions for a two-finger grasp and for pressing on a surface, for checks and
+// predictions.
 #pragma once
 
 #include <cmath>
@@ -15,12 +16,13 @@ constexpr double series_spring_force(double x, double k_hand, double k) {
     return x * k_hand * k / (k_hand + k);
 }
 
-/// How far the hand's spring and the coupling's in series give under a force [m].
+/// Stretch of the hand's spring and the coupling's in series under a force [m].
 constexpr double series_spring_stretch(double force, double k_hand, double k) {
     return force * (k_hand + k) / (k_hand * k);
 }
 
-/// Direction of the pinch of two fingers or more: from the first to the middle of the others; unit.
+/// Unit vector of the pinch of two or more fingers, from the first to the mean position of the
+/// others.
 inline Vec3 grasp_axis(std::span<const Vec3> p_WP) {
     Vec3 others = Vec3::Zero();
     for (size_t i = 1; i < p_WP.size(); ++i) others += p_WP[i];
@@ -32,32 +34,31 @@ constexpr double minimum_grip(double load, double friction) {
     return load / (2 * friction);
 }
 
-/// Force on each of two digits that hold a load with the smallest grip that does: its normal part
-/// and its share of the load together [N].
+/// Force on each of two digits that hold a load with the minimum grip: the magnitude of its normal
+/// part and its share of the load together [N].
 inline double smallest_hold(double load, double friction) {
     return std::hypot(minimum_grip(load, friction), load / 2);
 }
 
-/// Grip over load below which two digits slip: 1 / (2 mu).
+/// Ratio of grip to load force below which two digits slip: 1 / (2 mu).
 constexpr double slip_ratio(double friction) {
     return minimum_grip(1, friction);
 }
 
-/// Share of a grip force that is beyond what the load needs: (grip - minimum) / grip. Negative: it
-/// slips.
+/// Share of a grip force that exceeds what the load needs: (grip - minimum) / grip. If it is
+/// negative, the load slips.
 constexpr double safety_margin(double grip, double load, double friction) {
     return (grip - minimum_grip(load, friction)) / grip;
 }
 
-/// Grip force of somebody who holds a load with a safety margin below 1: minimum / (1 - margin)
-/// [N].
+/// Grip force that holds a load with a given safety margin, which is below 1: minimum / (1 -
+/// margin) [N].
 constexpr double grip_with_margin(double load, double friction, double margin) {
     return minimum_grip(load, friction) / (1 - margin);
 }
 
-/// Highest stiffness that a spring sampled every h and held for h renders against a handle with
-/// damping b without giving out energy: 2 b / h (Colgate and Schenkel 1997, no virtual damping)
-/// [N/m].
+/// Highest stiffness that a spring sampled and held at intervals h can render passively on a handle
+/// with damping b: 2 b / h (Colgate and Schenkel 1997, no virtual damping) [N/m].
 constexpr double passive_stiffness(double b, double h) {
     return 2 * b / h;
 }

@@ -1,4 +1,4 @@
-// The gravity that people and devices live in.
+// The gravitational acceleration at which people and devices are modelled.
 #pragma once
 
 namespace dihaptic::model {

@@ -23,7 +23,8 @@ struct LearningCurve {
     }
 };
 
-/// That of a single-rate process under a perturbation that begins in trial 0 and stays.
+/// The learning curve of a single-rate process under a perturbation that starts in trial 0 and
+/// stays.
 inline LearningCurve learning_curve(const SingleRate& rate, double perturbation) {
     return {0, perturbation * asymptote(rate), -1 / std::log(rate.retention - rate.learning)};
 }

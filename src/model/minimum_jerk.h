@@ -2,17 +2,19 @@
 //
 //     x(s) = x0 + (x1 - x0) (10 s^3 - 15 s^4 + 6 s^5),   s = t / T in [0, 1]
 //
-// Peak speed is 15/8 of the mean speed, at s = 1/2. Between points that are passed at speeds v0 and
-// v1, without acceleration, the smoothest path is the quintic
+// Peak speed is 15/8 of the mean speed, at s = 1/2. Between two points that are passed at the
+// speeds v0 and v1, without acceleration, the smoothest path is the quintic
 //
-//     x(s) = the same + T v0 (s - 6 s^3 + 8 s^4 - 3 s^5) + T v1 (-4 s^3 + 7 s^4 - 3 s^5)
+//     x(s) = x0 + (x1 - x0) (10 s^3 - 15 s^4 + 6 s^5)
+//            + T v0 (s - 6 s^3 + 8 s^4 - 3 s^5) + T v1 (-4 s^3 + 7 s^4 - 3 s^5)
 #pragma once
 
 #include <algorithm>
 
 namespace dihaptic::model {
 
-/// Share of the way done at s, and its first derivative by s. Both are constant outside [0, 1].
+/// Share of the way covered at s, and its first derivative with respect to s. The share is constant
+/// outside [0, 1], where the rate is 0.
 struct MinimumJerk {
     double share;
     double rate;
@@ -23,13 +25,14 @@ constexpr MinimumJerk minimum_jerk(double s) {
     return {s * s * s * (10 + s * (6 * s - 15)), 30 * s * s * (1 - s) * (1 - s)};
 }
 
-/// Second derivative of the share by s; 0 outside [0, 1].
+/// Second derivative of the share with respect to s; 0 outside [0, 1].
 constexpr double minimum_jerk_acceleration(double s) {
     if (s < 0 || s > 1) return 0;
     return 60 * s * (1 - s) * (1 - 2 * s);
 }
 
-/// What a speed of one at the start, and one at the end, adds to the share: the two brackets above.
+/// Contributions to the share of a unit speed at the start and at the end: the factors of T v0 and
+/// T v1 above, each with its derivative.
 constexpr MinimumJerk start_speed_part(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return {s * (1 + s * s * (-6 + s * (8 - 3 * s))), 1 + s * s * (-18 + s * (32 - 15 * s))};

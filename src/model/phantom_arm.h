@@ -1,10 +1,10 @@
-// The arm of a PHANToM Premium: a turret, and a thigh and a shin that a parallelogram drives from
-// the turret.
+// Kinematics and dynamics of the arm of a PHANToM Premium: a turret, and a thigh and a shin that
+// are driven from the turret through a parallelogram.
 //
 // Joint angles q = (turret, thigh, shin) are zero in the reset pose: thigh level toward the person,
-// shin hanging at a right angle. The turret turns right, thigh and shin turn up; the shin's angle
-// is from the vertical. The device's frame D has its origin at the endpoint in the reset pose, x
-// right, y up, z toward the person. README.md has the equations.
+// shin hanging at a right angle to it. Positive angles turn the turret to the right, and thigh and
+// shin up; the shin's angle is measured from the vertical. The device's frame D has its origin at
+// the endpoint in the reset pose, x right, y up, z toward the person. README.md has the equations.
 #pragma once
 
 #include "base/geometry.h"
@@ -18,34 +18,36 @@ struct PhantomLinks {
     bool operator==(const PhantomLinks&) const = default;
 };
 
-/// Which joint angles the arm allows [rad]. The bounds of thigh less shin are known of a Premium
-/// 1.5; the others are guesses that its pictures allow.
+/// Limits of the joint angles [rad]. Those of the thigh's angle less the shin's are known for a
+/// Premium 1.5; the others are guesses that are consistent with its pictures.
 struct PhantomLimits {
     Vec3 low;
     Vec3 high;
-    double bend_low;  ///< of thigh less shin
+    double bend_low;  ///< of the thigh's angle less the shin's
     double bend_high;
 };
 const PhantomLimits& phantom_limits();
 
-/// p_DH of joint angles [m].
+/// p_DH for given joint angles [m].
 Vec3 phantom_position(const PhantomLinks& links, const Vec3& q) noexcept;
-/// J: v_DH = J dq/dt, and so joint torques = J^T f_D [m].
+/// J [m], where v_DH = J dq/dt, and so the joint torques are J^T f_D.
 Mat3 phantom_jacobian(const PhantomLinks& links, const Vec3& q) noexcept;
-/// Acceleration of the endpoint at steady joint rates: dJ/dt q' [m/s^2].
+/// Acceleration of the endpoint at constant joint rates: dJ/dt q' [m/s^2].
 Vec3 phantom_steady_acceleration(const PhantomLinks& links, const Vec3& q,
                                  const Vec3& rate) noexcept;
-/// |det J| = l1 l2 rho cos(q2 - q3): where it vanishes, the arm cannot give every force [m^3].
+/// |det J| = l1 l2 rho cos(q2 - q3) [m^3], where rho is the endpoint's distance from the turret's
+/// axis. Where it vanishes, the arm cannot exert forces in all directions.
 double phantom_determinant(const PhantomLinks& links, const Vec3& q) noexcept;
-/// Joint angles at p_DH; where the links are too long or too short for it, those of the nearest
-/// point on its line to the shoulder.
+/// Joint angles that put the endpoint at p_DH or, where the links cannot reach it, at the nearest
+/// point on the line from the shoulder to p_DH.
 Vec3 phantom_joints(const PhantomLinks& links, const Vec3& p_DH) noexcept;
-/// Whether the arm's joints allow the angles.
+/// Whether the joint angles are within the limits.
 bool phantom_allows(const Vec3& q) noexcept;
-/// Whether the endpoint gets to p_DH.
+/// Whether the endpoint can reach p_DH within the joints' limits.
 bool phantom_reaches(const PhantomLinks& links, const Vec3& p_DH) noexcept;
 
-/// M(q) q'' + C(q, q') + G(q) + damping q' = joint torques, in sums of the parts' masses.
+/// Coefficients of M(q) q'' + C(q, q') + G(q) + damping q' = joint torques, summed over the arm's
+/// parts.
 struct PhantomDynamics {
     // M11 = m0 + m_thigh cos 2q2 + m_shin cos 2q3 + m_both cos q2 sin q3 [kg*m^2]
     double m0 = 0;
@@ -59,10 +61,10 @@ struct PhantomDynamics {
     double g_shin = 0;
     double damping = 0;  ///< of each joint [N*m*s]
 
-    /// The Premium 1.5 without its rotors, as published.
+    /// The Premium 1.5 without its rotors, from published values.
     static PhantomDynamics premium_1_5();
-    /// The same arm with other links: masses scale with the lengths, inertias with their cubes. The
-    /// parts of a Premium 1.0 are not published.
+    /// The Premium 1.5 scaled to other links: masses scale with the lengths, inertias with their
+    /// cubes. The values of a Premium 1.0's parts are not published.
     static PhantomDynamics scaled(const PhantomLinks& links);
 };
 

@@ -1,4 +1,4 @@
-// Psychometric functions: how likely "yes" (or "correct") is at a stimulus level x,
+// Psychometric functions: the probability of "yes" (or "correct") at a stimulus level x,
 //
 //     p(x) = gamma + (1 - gamma - lambda) F(x; t, s)
 //
@@ -8,10 +8,11 @@
 //     normal         Phi((x - t) / s)                 F(t) = 0.5       s: standard deviation
 //     logistic       1 / (1 + exp(-(x - t) / s))      F(t) = 0.5       s: scale
 //     weibull        1 - exp(-(x / t)^s),  x > 0      F(t) = 1 - 1/e   s: slope, beta
-//     weibull_log10  1 - exp(-10^(s (x - t)))         the same of log10 x: x and t are logarithms
+//     weibull_log10  1 - exp(-10^(s (x - t)))      F(t) = 1 - 1/e   s: slope, beta
 //
-// x and t have the unit of the level; so has s of the first two. The last two have a slope without
-// a unit. Source: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
+// x and t have the unit of the level; for weibull_log10, which is the Weibull function over the
+// logarithm, they are its log10. In the first two s has the unit of the level, in the last two it
+// is a slope without a unit. Sources: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@ constexpr auto enum_names(Sigmoid) {
     return std::array{"normal", "logistic", "weibull", "weibull_log10"};
 }
 
-/// Whether a sigmoid has a value at a level: `weibull` has none at 0 or below.
+/// Whether a sigmoid is defined at a level: `weibull` is not at 0 or below.
 constexpr bool takes(Sigmoid sigmoid, double level) {
     return sigmoid != Sigmoid::weibull || level > 0;
 }
@@ -33,15 +34,15 @@ struct Psychometric {
     double threshold = 0;
     double shape = 1;  ///< > 0
     double guess = 0;  ///< probability of "yes" far below threshold
-    double lapse = 0;  ///< probability of "no" far above
+    double lapse = 0;  ///< probability of "no" far above threshold
 
-    /// Of "yes" at a level, in [guess, 1 - lapse].
+    /// Probability of "yes" at a level, in [guess, 1 - lapse].
     double probability(double level) const;
-    /// The inverse: the level at which "yes" has this probability. NaN unless it lies between guess
-    /// and 1 - lapse.
+    /// Inverse of probability(): the level at which "yes" has this probability. NaN unless the
+    /// probability lies between guess and 1 - lapse.
     double level(double probability) const;
-    /// Standard deviation of the distribution whose cumulative function is the sigmoid [as the
-    /// level].
+    /// Standard deviation of the distribution whose cumulative distribution function is the
+    /// sigmoid, in the unit of the level.
     double sd() const;
 };
 

@@ -1,5 +1,5 @@
-// What the numbers stand for that frames have in place of names: phases, outcomes, messages, bits
-// of a status, solvers, couplings.
+// Explains the numbers that frames have in place of names: phases, outcomes, messages, status bits,
+// solvers, couplings.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace dihaptic::recording {
 
-/// "0: between trials, 1: home, 2: reach"; "" where the number stands for itself. `name`: of a
-/// field of Frame, without the finger's or body's before it.
+/// Meanings of a field's numbers, e.g. "0: between trials, 1: home, 2: reach"; "" if the number
+/// stands for itself. `name`: name of the field of Frame, without the finger's or body's prefix.
 std::string codes_of(const std::string& name, const LogHead& head);
 
 }  // namespace dihaptic::recording

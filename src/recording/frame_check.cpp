@@ -9,7 +9,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// -1, which stands for none, or the index of one of so many.
+/// Whether i is an index below `count`, or -1, which stands for none.
 bool is_index(int32_t i, size_t count) noexcept {
     return i >= -1 && i < static_cast<int64_t>(count);
 }
@@ -38,7 +38,7 @@ bool is_possible(const servo::TaskFrame& task, size_t bodies, size_t all) noexce
 }  // namespace
 
 bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
-    // no session is longer: so times can be added and subtracted
+    // no session is longer than this; sums and differences of such times cannot overflow
     constexpr Time kLongest = std::chrono::hours(1000);
     constexpr int64_t kMostTicks = int64_t{1} << 40;
     const size_t all = layout.bodies + layout.fingers;

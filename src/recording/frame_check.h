@@ -1,5 +1,5 @@
-// Whether a frame that was read can be one of its session: what is an index in it points to
-// something. A checksum is right also of what was never a frame.
+// Checks whether a frame that was read can belong to its session: every index in it must point to
+// something. A correct checksum does not show that, since the data may never have been a frame.
 #pragma once
 
 #include "recording/codec.h"

@@ -6,10 +6,10 @@ namespace {
 constexpr hsize_t kChunkRows = 4096;
 constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
 
-bool failed = false;  // a call, since the last create_file()
-std::string failure;  // why
+bool failed = false;  // whether a call has failed since the last create_file()
+std::string failure;  // why it failed
 
-/// Keeps what the system said, in HDF5's stack of errors: "No space left on device".
+/// Keeps the system's message from HDF5's stack of errors, e.g. "No space left on device".
 void note_failure() {
     if (failed) return;
     failed = true;

@@ -1,4 +1,5 @@
-// The little of HDF5's C interface that session.nwb needs, with handles that close themselves.
+// Wraps the few parts of HDF5's C interface that session.nwb needs, with handles that close
+// themselves.
 #pragma once
 
 #include <hdf5.h>
@@ -9,10 +10,10 @@
 
 namespace dihaptic::recording::hdf5 {
 
-// HDF5 crashes when it closes, at the program's end at the latest, what it could not write for lack
-// of space. So once a call has failed nothing is closed any more until the next create_file(), and
-// at the program's end neither. What that leaks is small, and the file gives its space back when it
-// is cut to nothing, as write_nwb() does.
+// HDF5 crashes when it closes objects that it could not write for lack of space, at the latest at
+// the program's end. So once a call has failed, nothing is closed any more until the next
+// create_file(), nor at the program's end. The leak is small, and the file gives its space back
+// when it is truncated to zero length, as write_nwb() does.
 
 /// Why a file could not be written.
 struct WriteFailure : std::runtime_error {
@@ -29,19 +30,20 @@ class Id {
     Id& operator=(Id&& other) noexcept;
     operator hid_t() const {
         return id_;
-    }  // NOLINT(google-explicit-constructor): it stands for the id
+    }  // NOLINT(google-explicit-constructor): used in place of the id
 
   private:
     hid_t id_ = -1;
 };
 
 Id create_file(const std::string& path);
-/// Writes everything that is buffered. Call it while all that was made is open: closing cannot
-/// throw.
+/// Writes everything that is buffered. Call it while all objects are still open, since closing them
+/// cannot throw.
 void flush(hid_t file);
-/// Closes the file, after everything in it. Throws WriteFailure unless the whole file was written.
+/// Closes the file; everything in it must be closed. Throws WriteFailure unless the whole file was
+/// written.
 void close(Id file);
-/// Rows of a dataset in a file; -1: there is no such dataset, or it cannot be read.
+/// Number of rows of a dataset in a file; -1 if there is no such dataset, or it cannot be read.
 int64_t rows_of(const std::string& file, const std::string& dataset);
 Id create_group(hid_t parent, const std::string& name);
 
@@ -59,13 +61,13 @@ Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_
 
 enum class Numbers { real, whole };  ///< of 32 bits, or integers of 64
 
-/// A compressed dataset of rows that grows as they are added. One column: one-dimensional.
+/// A compressed dataset that grows as rows are added. With one column it is one-dimensional.
 class Rows {
   public:
     Rows(hid_t parent, const std::string& name, size_t columns, Numbers numbers = Numbers::real);
 
     void add(const double* row);
-    /// Writes what is buffered; call it before the file is closed.
+    /// Writes the buffered rows; call it before the file is closed.
     void flush();
     hid_t dataset() const { return dataset_; }
     size_t count() const { return written_ + buffer_.size() / columns_; }

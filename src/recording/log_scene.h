@@ -1,4 +1,5 @@
-// Whether a log and a scene are of one session: then frames have what the scene has, one to one.
+// Checks whether a log and a scene belong to one session: the log must have the scene's fingers and
+// bodies, one to one.
 #pragma once
 
 #include "recording/raw_log.h"
@@ -7,7 +8,7 @@
 namespace dihaptic::recording {
 
 bool fits(const LogHead& head, const scene::Scene& scene);
-/// Throws Error when it does not; `file` is the log's.
+/// Throws Error when the log does not fit the scene; `file` is the log's.
 void check_fits(const LogHead& head, const scene::Scene& scene, const std::string& file);
 
 }  // namespace dihaptic::recording

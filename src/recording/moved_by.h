@@ -1,5 +1,5 @@
-// Who moved the hand in a session: the one home of that fact. Files, tables and pages take it from
-// here, so that what a simulation left is never taken for a person's.
+// Records who moved the hand in a session. All files, tables and pages take this fact from here, so
+// that simulated data are never mistaken for a person's.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 namespace dihaptic::recording {
 
 enum class Mover {
-    not_recorded,       ///< by a program that did not write it down
+    not_recorded,       ///< an earlier version did not record it
     devices,            ///< a person held the devices
     mouse,              ///< a person moved simulated devices by mouse
-    recorded_movement,  ///< pulled the fingers of simulated devices
-    script,             ///< of the file
-    simulated_person
+    recorded_movement,  ///< a recorded movement pulled the fingers of simulated devices
+    script,             ///< the file's script moved simulated devices
+    simulated_person    ///< a simulated person moved simulated devices
 };
 constexpr auto enum_names(Mover) {
     return std::array{"not_recorded",      "devices", "mouse",
@@ -25,19 +25,19 @@ constexpr auto enum_names(Mover) {
 
 struct MovedBy {
     Mover mover = Mover::not_recorded;
-    // of a simulated person
-    std::string program;     ///< that simulated it: name and version
-    std::string population;  ///< that it was drawn from
-    std::string seed;        ///< by which
+    // for a simulated person
+    std::string program;     ///< program that simulated the person: name and version
+    std::string population;  ///< population that the person was drawn from
+    std::string seed;        ///< seed with which the person was drawn
 
-    /// Whether there was a person, at a device or at a mouse.
+    /// Whether a person moved the hand, at a device or by mouse.
     bool person() const { return mover == Mover::devices || mover == Mover::mouse; }
     bool known() const { return mover != Mover::not_recorded; }
-    /// "yes", "no"; "" when it was not recorded.
+    /// "yes" or "no"; "" if not recorded.
     std::string simulated() const { return !known() ? "" : person() ? "no" : "yes"; }
-    /// "script"; "" when it was not recorded.
+    /// Name of the mover, e.g. "script"; "" if not recorded.
     std::string name() const { return known() ? std::string(enum_name(mover)) : ""; }
-    /// A sentence.
+    /// Says it in a sentence.
     std::string describe() const;
 
     template <class Visitor>
@@ -49,17 +49,17 @@ struct MovedBy {
     }
 };
 
-/// The columns `simulated` and `moved_by`, which stand last in each table of people.
+/// The columns `simulated` and `moved_by`, which are last in each table of people.
 extern const std::array<Table::Column, 2> kMovedByColumns;
 
-/// The table with these columns, the same in all of its rows.
+/// Adds these columns to the table, with the same values in all rows.
 Table marked(Table table, const MovedBy& by);
 
-/// What identifiers of simulated people begin with.
+/// Prefix of the identifiers of simulated people.
 constexpr const char* kSimulatedPrefix = "sim-";
 
-/// Identifier of a simulated person: "sim-001" when none is given; what does not begin with "sim-"
-/// gets that before it.
+/// Identifier of a simulated person: `id` with the prefix "sim-", which is added if it is missing;
+/// "sim-001" if `id` is empty.
 std::string simulated_id(const std::string& id);
 
 }  // namespace dihaptic::recording

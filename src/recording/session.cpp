@@ -23,10 +23,10 @@ namespace dihaptic::recording {
 namespace fs = std::filesystem;
 namespace {
 
-/// What session.yaml ends with (YAML's mark of a document's end): without it, it was cut off.
+/// End of session.yaml (YAML's mark of a document's end): a file without it was cut off.
 constexpr const char* kEnd = "...\n";
 
-/// What can be read of it.
+/// Text of the file; "" if it cannot be read.
 std::string text_of(const std::string& file) {
     try {
         return read_bytes(file, kMostYaml);
@@ -53,7 +53,7 @@ std::string start_by_name(const std::string& path) {
 }  // namespace
 
 SessionFolder SessionFolder::open_with(const std::string& path, const char* file) {
-    std::error_code unreadable;  // then there is no such file either
+    std::error_code unreadable;  // is_there() below then fails too
     std::string folder =
         fs::is_regular_file(path, unreadable) ? fs::path(path).parent_path().string() : path;
     while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
@@ -86,7 +86,7 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
         throw Error({"--out", 0}, "", "names no folder",
                     "Name one, or leave --out away: sessions go to 'sessions' then.");
     }
-    constexpr size_t kLongest = 250;  // 255 to most file systems; "_2" may follow
+    constexpr size_t kLongest = 250;  // most file systems allow 255; "_2" may follow
     if (own.size() > kLongest) {
         throw Error(
             "the session's folder would be named for its date, experiment and participant "
@@ -135,13 +135,13 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
         check_log(*whole, setup);
         return *whole;
     }
-    // the whole lines that can be read; a line that was cut may say something else than it did
+    // reads the most whole lines that it can; a line that was cut off may have a wrong meaning
     SessionInfo info;
     std::string text = text_of(file("session.yaml"));
     for (size_t end = text.rfind('\n'); end != std::string::npos; end = text.rfind('\n')) {
         text.resize(end);
         try {
-            Diagnostics ignored;  // it is known to be damaged
+            Diagnostics ignored;  // the file is known to be damaged
             read_fields(info, parse_yaml(text, ""), ignored);
             break;
         } catch (const Error&) {
@@ -170,7 +170,7 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
 }
 
 void SessionFolder::check_log(const SessionInfo& info, const Setup& setup) const {
-    // sessions of earlier programs have none
+    // sessions of earlier versions have no identity
     if (info.identity.empty() || setup.identity.empty() || info.identity == setup.identity) return;
     throw Error({raw_log(), 0}, "", "is of another session than session.yaml beside it",
                 "Put this session's own log back, or the session.yaml of the log's.");
@@ -185,7 +185,7 @@ void SessionFolder::sync() const {
     for (fs::directory_iterator i(path_, failed), end; !failed && i != end; i.increment(failed)) {
         if (i->is_regular_file(failed)) sync_to_disk(i->path().string());
     }
-    // its name stands in the folder above, and that one's may be as new
+    // the folder's name is in the folder above, whose own name may be just as new
     for (fs::path folder = fs::absolute(path_, failed); !folder.empty() && !failed;
          folder = folder.parent_path()) {
         sync_to_disk(folder.string());
@@ -240,7 +240,7 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
 
 SessionLock::SessionLock(const SessionFolder& folder)
     : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    // a file system without locks has none to wait for
+    // on a file system without locks there is nothing to wait for
     if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
     ::close(descriptor_);

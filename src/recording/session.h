@@ -1,13 +1,13 @@
-// A session is a folder. While it runs:
+// The folder that holds a session's files. While the session runs, it has:
 //
 //   session.yaml                       who, when, with what; state: running
 //   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved
 //   settings.csv                       every setting with its origin
 //   raw.log                            every tick
 //
-// and at its end (or by `dihaptic recover`) session.nwb, trials.csv, phases.csv, episodes.csv
-// and events.csv.
-// Last of all session.yaml gets another state than running: then all of them are there.
+// and at its end (or after `dihaptic recover`) also session.nwb, trials.csv, phases.csv,
+// episodes.csv and events.csv. Last of all, the state in session.yaml changes from running: all
+// files are there then.
 #pragma once
 
 #include <string>
@@ -40,15 +40,15 @@ struct Participant {
 
 struct SessionInfo : Setup {
     SessionState state = SessionState::running;
-    int ticks = 0;             ///< that the session had, once it ended; 0: not known
-    bool interrupted = false;  ///< ended before its time
+    int ticks = 0;             ///< number of ticks, once the session has ended; 0: not known
+    bool interrupted = false;  ///< the session ended before its time
     std::string program;       ///< name and version
     std::string started;       ///< ISO 8601 with offset
     std::string command;       ///< as typed
     Participant participant;
-    std::string resumes;             ///< folder of the session that this one goes on with
+    std::string resumes;             ///< folder of the session that this one resumes
     std::vector<std::string> notes;  ///< warnings given at the start, and what recovering found
-    std::string finished;            ///< what became of it, in words
+    std::string finished;            ///< how the session ended, in words
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -66,15 +66,15 @@ struct SessionInfo : Setup {
     }
 };
 
-/// Names of the files in a session's folder.
+/// A session's folder, with the names of its files.
 class SessionFolder {
   public:
-    /// An existing folder (or a file in it). Throws Error when it is no session.
+    /// Opens an existing folder, given by its path or by a file in it. Throws Error when it is no
+    /// session.
     static SessionFolder open(const std::string& path);
-    /// The same of one that may have no log any more, only what was made of it: a rehearsal's.
+    /// Opens a folder that may have no log, only tables made from it, like a rehearsal's.
     static SessionFolder open_tables(const std::string& path);
-    /// Makes a new folder in `parent`, named for the time and what is given. Throws Error when it
-    /// cannot.
+    /// Makes a new folder in `parent`, named by the time and `name`. Throws Error when it cannot.
     static SessionFolder create(const std::string& parent, const std::string& name);
 
     const std::string& path() const { return path_; }
@@ -83,21 +83,22 @@ class SessionFolder {
     std::string nwb() const { return file("session.nwb"); }
 
     SessionInfo read_info() const;
-    /// What is left of session.yaml, completed from the log's head; what that cannot tell is warned
-    /// of. Throws Error when the log is of another session.
+    /// Reads what is left of session.yaml, and completes it from `setup`, the log's head; warns of
+    /// what is lost. Throws Error when the log belongs to another session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
-    /// Throws Error when that log is of another session than session.yaml.
+    /// Throws Error when the log with this head belongs to another session than session.yaml.
     void check_log(const SessionInfo& info, const Setup& setup) const;
-    /// The seed of its info. Throws Error when it is no whole number.
+    /// The session's seed as a number. Throws Error when it is no whole number.
     uint64_t seed_of(const SessionInfo& info) const;
-    /// After a loss of power too there is the old one or the new.
+    /// Writes session.yaml; even after a loss of power, either the old or the new file is there.
     void write_info(const SessionInfo& info) const;
-    /// Returns once all of its files are on the disk, and their names, and its own.
+    /// Returns once all files of the folder, their names, and the folder's own name are on the
+    /// disk.
     void sync() const;
 
-    /// A frozen input as it is now; throws Error when it cannot be read.
+    /// A frozen input as it is now. Throws Error when it cannot be read.
     InputFile input(const std::string& name) const;
-    /// Which of the inputs are no longer what they were, or gone: a problem each.
+    /// A problem for each of the inputs that has changed or is gone.
     std::vector<Problem> changed(const std::vector<InputFile>& inputs, Severity severity) const;
 
   private:
@@ -106,11 +107,11 @@ class SessionFolder {
     std::string path_;
 };
 
-/// Held by the program that writes a session's files: a second one is refused. It ends with its
-/// program, however that ends.
+/// A lock held by the program that writes a session's files; a second program is refused. The lock
+/// ends with its program, however that ends.
 class SessionLock {
   public:
-    /// Throws Error when another program has it.
+    /// Throws Error when another program holds the lock.
     explicit SessionLock(const SessionFolder& folder);
     ~SessionLock();
     SessionLock(SessionLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
@@ -120,9 +121,9 @@ class SessionLock {
     int descriptor_ = -1;
 };
 
-/// Now, as ISO 8601 with offset.
+/// The present time, as ISO 8601 with offset.
 std::string iso_now();
-/// "dihaptic 0.1.0"
+/// Name and version of this program, e.g. "dihaptic 0.1.0".
 std::string program_version();
 
 }  // namespace dihaptic::recording

@@ -1,5 +1,5 @@
-// What a session is about, known before its first tick. It stands in session.yaml, and in the head
-// of raw.log, so that the log alone can be replayed and recovered.
+// The description of a session that is known before its first tick. It is in session.yaml and in
+// the head of raw.log, so that the log alone can be replayed and recovered.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace dihaptic::recording {
 /// A named stretch of a trial, by the session's clock.
 struct PhaseInfo {
     std::string name;
-    double start = 0;  ///< from the trial's beginning [s]
+    double start = 0;  ///< time from the trial's beginning [s]
     double end = 0;
 
     template <class Visitor>
@@ -26,19 +26,21 @@ struct PhaseInfo {
     }
 };
 
-/// What held a finger, and what its force was limited by.
+/// The device that held a finger, and its limits of force.
 struct DeviceRecord {
     std::string finger;
     std::string model;
     double peak_force = 0;                    ///< [N]
-    std::optional<double> continuous_force;   ///< unset: as long as the peak [N]
+    std::optional<double> continuous_force;   ///< unset: can hold its peak force for long [N]
     std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
-    bool orientation = false;                 ///< whether it is measured
+    bool orientation = false;                 ///< whether orientation is measured
     double peak_torque = 0;                   ///< [N*m]
     std::optional<double> continuous_torque;  ///< [N*m]
-    double scale = 1;  ///< of the world over the hand's movement, in forces and lengths above too
-    bool simulated = false;  ///< so that late ticks were no fault
-    /// That what was held in late ticks was judged by; unset: they softened nothing [N*s/m].
+    double scale =
+        1;  ///< movement in the world over the hand's; the forces and lengths above have it
+    bool simulated = false;  ///< late ticks were then no fault
+    /// Damping of handle and hand, from which the softening of the coupling by late ticks follows;
+    /// unset: late ticks softened nothing [N*s/m].
     std::optional<double> damping;
 
     template <class Visitor>
@@ -59,7 +61,7 @@ struct DeviceRecord {
 
 /// A frozen input, as it was when the session began.
 struct InputFile {
-    std::string file;      ///< in the session's folder
+    std::string file;      ///< name in the session's folder
     std::string checksum;  ///< CRC-32, in hexadecimal
 
     template <class Visitor>
@@ -70,21 +72,21 @@ struct InputFile {
 };
 
 struct Setup {
-    std::string identity;  ///< one of a kind, in session.yaml and in raw.log: they belong together
+    std::string identity;  ///< unique; shows that session.yaml and raw.log belong together
     std::string title;
     std::string experiment;  ///< name of the file
     std::string clock;       ///< virtual or real
-    std::string seed;        ///< of everything random
+    std::string seed;        ///< seed of everything random
     std::string object;      ///< the body that summaries are about
-    MovedBy moved_by;        ///< the hand
+    MovedBy moved_by;        ///< who moved the hand
     Study study;
     std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;      ///< of every trial
-    std::vector<std::string> outcomes;  ///< of trials, as frames count them
-    std::vector<std::string> messages;  ///< shown to the person, as frames count them
+    std::vector<PhaseInfo> phases;      ///< phases of every trial
+    std::vector<std::string> outcomes;  ///< outcomes of trials, by their index in frames
+    std::vector<std::string> messages;  ///< messages to the person, by their index in frames
     std::vector<InputFile> inputs;
 
-    /// How long the session was to be [s]; 0: not known.
+    /// Planned length of the session [s]; 0: not known.
     double planned() const { return phases.empty() ? 0 : phases.back().end; }
 
     template <class Visitor>

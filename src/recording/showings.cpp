@@ -23,13 +23,13 @@ void ShowingsWriter::add(const Showing& showing) {
 Showings::Showings(const SessionFolder& folder) {
     const std::string file = folder.file("shown.csv");
     std::error_code unreadable;
-    // a kill may have come before its first line
+    // the program may have been killed before it wrote the first line
     if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return;
     const CsvFile table(file);
     for (size_t i = 0; i < table.rows(); ++i) {
         const double tick = table.number(i, "tick");
         const double time = table.number(i, "shown_s");
-        // a kill may have cut the last line
+        // the last line may be cut off, if the program was killed
         if (std::isfinite(tick) && std::isfinite(time))
             showings_.push_back({static_cast<int64_t>(tick), time});
     }

@@ -1,5 +1,5 @@
-// What archives ask of a study beside its data: who did it, where, and what it is about. It stands
-// in the experiment file, and nothing here depends on it.
+// What archives ask about a study besides its data: who did it, where, and what it is about. It is
+// part of the experiment file, and changes nothing in a session.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace dihaptic::recording {
 
 struct Study {
-    std::vector<std::string> experimenters;  ///< "Johansson, R. S."; authors of a data set, too
+    std::vector<std::string> experimenters;  ///< e.g. "Johansson, R. S."; also a data set's authors
     std::string institution;
     std::string lab;
     std::vector<std::string> keywords;

@@ -1,5 +1,5 @@
-// Columns of trial-list.csv, which the trials of a task are frozen in, and which trials.csv repeats
-// of each trial. Where a reach is measured follows them there.
+// Columns of trial-list.csv, in which the trials of a task are frozen; trials.csv repeats them for
+// each trial. In trial-list.csv, columns on how a reach is measured follow them.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// From where a scene is looked at.
+// Describes a camera: from where a scene is looked at.
 #pragma once
 
 #include <numbers>
@@ -11,8 +11,8 @@ namespace dihaptic::scene {
 
 struct Camera {
     std::string name;
-    Vec3 position{0, -0.5, 0.35};  ///< of the eye in W [m]
-    Vec3 look_at = Vec3::Zero();   ///< what is in the middle of the picture, in W [m]
+    Vec3 position{0, -0.5, 0.35};  ///< of the eye, in W [m]
+    Vec3 look_at = Vec3::Zero();   ///< the point at the centre of the picture, in W [m]
     double field_of_view = 30 * std::numbers::pi / 180;  ///< from bottom to top [rad]
 
     template <class Visitor>

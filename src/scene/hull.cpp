@@ -12,7 +12,7 @@ Hull convex_hull(std::span<const Vec3> points) {
     }
     btConvexHullComputer computer;
     computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
-    // the computer rounds coordinates; the points themselves are exact
+    // the computer rounds coordinates; the original points are exact
     for (int i = 0; i < computer.vertices.size(); ++i) {
         hull.vertices.push_back(points[static_cast<size_t>(computer.original_vertex_index[i])]);
     }

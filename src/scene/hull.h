@@ -14,19 +14,19 @@ struct Hull {
     std::vector<std::vector<int>> faces;
 };
 
-/// The convex hull of the points; empty when they lie in a plane (relative thickness below 1e-6).
+/// The convex hull of the points; empty if they lie in a plane (relative thickness below 1e-6).
 Hull convex_hull(std::span<const Vec3> points);
 
 /// Volume, centre and second moments of a solid of unit density.
 struct VolumeIntegrals {
     double volume = 0;            ///< [m^3]
     Vec3 centre = Vec3::Zero();   ///< centre of volume [m]
-    Mat3 inertia = Mat3::Zero();  ///< about the centre, of unit density [m^5]
+    Mat3 inertia = Mat3::Zero();  ///< about the centre, for unit density [m^5]
 };
 
-/// Integrals over the solid enclosed by outward-facing polygons, by the signed tetrahedra that they
-/// span with the origin (Tonon 2004 gives the moments of one). Exact for closed polyhedra, convex
-/// or not.
+/// Integrals over the solid enclosed by outward-facing polygons, as sums over the signed tetrahedra
+/// that the polygons span with the origin (Tonon 2004 gives the moments of a tetrahedron). Exact
+/// for closed polyhedra, convex or not.
 VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces);
 
 }  // namespace dihaptic::scene

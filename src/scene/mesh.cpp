@@ -20,7 +20,7 @@ constexpr const char* kReader = "dihaptic-mesh";
 constexpr const char* kRemedy = "Export it again as OBJ, STL or PLY, with its surface.";
 constexpr int64_t kLargestFile = 400'000'000;  // bytes: millions of triangles
 
-/// The name's ending, in small letters, when it is one of those that are read; else "".
+/// The name's ending in lower case if such files can be read, else "".
 std::string format_of(const std::string& file) {
     std::string ending = std::filesystem::path(file).extension().string();
     for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -30,8 +30,8 @@ std::string format_of(const std::string& file) {
     return "";
 }
 
-/// What an OBJ file lacks to be a surface, which the reader does not tell; "" when it lacks
-/// nothing, or is of another format.
+/// What an OBJ file lacks to be a solid, which the reader does not report; "" if it lacks nothing
+/// or has another format.
 std::string missing_in(const std::string& bytes, const std::string& format) {
     if (format != "obj") return "";
     std::istringstream in(bytes);
@@ -49,9 +49,9 @@ std::string missing_in(const std::string& bytes, const std::string& format) {
                        counted(vertices, "vertex", "vertices"), counted(faces, "face", "faces"));
 }
 
-/// Good files take a tenth of the time, and half of the memory at most: 0.04 s of computing per MB,
-/// 12 to 150 bytes per byte, the most of small OBJ files that have more faces than vertices. What
-/// takes more is damaged.
+/// Limits of time and memory for a file of `size` bytes. Good files take at most a tenth of this
+/// time and half of this memory: 0.04 s of computing per MB, and 12 to 150 bytes per byte, the most
+/// for small OBJ files that have more faces than vertices. A file that takes more is damaged.
 CompanionLimits limits_for(uint64_t size) {
     CompanionLimits out;
     out.processor_time = static_cast<int>(2 + size / 2'000'000);
@@ -61,7 +61,7 @@ CompanionLimits limits_for(uint64_t size) {
     return out;
 }
 
-/// What dihaptic-mesh writes, item after item.
+/// Reads what dihaptic-mesh writes, item by item.
 class Reader {
   public:
     explicit Reader(const std::string& bytes) : bytes_(bytes) {}
@@ -84,7 +84,7 @@ class Reader {
     size_t at_ = 0;
 };
 
-/// Nothing when it is not what dihaptic-mesh writes (app/mesh/main.cpp).
+/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp); nullopt if the bytes are not one.
 std::optional<Mesh> mesh_of(const std::string& bytes, double unit) {
     using Vertex = std::array<double, 3>;
     using Face = std::array<uint32_t, 3>;

@@ -1,5 +1,5 @@
-// Triangle meshes from files. A program of its own, dihaptic-mesh, reads them (docs/adr/0010): a
-// damaged file may end it, and ends in an Error here.
+// Reads triangle meshes from files. A separate program, dihaptic-mesh, does the reading
+// (docs/adr/0010): a damaged file may crash it, which ends in an Error here.
 #pragma once
 
 #include <string>
@@ -16,13 +16,13 @@ struct Mesh {
     std::vector<std::vector<int>> faces;  ///< three vertices each
 };
 
-/// Reads a mesh from an OBJ, STL, PLY or OFF file, one of its coordinate units being `unit` metres.
-/// `asked_at` is where the file was named, for messages. Throws Error when it cannot be read, holds
-/// no triangle, or takes more time or memory than meshes of its size do.
+/// Reads a mesh from an OBJ, STL, PLY or OFF file whose coordinates are in units of `unit` metres.
+/// `asked_at` is where the file was named, for messages. Throws Error when the file cannot be read,
+/// holds no triangle, or takes more time or memory than good meshes of its size do.
 Mesh read_mesh(const std::string& file, double unit, const Place& asked_at);
 
-/// From any thread: a mesh that is being read is given up, and whoever waits for it gets an Error.
-/// Does nothing when there is none.
+/// Stops the reading of meshes: each read_mesh() in progress throws Error. Does nothing if none is
+/// in progress. May be called from any thread.
 void cancel_reading() noexcept;
 
 }  // namespace dihaptic::scene

@@ -18,11 +18,11 @@ namespace {
 constexpr const char* kFirstLine = "dihaptic pieces 1";
 constexpr const char* kDecomposer = "dihaptic-decompose";
 constexpr int64_t kMostPieces = 1'000'000'000;  // bytes
-/// Meshes with thousands of dents take minutes, and who waits can cancel.
+/// Meshes with thousands of dents take minutes to cut; the user can cancel.
 constexpr CompanionLimits kLimits{
     .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kMostPieces};
 
-/// FNV-1a.
+/// FNV-1a hash.
 class Fingerprint {
   public:
     void add(const void* data, size_t size) {
@@ -48,8 +48,8 @@ uint64_t fingerprint(const std::string& text) {
     return out.value();
 }
 
-/// Vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then a vertex a
-/// line.
+/// The vertices of each piece, as dihaptic-decompose writes them: "piece <count>", then one vertex
+/// per line.
 std::string text_of(const std::vector<Hull>& hulls) {
     std::string out;
     for (const Hull& hull : hulls) {
@@ -70,12 +70,13 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
         for (Vec3& p : points) {
             if (!(in >> p.x() >> p.y() >> p.z())) return std::nullopt;
         }
-        // in one order, so that pieces that were kept are the new ones to the bit
+        // sorted, so that pieces read from a file equal the newly cut ones to the bit
         std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
             return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
         });
         Hull hull = convex_hull(points);
-        // slivers that rounding flattened hold no volume, and nothing touches them alone
+        // slivers that rounding has flattened hold no volume, and cannot be touched without their
+        // neighbours
         if (!hull.faces.empty()) hulls.push_back(std::move(hull));
     }
     if (hulls.empty()) return std::nullopt;
@@ -88,7 +89,7 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
         try {
             return read_bytes(file, kMostPieces);
         } catch (const Error&) {
-            return "";  // they are cut anew
+            return "";  // then the mesh is cut anew
         }
     }();
     const std::string head = fmt::format("{}\nmesh {:016x}\n", kFirstLine, mesh);
@@ -120,7 +121,7 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
         "concave"};
     const std::optional<std::string> text = run_companion(task, off_of(mesh));
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
-    if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be read again
+    if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be when read from the file
     if (!hulls) {
         throw Error(
             asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
@@ -145,12 +146,12 @@ Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
         if (is_new) out.vertices.push_back(v);
         index.push_back(at->second);
     }
-    std::map<std::pair<int, int>, int> edges;  // each is used once in either direction
+    std::map<std::pair<int, int>, int> edges;  // each directed edge must be used exactly once
     for (const std::vector<int>& f : mesh.faces) {
         const std::array<int, 3> t{index[static_cast<size_t>(f[0])],
                                    index[static_cast<size_t>(f[1])],
                                    index[static_cast<size_t>(f[2])]};
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // without area
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // a face without area
         out.faces.push_back({t[0], t[1], t[2]});
         for (size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
     }

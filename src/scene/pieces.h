@@ -1,5 +1,6 @@
-// Concave meshes as convex pieces, for contact. The pieces fill the mesh exactly; a program of its
-// own, dihaptic-decompose, cuts them (docs/adr/0008), and a file beside the mesh keeps them.
+// Cuts concave meshes into convex pieces, for contact. The pieces fill the mesh exactly. A separate
+// program, dihaptic-decompose, cuts the mesh (docs/adr/0008), and a file beside the mesh keeps the
+// pieces.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +15,28 @@ namespace dihaptic::scene {
 
 struct Pieces {
     std::vector<Hull> hulls;  ///< in the mesh's frame [m]
-    uint64_t mesh = 0;        ///< fingerprint of the mesh that they are of, unit included
+    uint64_t mesh = 0;        ///< fingerprint of the mesh that was cut, in metres
 };
 
-/// The same surface with vertices at the same place made one, facing outward. Throws Error when it
-/// is not closed: then it has no inside. `asked_at` is where `file` was named, for messages.
+/// The mesh with vertices at equal positions merged and all faces facing outward. Throws Error when
+/// the surface is not closed, as it then has no inside. `asked_at` is where `file` was named, for
+/// messages.
 Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at);
 
-/// Convex pieces of a closed mesh that was read from `file`: those kept beside it when they are of
-/// this mesh and intact, else new ones, which are then kept. A folder that cannot be written to is
-/// warned of. Throws Error when the mesh cannot be cut, e.g. because it intersects itself.
+/// Convex pieces of a closed mesh that was read from `file`. The pieces kept beside the file are
+/// used if they are intact and belong to this mesh; else the mesh is cut and the new pieces are
+/// kept. Warns if they cannot be written. Throws Error when the mesh cannot be cut, e.g. because it
+/// intersects itself.
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
                      Diagnostics& diagnostics);
 
-/// From any thread: a cut that is going on ends, and whoever waits for it gets an Error. Does
-/// nothing when there is none.
+/// Stops cuts: each convex_pieces() that is cutting throws Error. Does nothing if none is. May be
+/// called from any thread.
 void cancel_cut() noexcept;
 
-/// The file beside a mesh that keeps its pieces.
+/// Name of the file beside a mesh that keeps its pieces.
 std::string pieces_file(const std::string& mesh_file);
-/// Keeps pieces in a file. Throws Error when it cannot be written.
+/// Writes pieces to a file. Throws Error when the file cannot be written.
 void write_pieces(const Pieces& pieces, const std::string& file);
 
 }  // namespace dihaptic::scene

@@ -13,7 +13,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Larger or heavier than anything on a tabletop: almost surely a slip of the unit.
+/// Anything on a tabletop is smaller and lighter: beyond these a unit is probably wrong.
 constexpr double kImplausibleSize = 3.0;   // [m]
 constexpr double kImplausibleMass = 20.0;  // [kg]
 
@@ -30,7 +30,7 @@ double metres(MeshUnit unit) {
 }
 
 std::vector<Finger> default_fingers() {
-    // pads of 20 x 20 x 5 mm whose faces look along x
+    // pads of 20 x 20 x 5 mm whose faces point along x
     Finger thumb;
     thumb.name = "thumb";
     thumb.shape = Shape::box({0.005, 0.020, 0.020});
@@ -95,7 +95,7 @@ void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostic
     }
 }
 
-/// Whether the integrals over it are known: a mesh may not have been loaded.
+/// Whether the shape's integrals are known; they are not while its mesh could not be loaded.
 bool has_volume(const Shape& shape) {
     return shape.kind != ShapeKind::plane && integrate(shape).volume > 0;
 }
@@ -107,10 +107,10 @@ void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagno
     }
 }
 
-/// Of a body that can move; false when what it weighs makes no sense.
+/// Checks the mass of a body that can move; false if it makes no sense.
 bool check_weight(const Body& body, Diagnostics& diagnostics) {
     if (!body.mass && !body.density) {
-        if (body.weighed) return false;  // what is wrong with it has been said
+        if (body.weighed) return false;  // the wrong key has been reported
         diagnostics.error(body.place, body.name, "has neither mass nor density",
                           "Add mass_g or density_g_cm3, or fixed: yes.");
         return false;
@@ -164,8 +164,7 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
     };
     for (const Body& body : scene.bodies) check(body.name, body.place);
     for (const Finger& finger : scene.fingers) check(finger.name, finger.place);
-    // "thumb_proxy" has a position, and so has the thumb's proxy: both would be
-    // thumb_proxy_position
+    // a body "thumb_proxy" and the thumb's proxy would both have a column thumb_proxy_position
     for (const Body& body : scene.bodies) {
         std::vector<std::string> taken;
         for (const Finger& finger : scene.fingers) {
@@ -223,7 +222,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// A body that starts inside a fixed one is pushed out by force, or shot.
+/// Warns of bodies that start inside a fixed one: contact forces would push or shoot them out.
 void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kDeep = 1e-3;  // [m]
     for (const Body& body : scene.bodies) {

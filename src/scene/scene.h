@@ -1,4 +1,4 @@
-// What a world is made of, and the scene file (docs/files.md) that says so.
+// Describes what a world is made of, as read from a scene file (docs/files.md).
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace dihaptic::scene {
 
-/// What a scene may hold. Beyond, a unit is wrong, or a body is too light to be simulated with
-/// others.
+/// Limits of what a scene may hold. Beyond them a unit is wrong, or a body is too light to be
+/// simulated together with others.
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
 constexpr double kFurthest = 100;   // from the world's origin [m]
@@ -35,16 +35,16 @@ struct Body {
     std::optional<double> density;  ///< [kg/m^3]
     bool fixed = false;             ///< never moves
     Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
-    Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
+    Vec3 rotation = Vec3::Zero();   ///< at the start, about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
-    double torsion_radius = 0;      ///< a contact of it carries a moment about its normal up to
-                                    ///< friction x radius x normal force; of a pair the larger [m]
+    double torsion_radius = 0;  ///< a contact carries a moment about its normal up to friction x
+                                ///< radius x normal force; of a pair, the larger counts [m]
     Axes moves =
-        Axes::xyz;  ///< world axes that it may move along: z is a bead on an upright string
-    Axes turns = Axes::xyz;  ///< world axes that it may turn about: none, one, or xyz
+        Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
+    Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
     std::string colour;      ///< "#rrggbb"; empty: the view chooses
     Place place;             ///< in the scene file
-    bool weighed = false;    ///< there is a key for its mass or density, be it one that is wrong
+    bool weighed = false;    ///< the file has a key for its mass or density, even if a wrong one
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -70,21 +70,21 @@ struct Body {
     bool moves_at_all() const { return !fixed && (moves != Axes::none || turns != Axes::none); }
 };
 
-/// What a finger is in the world: its shape, or a point kept on surfaces.
+/// What a finger's proxy is: a rigid body of the finger's shape, or a point kept on surfaces.
 enum class ProxyKind { rigid, point };
 constexpr auto enum_names(ProxyKind) {
     return std::array{"rigid", "point"};
 }
 
-/// What stands for a finger in the world: no gravity acts on it, and it keeps its canonical
-/// orientation, or turns from it with a device that measures orientation.
+/// A finger's proxy in the world. Gravity does not act on it. It keeps its canonical orientation
+/// or, with a device that measures orientation, turns from it.
 struct Finger {
     std::string name;
     Shape shape;
     double mass = 0.001;             ///< [kg]
     double friction = 0.8;           ///< see pair_friction()
     double torsion_radius = 0;       ///< of a soft finger; see Body [m]
-    std::optional<ProxyKind> proxy;  ///< in place of the setting proxy.kind
+    std::optional<ProxyKind> proxy;  ///< overrides the setting proxy.kind
     Vec3 rotation =
         Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
     Place place;
@@ -102,7 +102,7 @@ struct Finger {
     }
 };
 
-/// Friction of one pair of bodies or fingers, in place of what their own frictions would give.
+/// Friction between one pair of bodies or fingers; overrides the mean of their own.
 struct PairFriction {
     std::vector<std::string> between;  ///< two names
     double friction = 0;
@@ -122,10 +122,10 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<PairFriction> pairs;
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
-    std::string object;  ///< the body that the summary is about; empty: the first that can move
-    std::vector<Camera> cameras;  ///< besides those that every scene has (view/camera.h)
+    std::string object;  ///< the body that summaries are about; empty: the first one that can move
+    std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
     Node settings;                ///< settings that this scene asks for (servo::Settings)
-    Node hand;                    ///< how the simulated hand tries the scene out (hand::HandSpec)
+    Node hand;                    ///< how the simulated hand tries out the scene (hand::HandSpec)
     Place bodies_place;           ///< in the scene file
     Place object_place;
 
@@ -152,27 +152,27 @@ struct Scene {
 
     /// Index of the named body, or -1.
     int find(const std::string& name) const;
-    /// Index of the body that the summary is about, or -1 when nothing can move.
+    /// Index of the body that summaries are about, or -1 if nothing can move.
     int object_index() const;
 };
 
 /// Names of the fingers, in order.
 std::vector<std::string> finger_names(const Scene& scene);
 
-/// Coefficient of friction between two things: what the file says of the pair, or else the
-/// geometric mean of their own: two of 0.8 give 0.8.
+/// Coefficient of friction between two bodies or fingers: the file's value for the pair, or else
+/// the geometric mean of their own coefficients.
 double pair_friction(const Scene& scene, const std::string& a, double friction_a,
                      const std::string& b, double friction_b);
 
 /// Mass of a body that is not fixed, from its mass or its density [kg].
 double mass(const Body& body);
 
-/// Reads a scene file with its meshes. Every problem goes to `diagnostics`; what could be read is
-/// returned.
+/// Reads a scene file and its meshes. Reports all problems to `diagnostics` and returns what could
+/// be read.
 Scene read_scene(const std::string& file, Diagnostics& diagnostics);
 
-/// Fills in the default fingers, loads meshes, and checks the scene as a whole. `folder` is what
-/// mesh files are relative to.
+/// Fills in the default fingers, loads meshes, and checks the scene as a whole. Paths of mesh files
+/// are relative to `folder`.
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -21,7 +21,7 @@ VolumeIntegrals moved(const VolumeIntegrals& in, const Pose& X) {
     return {in.volume, X * in.centre, R * in.inertia * R.transpose()};
 }
 
-/// Steiner's theorem moves each part's moments to the centre of all.
+/// Sum over parts; the parallel axis theorem moves each part's moments to the common centre.
 VolumeIntegrals sum(const std::vector<VolumeIntegrals>& parts) {
     VolumeIntegrals out;
     for (const VolumeIntegrals& part : parts) {
@@ -86,8 +86,8 @@ VolumeIntegrals integrate(const Shape& shape) {
             return symmetric(volume, {across, across, volume * r * r / 2});
         }
         case ShapeKind::capsule: {
-            // the cylinder between the caps, and two half spheres, each with its centre of volume
-            // 3/8 r beyond the cylinder's end
+            // the cylinder between the caps, and two half spheres, whose centres of volume are 3/8
+            // r beyond the cylinder's ends
             const double cylinder = kPi * r * r * l;
             const double caps = 4.0 / 3.0 * kPi * r * r * r;
             const double across = cylinder * (3 * r * r + l * l) / 12 +
@@ -145,7 +145,7 @@ std::vector<Vec3> marks(const Shape& shape) {
     if (shape.kind == ShapeKind::plane) return out;
     if (shape.kind == ShapeKind::mesh) {
         out = shape.hull.vertices;
-        // a concave mesh's centre may lie outside of it
+        // the centre of a concave mesh may lie outside it
         if (!out.empty() && !shape.concave) out.push_back(integrate(shape).centre);
         return out;
     }

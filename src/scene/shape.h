@@ -1,4 +1,4 @@
-// The shapes that bodies and proxies have.
+// Describes the shapes of bodies and proxies.
 #pragma once
 
 #include <array>
@@ -18,23 +18,23 @@ constexpr auto enum_names(ShapeKind) {
     return std::array{"box", "sphere", "capsule", "cylinder", "plane", "mesh", "compound"};
 }
 
-/// The unit of a mesh file's coordinates, which the file itself does not tell.
+/// The unit of a mesh file's coordinates, which the file itself does not give.
 enum class MeshUnit { m, cm, mm };
 constexpr auto enum_names(MeshUnit) {
     return std::array{"m", "cm", "mm"};
 }
 
-/// What lengths, radii and meshes may measure. Beyond, contacts are lost in rounding [m].
+/// Limits of lengths, radii and meshes; beyond them contacts are lost in rounding [m].
 constexpr double kSmallest = 1e-4;
 constexpr double kLargest = 100;
-/// And by how much they may be turned: beyond, a unit is wrong [rad].
+/// Limit of rotations; beyond it a unit is wrong [rad].
 constexpr double kMostTurn = 100;
 
 struct Part;
 
 /// A shape in the frame of its body B. Boxes, spheres, capsules and cylinders are centred on B's
-/// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is where its
-/// file puts it; a compound is all of its parts.
+/// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is placed by
+/// its file's coordinates; a compound is the union of its parts.
 struct Shape {
     ShapeKind kind = ShapeKind::box;
     Vec3 size = Vec3::Zero();  ///< box: lengths of the edges [m]
@@ -43,12 +43,12 @@ struct Shape {
     std::string file;          ///< mesh: OBJ, STL, PLY or OFF, relative to the scene file
     MeshUnit unit = MeshUnit::m;
     bool concave = false;     ///< mesh: felt as it is, not as its convex hull
-    std::vector<Part> parts;  ///< compound: one at least, none of them a plane or a compound
-    Hull hull;                ///< mesh: its convex hull, loaded [m]
+    std::vector<Part> parts;  ///< compound: at least one; none may be a plane or a compound
+    Hull hull;                ///< mesh: its convex hull [m]
     Mesh surface;             ///< concave mesh: the mesh itself, closed [m]
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
     VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
-    Place file_place;         ///< mesh: where its file is named
+    Place file_place;         ///< mesh: where the scene file names its file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -110,28 +110,29 @@ void Shape::visit_parts(Visitor& v) {
     v("parts", parts, Field::text().required());
 }
 
-/// A convex shape and where it is in the body B that it is of.
+/// A convex shape and its pose in the body B that it is a part of.
 struct ConvexPart {
     Shape shape;
     Pose X_BS;
 };
 
-/// The convex shapes that a shape consists of: itself, the pieces of a concave mesh, or those of
-/// all parts.
+/// The convex shapes that a shape consists of: the shape itself, the pieces of a concave mesh, or
+/// the convex shapes of all parts.
 std::vector<ConvexPart> convex_parts(const Shape& shape);
 
-/// Volume integrals of the shape, of unit density: of a concave mesh those of the mesh itself; of a
-/// compound the sum over its parts, so that what two of them share counts twice. A plane has none
-/// (zero volume).
+/// Volume integrals of the shape, for unit density. Those of a concave mesh are over the mesh
+/// itself; those of a compound are summed over its parts, so that overlaps count twice. A plane has
+/// zero volume.
 VolumeIntegrals integrate(const Shape& shape);
 
-/// How deep a point of B lies below the surface; negative outside [m].
+/// Depth of a point of B below the surface; negative outside [m].
 double depth(const Shape& shape, const Vec3& p_B);
-/// Points of the shape that stand for it: its centre and its corners, or its furthest points along
-/// the axes. A plane has none.
+/// Representative points of the shape: its corners, or its furthest points along the axes, and its
+/// centre unless the shape is a concave mesh. A plane has none.
 std::vector<Vec3> marks(const Shape& shape);
 
-/// The box along its body's axes that a shape fills; of a plane, nothing [m].
+/// The box along the axes of its body that a shape fills; of a compound, the box around its
+/// marks(), which may cut round parts that are turned. Zero for a plane [m].
 struct Bounds {
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();

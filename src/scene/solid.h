@@ -1,4 +1,4 @@
-// A shape with a mass, as simulators take it that know bodies by their principal axes.
+// Describes a shape with a mass as needed by simulators that work in the principal axes of a body.
 #pragma once
 
 #include "scene/shape.h"
@@ -12,7 +12,8 @@ struct Solid {
     Pose X_BM;                    ///< centre of mass and principal axes in B
 };
 
-/// Of even density; all zero without mass or volume.
+/// The solid of a shape with uniform density; inertia and pose stay at their defaults without mass
+/// or volume.
 Solid solid_of(const Shape& shape, double mass);
 
 }  // namespace dihaptic::scene

@@ -1,11 +1,12 @@
-// Where things of a Frame are shown: drawing and simulated people look here, and nowhere else.
+// Computes where the things of a Frame are shown; drawing and simulated people use only these
+// functions.
 #pragma once
 
 #include "servo/frame.h"
 
 namespace dihaptic::servo {
 
-/// The map in force if it moves `what`, or null.
+/// The visual map in force if it moves `what`, or null.
 inline const VisualMap* map_of(const Frame& frame, Moves what) noexcept {
     if (frame.task.visual.empty()) return nullptr;
     const VisualMap& map = frame.task.visual.front();
@@ -20,7 +21,7 @@ inline Pose displayed_body(const Frame& frame, size_t body) noexcept {
                                                                        : X_WB;
 }
 
-/// Its displayed size over its true one.
+/// Displayed size of a body over its true one.
 inline double displayed_size(const Frame& frame, size_t body) noexcept {
     const VisualMap* map = map_of(frame, kMovesObject);
     return map != nullptr && map->object == static_cast<int32_t>(body) ? map->size : 1;
@@ -33,7 +34,7 @@ inline Pose displayed_proxy(const Frame& frame, size_t finger) noexcept {
     return map != nullptr ? map->displayed(X_WP) : X_WP;
 }
 
-/// The same for its handle, which is turned as the proxy is.
+/// Pose of a finger's handle as it is shown; it has the proxy's orientation.
 inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
     const Pose X_WH{frame.fingers[finger].R_WP, frame.fingers[finger].p_WH};
     const VisualMap* map = map_of(frame, kMovesProxies);

@@ -1,4 +1,5 @@
-// The Frame: the one record of a tick. Log, NWB file, summaries and plots follow from its visit().
+// The Frame is the record of a tick. Log, NWB file, summaries and plots all follow from its
+// visit().
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace dihaptic::servo {
 
-/// What a tick could not do as asked; describe() has the remedies.
+/// Why a tick could not do as asked; describe() gives the remedies.
 enum Status : uint32_t {
     kContactsFull = 1u << 0,
     kForceLimited = 1u << 1,
@@ -52,7 +53,7 @@ struct StatusText {
     std::string what;
     std::string remedy;
 };
-/// Text for one bit.
+/// The text for one bit.
 StatusText describe(Status bit);
 /// What each set bit says, "; " between them.
 std::string words(uint32_t status);
@@ -75,10 +76,10 @@ struct FingerFrame {
     Vec3 p_WP = Vec3::Zero();
     Vec3 v_WP = Vec3::Zero();
     Quat R_WP = Quat::Identity();
-    Vec3 f_asked_W = Vec3::Zero();    ///< on the handle, what the coupling wants
-    Vec3 f_sent_W = Vec3::Zero();     ///< on the handle, what the device was told
+    Vec3 f_asked_W = Vec3::Zero();    ///< on the handle, as the coupling asks
+    Vec3 f_sent_W = Vec3::Zero();     ///< on the handle, as sent to the device
     Vec3 f_contact_W = Vec3::Zero();  ///< on the proxy, from what it touches
-    double normal_force = 0;          ///< its normal part, at least 0
+    double normal_force = 0;          ///< normal part of the contact force, at least 0
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -98,15 +99,15 @@ struct FingerFrame {
     }
 };
 
-/// Of a finger whose device measures orientation: what it has more than others.
+/// Additional values of a finger whose device measures orientation.
 struct TurnFrame {
-    Quat R_DH = Quat::Identity();  ///< as read from the device: from its neutral orientation
+    Quat R_DH = Quat::Identity();  ///< as read from the device, relative to its neutral orientation
     Vec3 w_DH = Vec3::Zero();
     Quat R_WH = Quat::Identity();
     Vec3 w_WH = Vec3::Zero();
     Vec3 w_WP = Vec3::Zero();
-    Vec3 t_asked_W = Vec3::Zero();  ///< on the handle, what the coupling wants
-    Vec3 t_sent_W = Vec3::Zero();   ///< on the handle, what the device was told
+    Vec3 t_asked_W = Vec3::Zero();  ///< on the handle, as the coupling asks
+    Vec3 t_sent_W = Vec3::Zero();   ///< on the handle, as sent to the device
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -141,11 +142,11 @@ struct ContactFrame {
     int32_t a = -1;  ///< bodies: those of the scene first, then the proxies, in order
     int32_t b = -1;
     int32_t points = 0;
-    Vec3 p_WC = Vec3::Zero();  ///< centre of pressure; without pressure the mean of the points
+    Vec3 p_WC = Vec3::Zero();  ///< centre of pressure; without pressure, the mean of the points
     Vec3 n_W = Vec3::Zero();   ///< mean normal, from a to b
     double gap = 0;            ///< smallest distance; negative: penetration
     double normal_force = 0;
-    Vec3 f_B_W = Vec3::Zero();  ///< whole force on b
+    Vec3 f_B_W = Vec3::Zero();  ///< total force on b
 
     template <class Self, class Visitor>
     static void visit(Self& c, Visitor& v) {
@@ -162,38 +163,38 @@ struct ContactFrame {
 
 struct Frame {
     int64_t sequence = 0;
-    Time time{0};  ///< of the tick, from activation
+    Time time{0};  ///< of the tick, since activation
     int32_t trial = 0;
     int32_t phase = 0;  ///< of the trial: index into the driver's or the task's list
     uint32_t status = 0;
-    double grip_force =
-        kUnmeasured;  ///< pinch part of the normal forces, mean of the digits; NaN for one finger
+    double grip_force = kUnmeasured;  ///< pinch part of the normal forces, half their sum over the
+                                      ///< digits; NaN for one finger
     double load_force = 0;  ///< tangential contact forces along gravity, summed over the fingers
     int32_t coupling = 0;   ///< in force: index into haptics::CouplingKind
-    double stiffness = 0;   ///< k, the same
-    double damping = 0;     ///< c, the same; NaN: k h / 2
-    double smoothing = 0;   ///< alpha, the same
-    int32_t proxy = 0;      ///< haptics::ProxyKind in force, of fingers without one of their own
-    double friction_scale = 1;  ///< in force, of every coefficient of friction
+    double stiffness = 0;   ///< k in force
+    double damping = 0;     ///< c in force; NaN: k h / 2
+    double smoothing = 0;   ///< alpha in force
+    int32_t proxy = 0;      ///< haptics::ProxyKind in force, for fingers without their own
+    double friction_scale = 1;  ///< in force, for every coefficient of friction
     double workspace_turn = 0;  ///< angle of WorkspaceTurn in this tick [rad]
-    double workspace_rate = 0;  ///< at which it goes on to the next tick [rad/s]
-    int32_t solver = 0;         ///< that was asked for: index into dynamics::Solver
+    double workspace_rate = 0;  ///< rate of that angle until the next tick [rad/s]
+    int32_t solver = 0;         ///< solver asked for: index into dynamics::Solver
     int32_t solver_iterations = 0;
-    int32_t solver_fallback = 0;         ///< 1: another solver than that answered
-    int32_t solver_route = 0;            ///< by what means: index into contact::Route
+    int32_t solver_fallback = 0;         ///< 1: another solver answered
+    int32_t solver_route = 0;            ///< how the answer was found: index into contact::Route
     double solver_residual = 0;          ///< natural map of Coulomb's law over 1 + |q|
     double lateness = kUnmeasured;       ///< of this tick's wake-up; NaN on the virtual clock
     double tick_duration = kUnmeasured;  ///< of the last tick; NaN on the virtual clock
     TaskFrame task;
     std::vector<FingerFrame> fingers;
-    std::vector<TurnFrame> turns;   ///< of those whose devices measure orientation, in order
+    std::vector<TurnFrame> turns;   ///< of fingers whose devices measure orientation, in order
     std::vector<BodyFrame> bodies;  ///< of the scene
     std::vector<uint16_t>
-        changed;  ///< bodies that changed since the last frame: only these are logged
+        changed;  ///< bodies that changed since the last frame; only these are logged
     std::vector<ContactFrame> contacts;
 
-    /// v(name, value, unit) for values; v.each(name, list) and v.changed(name, list, which) for
-    /// lists.
+    /// Calls v(name, value, unit) for values; for lists, v.each(name, list) and v.changed(name,
+    /// list, which).
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("sequence", f.sequence, "1");

@@ -1,12 +1,13 @@
-// How late the ticks come that the loop really does, from their times alone, which are recorded: a
+// Measures how late the loop's ticks come, from the ticks' times alone: these are recorded, so a
 // replay finds the same.
 //
 //     L = sum T_i (T_i - h) / sum T_i
 //
-// over the last second, h being the period and T_i the time from each tick to the next; those of up
-// to 3 h / 2 count as in time. It says what stiffness is held (haptics/late_loop.h). The longest
-// one is left out: a single pause is a fault when it is too long, and otherwise forgiven. L reaches
-// the coupling through a low-pass, so that nothing that is felt changes at once.
+// over the last second, where h is the period and T_i the time from each tick to the next; an
+// interval of up to 3 h / 2 counts as in time. L determines the stiffness that the loop can hold
+// (haptics/late_loop.h). The longest interval is left out: a single pause is a fault if it is too
+// long, and otherwise forgiven. L reaches the coupling through a low-pass filter, so that nothing
+// that is felt changes abruptly.
 #pragma once
 
 #include <vector>
@@ -19,15 +20,15 @@ class Lateness {
   public:
     explicit Lateness(Time period);
 
-    /// A tick at `now`, so long after the one before. Allocates nothing.
+    /// Notes a tick at `now`, `elapsed` after the one before. Allocates nothing.
     void tick(Time now, Time elapsed) noexcept;
-    /// As if all had been in time.
+    /// Forgets all lateness.
     void restart() noexcept;
 
-    /// L, eased; exactly 0 when the loop is well [s].
+    /// L after the low-pass filter; exactly 0 when the loop keeps time [s].
     double sustained() const noexcept { return sustained_; }
-    /// By how much the next tick must be expected to be late: as much as this one or one shortly
-    /// before. Exactly 0 when the loop is well [s].
+    /// How late the next tick must be expected to be: as late as this one, or one shortly before
+    /// it. Exactly 0 when the loop keeps time [s].
     double expected() const noexcept { return expected_; }
 
   private:
@@ -38,7 +39,7 @@ class Lateness {
         double elapsed = 0;  // [s]
     };
     Time period_;
-    std::vector<Late> late_;  // of the last second, a ring
+    std::vector<Late> late_;  // late intervals of the last second, a ring
     size_t first_ = 0;
     size_t count_ = 0;
     double sustained_ = 0;

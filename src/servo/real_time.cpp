@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kAwake = "/dev/cpu_dma_latency";
 
 int ask_priority(int priority) {
-    // ordinary threads may be woken 50 us late, to save power; one that FIFO is refused need not be
+    // the kernel may wake ordinary threads 50 us late to save power; this helps if FIFO is refused
     prctl(PR_SET_TIMERSLACK, 1UL, 0, 0, 0);
     sched_param wanted{};
     wanted.sched_priority = priority;
@@ -29,8 +29,8 @@ int ask_priority(int priority) {
 }
 
 int ask_memory() {
-    // Under a limit, memory that other threads ask for later must not be locked too: they would be
-    // refused it altogether.
+    // Under a limit, lock only the memory in use: with MCL_FUTURE, memory that other threads ask
+    // for later would be refused altogether.
     rlimit limit{};
     const bool free = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
     return mlockall(free ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0 ? 0 : errno;
@@ -38,13 +38,14 @@ int ask_memory() {
 
 int ask_awake(int& file) {
     file = open(kAwake, O_WRONLY | O_CLOEXEC);
-    // absent: a kernel that manages no sleep, in a container or a virtual machine
+    // the file is absent where the kernel does not manage sleep, as in a container or virtual
+    // machine
     if (file < 0) return errno == ENOENT ? 0 : errno;
     const int32_t most_us = 0;
     return write(file, &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
 }
 
-/// A page of stack that is first touched in a tick would cost that tick a page fault.
+/// Touches the stack in advance: a page first touched in a tick costs that tick a page fault.
 void touch_stack() {
     std::array<volatile char, 262144> stack;
     for (size_t i = 0; i < stack.size(); i += 1024) stack[i] = 0;
@@ -56,7 +57,8 @@ RealTime::RealTime(int priority) {
     refusals_.memory = ask_memory();
     refusals_.awake = ask_awake(awake_);
     touch_stack();
-    // last: what is above takes milliseconds, and would keep other programs waiting
+    // last: the steps above take milliseconds, in which this thread would keep other programs
+    // waiting
     refusals_.priority = ask_priority(priority);
 }
 

@@ -17,10 +17,10 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Until their first tick devices that pace start a thread, or a scheduler, of their own. No force
-/// is on them then: the watchdog waits for longer than any of them does before it gives up.
+/// Before their first tick, devices that pace start a thread or a scheduler of their own. No force
+/// is on them then, so the watchdog waits longer than any of them needs before it gives up.
 constexpr Time kDevicesBegin = std::chrono::seconds(4);
-/// After their last tick, with which force went off, they end it.
+/// After their last tick, in which force went off, they end that thread or scheduler.
 constexpr Time kDevicesEnd = std::chrono::seconds(2);
 
 double elapsed(Steady::time_point since) {
@@ -102,12 +102,12 @@ struct RealLoop {
     const std::atomic<bool>& stop;
     Timing& timing;
     Watchdog& watchdog;
-    Steady::time_point start;  ///< when time was, or would be, zero
+    Steady::time_point start;  ///< when time was, or would have been, zero
     double last_tick = kUnmeasured;
     bool overrun = false;
     Suspension suspension{Suspension::read()};
 
-    /// The tick of time `now`, which was due at `due`. Returns whether there is to be another.
+    /// Does the tick of time `now`, which was due at `due`. Returns whether another is to follow.
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
         const double lateness = seconds(begin - (start + due));
         servo.note_timing(lateness, last_tick, overrun);
@@ -119,7 +119,7 @@ struct RealLoop {
                 std::max({timing.longest_pause, seconds(now - timing.reached), lateness});
         }
         const auto end = Steady::now();
-        // after the last one force is off, and devices may take their time to end
+        // after the last tick force is off, and devices may take their time to end
         watchdog.end_tick(servo.stopped() ? end + kDevicesEnd : end);
         last_tick = seconds(end - begin);
         timing.ticks.add(last_tick);
@@ -128,7 +128,8 @@ struct RealLoop {
         return !servo.stopped();
     }
 
-    /// Time goes on while the machine is suspended, and its clock does not. In whole periods.
+    /// Makes time include a suspension of the machine, in whole periods: its clock stands still
+    /// then.
     Time add_suspension() noexcept {
         const Time asleep = suspension.since(Suspension::read());
         const Time added = (asleep / servo.period()) * servo.period();
@@ -148,10 +149,9 @@ struct RealLoop {
         timing.overruns += pace.overruns;
     }
 
-    /// Time is measured here: the devices' period is near the servo's, but their own. An overrun
-    /// is a tick that computed for longer than a period, or after which they called more than half
-    /// a period late: then the last force was held for longer than it was meant for, whoever
-    /// was slow.
+    /// Time is measured here, as the devices' period is near the servo's but their own. An overrun
+    /// is a tick that took longer than a period, or one that the devices called more than half a
+    /// period late: either way the last force was held longer than intended.
     void run_by_devices(Time first, Time last) {
         Time due = first;
         bool begun = false;
@@ -180,12 +180,12 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
         const RealTime real_time(servo.settings().real_time_priority);
         timing.refusals = real_time.refusals();
         auto start = Steady::now();
-        // a tick more than the servo allows itself: whenever this stops the devices, a tick after
-        // it, but for the first one, is late by the servo's own clock, which is recorded
+        // one tick longer than the servo allows: if the watchdog stops the devices, the next tick
+        // is late by the servo's own clock too, which is recorded. The first tick is an exception.
         const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
-        // simulated ones have nobody to be switched off for
+        // simulated devices hold no person's hand; only a stuck loop matters
         const Time limit = servo.real() ? pause : Watchdog::kStuck;
-        std::optional<Timing::Stall> stall;  // of the watchdog's thread until that has ended
+        std::optional<Timing::Stall> stall;  // the watchdog's thread's until that has ended
         auto watchdog = std::make_unique<Watchdog>(
             limit,
             [&] {
@@ -195,9 +195,9 @@ void run_real(Servo& servo, const Director& director, const FrameSink& sink, Tim
             [&] {
                 if (stuck) stuck(*stall);
             });
-        // only now: to start a thread may take longer than a tick
+        // only now: starting a thread may take longer than a tick
         start = Steady::now() + servo.period() - first;
-        // what paces may take its time to begin
+        // devices that pace may take their time to begin
         const bool paced = servo.devices().paces();
         watchdog->end_tick(Steady::now() + (paced ? kDevicesBegin : Time(0)));
         RealLoop loop{servo, director, sink, stop, timing, *watchdog, start};

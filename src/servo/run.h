@@ -1,5 +1,5 @@
-// Who calls the tick: the virtual clock, as fast as the machine goes, or a thread that keeps real
-// time.
+// Runs call the tick: on the virtual clock, as fast as the machine allows, or in a thread that
+// keeps real time.
 #pragma once
 
 #include <atomic>
@@ -11,11 +11,11 @@
 
 namespace dihaptic::servo {
 
-/// What becomes of each Frame. On the real clock it runs in the servo thread: no waiting, no
-/// memory.
+/// Receives each Frame. On the real clock it runs in the servo's thread: it must neither wait nor
+/// allocate.
 using FrameSink = std::function<void(const Frame&)>;
 
-/// Times, one a tick. Reserve before a real-time run: those beyond are left out.
+/// Durations, one for each tick. Reserve before a real-time run: once full, it drops further ones.
 class TickTimes {
   public:
     void reserve(size_t ticks) { us_.reserve(ticks); }
@@ -31,20 +31,20 @@ class TickTimes {
     std::vector<float> us_;
 };
 
-/// How runs kept time; on the virtual clock, which is never late, only `ticks`.
+/// How a run kept time. On the virtual clock, which is never late, only `ticks` is filled in.
 struct Timing {
     TickTimes ticks;
     TickTimes lateness;  ///< of each tick's wake-up
-    Time reached{0};     ///< the last tick's
+    Time reached{0};     ///< time of the last tick
     int64_t overruns = 0;
-    /// When the watchdog found that ticks did not end any more.
+    /// The watchdog's finding that ticks no longer ended.
     struct Stall {
-        Time at{0};            ///< from activation
-        Time pause{0};         ///< since the last tick had ended
-        bool stopped = false;  ///< the devices, which not all can be
+        Time at{0};            ///< since activation
+        Time pause{0};         ///< since the end of the last tick
+        bool stopped = false;  ///< whether the devices could be stopped; not all can be
     };
     std::optional<Stall> stall;
-    /// Ticks that came later than allowed where devices are simulated, which is told alone.
+    /// Number of ticks that came later than allowed while all devices are simulated; only reported.
     int64_t pauses = 0;
     double longest_pause = 0;  ///< [s]
     RealTime::Refusals refusals;
@@ -55,26 +55,27 @@ struct Timing {
     }
 };
 
-/// The wake-ups of a run in real time, in words; "" without any.
+/// Describes the lateness of the wake-ups of a real-time run; "" without wake-ups.
 std::string describe(const Timing& timing);
 
-/// The pauses, in a sentence; "" without any.
+/// Describes the pauses in a sentence; "" without pauses.
 std::string describe_pauses(const Timing& timing);
 
-/// What the watchdog did, in a sentence.
+/// Describes in a sentence what the watchdog did.
 std::string describe(const Timing::Stall& stall);
 
-/// Ticks until the director stops, `stop` becomes true, or `most` time has passed; called by
-/// devices that pace, a period of virtual time each. Returns the time reached.
+/// Runs ticks on the virtual clock until the director stops, `stop` becomes true, or time `most`
+/// has passed. Devices that pace call the ticks, one per period of virtual time. Returns the time
+/// reached.
 Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
                  const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
-/// The same in real time, from `first` to `last`, in a thread of its own with what RealTime gets
-/// it: a tick at each deadline of Pace, on the monotonic clock, to which the time is added that the
-/// machine was suspended for. A Watchdog stops real devices when no tick has ended for longer than
-/// `max_pause`; when the loop goes on, the next tick finds that it is late. When it never does,
-/// `stuck` is called from the watchdog's thread: this function cannot return any more, and the
-/// program had better end.
+/// Runs ticks in real time, from `first` to `last`, in a thread of its own with what RealTime is
+/// granted: one at each deadline of Pace, on the monotonic clock plus the time for which the
+/// machine was suspended; devices that pace call them instead. A Watchdog stops real devices when
+/// no tick has ended for longer than `max_pause`; if the loop then goes on, the next tick finds
+/// itself late. If it never does, `stuck` is called from the watchdog's thread: this function can
+/// no longer return, and the program should end.
 void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
               const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});

@@ -9,9 +9,9 @@
 namespace dihaptic::servo {
 namespace {
 
-constexpr double kElsewhere = 5e-3;  // of a handle after a pause [m]
+constexpr double kElsewhere = 5e-3;  // a handle this far off after a pause gets its proxy anew [m]
 
-/// What a device says is wrong with it.
+/// The fault that a device reports.
 haptics::FaultKind reported_by(const devices::Reading& reading) {
     if (reading.status & devices::kNotAnswering) return haptics::FaultKind::not_answering;
     if (reading.status & devices::kNeedsCalibration) return haptics::FaultKind::uncalibrated;
@@ -19,7 +19,8 @@ haptics::FaultKind reported_by(const devices::Reading& reading) {
     return haptics::FaultKind::none;
 }
 
-/// Where a hand is kept: within the wall, or else in what its device reaches, if it says so.
+/// The box that a hand is kept in: the wall or, without one, the device's workspace if it is
+/// stated.
 std::optional<haptics::WorkspaceBox> box_of(const devices::DeviceInfo& info, const Pose& X_0D,
                                             const std::optional<Eigen::AlignedBox3d>& wall) {
     if (wall) return haptics::WorkspaceBox{{Quat::Identity(), wall->center()}, wall->sizes()};
@@ -44,7 +45,7 @@ haptics::ProxyKind other_than(haptics::ProxyKind kind) {
                                              : haptics::ProxyKind::point;
 }
 
-/// What holds for one tick alone; trial, phase and solver stay until they are ordered anew.
+/// Clears the orders that hold for one tick only; trial, phase and solver stay until ordered anew.
 void forget_orders(Commands& commands) noexcept {
     commands.task.clear();
     commands.stop = false;
@@ -127,7 +128,7 @@ Servo::~Servo() {
     deactivate();
 }
 
-/// A point apart has nothing that could turn a body.
+/// An "apart" point has nothing through which it could turn a body.
 bool Servo::turns_with_handle(haptics::ProxyKind kind) const noexcept {
     return kind == haptics::ProxyKind::rigid ||
            settings_.proxy.friction == haptics::PointFriction::together;
@@ -197,14 +198,14 @@ void Servo::rest() noexcept {
 }
 
 void Servo::resume() {
-    // what the watchdog stopped, were it in the last tick before a pause, stays so until it begins
+    // if the watchdog stopped the devices in the last tick before a pause, they are still stopped
     const bool were_stopped = stopped_from_outside_.exchange(false);
     if (faults_.tripped() || were_stopped) {
         devices_->deactivate();
         active_ = false;
         devices_->activate();
         active_ = true;
-        // what was computed from no number holds none any more
+        // positions computed from a value that is not a number are lost
         const haptics::FaultKind kind = faults_.fault().kind;
         anew_ = world_.diverged() || kind == haptics::FaultKind::not_finite;
         if (world_.diverged()) world_.mend();
@@ -288,7 +289,7 @@ void Servo::measure(Time now) noexcept {
     devices_->read(now, readings_);
     const double elapsed = frame_.sequence < 0 ? 0 : seconds(now - frame_.time);
     judge_lateness(now, elapsed);
-    // a device has one position a period, however near to each other two ticks come
+    // a device has one position per period, however close together two ticks come
     const double moved_for = elapsed > 0 ? std::max(elapsed, settings_.tick()) : 0;
     if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
@@ -296,7 +297,7 @@ void Servo::measure(Time now) noexcept {
         haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
         const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
         if (orientation) {
-            // the same turn, about the world's axes
+            // the same turn, expressed about the world's axes
             const Quat& R_0D = X_0D_[i].R;
             read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
             read.w_WH = R_0D * readings_[i].w_DH;
@@ -311,13 +312,13 @@ void Servo::measure(Time now) noexcept {
         device_faults_[i] = fault.kind;
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
-        // a hand that moved in a pause does not throw about what lies between
+        // a hand that moved in a pause must not throw about what lies between
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
         if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
     }
     anew_ = false;
-    // last: a device that says what is wrong with it says more than the pause that it made
+    // last: what a device reports says more than the pause that it caused
     if (real_) faults_.trip(lateness_fault_);
 }
 
@@ -335,7 +336,7 @@ void Servo::turn_workspaces(double rate) noexcept {
 void Servo::make_forces(Time now) noexcept {
     bool asked = false;
     const bool stepped = steps_now();
-    // what shakes a simulated hand, since its machine keeps it waiting, shakes nobody
+    // a simulated hand that shakes because the loop is late shakes nobody
     const bool waits = !real_ && late_.sustained() > 0;
     const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
         if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
@@ -345,7 +346,7 @@ void Servo::make_forces(Time now) noexcept {
         const Wrench last_0 = force.sent_0;
         force = {};
         force.last_0 = last_0;
-        if (world_.diverged()) continue;  // nothing follows from it any more
+        if (world_.diverged()) continue;  // the world no longer determines a force
         force.asked_W.force = fingers_[i].force(world_, handles_[i], settings_.tick());
         force.asked_W.torque = fingers_[i].torque();
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
@@ -358,10 +359,10 @@ void Servo::make_forces(Time now) noexcept {
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
-    // a device without force leaves half a grasp: the others wait with it, and all come on softly
+    // a device that drops its force leaves half a grasp: the others wait, and all come back softly
     const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
-    const double share = resumed_ ? 0 : rising;  // without a soft start too
+    const double share = resumed_ ? 0 : rising;  // zero after a pause, even without a soft start
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
         bound_rise(i, share);
@@ -371,7 +372,7 @@ void Servo::make_forces(Time now) noexcept {
         if (force.flags & haptics::kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
-    // one finger's fault is every finger's: half a grasp would throw the hand aside
+    // one finger's fault counts for all: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
         if (faults_.tripped()) {
             forces_[i].sent_0 = {};
@@ -410,7 +411,7 @@ Vec3 Servo::field_on(size_t finger) const noexcept {
 
 bool Servo::switch_held() const noexcept {
     if (settings_.safety.dead_man_finger.empty()) return true;
-    if (dead_man_ < 0) return false;  // nobody holds a switch that is not there
+    if (dead_man_ < 0) return false;  // a missing switch counts as not held
     const devices::Reading& reading = readings_[static_cast<size_t>(dead_man_)];
     return (reading.buttons >> settings_.safety.dead_man_button & 1u) != 0;
 }

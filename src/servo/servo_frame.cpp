@@ -1,4 +1,4 @@
-// What a tick leaves behind: the Frame.
+// Makes the Frame, the record of a tick.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -39,7 +39,7 @@ uint32_t fault_status(haptics::FaultKind kind) noexcept {
     return 0;
 }
 
-/// A bit of a device's status or of a force's flags, and the Frame's for it.
+/// A bit of a device's status or of a force's flags, with the Frame's corresponding bit.
 struct BitOf {
     uint32_t theirs;
     Status ours;
@@ -116,13 +116,13 @@ void note_body(const dynamics::BodyState& state, uint16_t body, Frame& frame) no
     out.v_WB = state.v_WB;
     out.w_WB = state.w_WB;
     out.awake = state.awake ? 1 : 0;
-    // squares too: what overflows in the next computation has diverged already
+    // squares: a value that overflows in the next computation has diverged already
     const double size = out.X_WB.p.squaredNorm() + out.v_WB.squaredNorm() + out.w_WB.squaredNorm();
     if (!std::isfinite(size)) frame.status |= kNotFinite;
     frame.changed.push_back(body);
 }
 
-/// Bodies that were asleep and still are have not changed: only the awake ones are looked at.
+/// Notes the bodies that were stepped: bodies that stay asleep have not changed.
 void note_bodies(const dynamics::World& world, Frame& frame) noexcept {
     const auto states = world.states();
     const size_t count = frame.bodies.size();
@@ -196,7 +196,7 @@ void Servo::merge_contacts() noexcept {
 }
 
 void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept {
-    // the points of a pair come one after the other
+    // the contact points of a pair are adjacent
     double pressed = 0;
     for (const contact::Contact& c : contacts) {
         const bool same = !frame_.contacts.empty() && frame_.contacts.back().a == c.a.value &&
@@ -213,7 +213,8 @@ void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept 
             pressed = 0;
         }
         ContactFrame& out = frame_.contacts.back();
-        // running means, weighted by pressure; a floor of weight serves contacts that do not press
+        // running means, weighted by pressure; the small constant gives unloaded contacts some
+        // weight
         const double weight = c.normal_force + 1e-12;
         pressed += weight;
         out.p_WC += weight / pressed * (c.p_WC - out.p_WC);

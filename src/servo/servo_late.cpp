@@ -1,5 +1,5 @@
-// What becomes of a tick that came late: faults, softer couplings, and a bound on what forces rise
-// by. haptics/late_loop.h has the equations.
+// Handles late ticks: faults, softer couplings, and a bound on how fast forces rise.
+// haptics/late_loop.h has the equations.
 #include <algorithm>
 
 #include "haptics/late_loop.h"
@@ -7,16 +7,16 @@
 
 namespace dihaptic::servo {
 
-/// With simulated devices alone it is no fault, and told all the same.
+/// With simulated devices only, the lateness is no fault, but it is still reported.
 void Servo::judge_lateness(Time now, double elapsed) noexcept {
     late_.tick(now, from_seconds(elapsed));
     elapsed_ = elapsed;
     lateness_fault_ = {};
-    // nobody may have noted a lateness: it is no number then, and the second of the two counts less
+    // lateness_ is NaN unless noted by the caller; std::max() then returns its first argument
     const double overdue = std::max(elapsed - settings_.tick(), lateness_);
     const double pause = settings_.safety.max_pause;
     const std::optional<double>& most = settings_.safety.max_late;
-    // a clock that goes back says nothing of how long the last force was held
+    // a clock that goes back does not tell how long the last force was held
     if (elapsed > pause || elapsed < 0) {
         lateness_fault_ = {haptics::FaultKind::late, -1, now, elapsed, pause};
     } else if (frame_.sequence >= 0 && most && overdue > *most) {
@@ -35,9 +35,10 @@ void Servo::retune() noexcept {
     for (haptics::Finger& finger : fingers_) finger.retune(in_force_);
 }
 
-/// Lateness that has just begun has not softened the couplings yet, and never softens the wall or
-/// the fields. Force may rise from the last tick's only as a spring that the loop holds would, and
-/// by the creep, which lets it come back; and never as a spring stiffer than the coupling.
+/// Bounds how far force may rise in a tick that may be late. Lateness that has just begun has not
+/// yet softened the couplings, and never softens the wall or the fields. Force may rise from the
+/// last tick's only as a spring that the loop can hold would raise it, and by the creep, which lets
+/// it come back; but never as a spring stiffer than the coupling would.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
     Force& force = forces_[finger];

@@ -1,5 +1,6 @@
-// Every setting of scene, rig, experiment and command line: the later one counts, but of `safety`,
-// which is the rig's, and which the others may only tighten (experiment/safety_limits.h).
+// All settings that scene, rig, experiment and command line may set. The later source counts,
+// except for `safety`, which belongs to the rig and which the others may only tighten
+// (experiment/safety_limits.h).
 #pragma once
 
 #include "dynamics/settings.h"
@@ -8,8 +9,8 @@
 namespace dihaptic::servo {
 
 struct Settings {
-    double rate = 1000;           ///< ticks a second [Hz]
-    int real_time_priority = 80;  ///< SCHED_FIFO's, above the kernel's interrupt threads (50)
+    double rate = 1000;           ///< tick rate [Hz]
+    int real_time_priority = 80;  ///< of SCHED_FIFO, above the kernel's interrupt threads (50)
     dynamics::Settings dynamics;
     haptics::ProxySettings proxy;
     haptics::CouplingSettings coupling;
@@ -26,7 +27,7 @@ struct Settings {
     }
 
     double tick() const { return 1 / rate; }                 ///< [s]
-    double step() const { return tick() * dynamics.every; }  ///< of the world [s]
+    double step() const { return tick() * dynamics.every; }  ///< time step of the world [s]
 };
 
 }  // namespace dihaptic::servo

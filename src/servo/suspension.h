@@ -1,5 +1,5 @@
-// For how long the machine was suspended. The monotonic clock stands still then, and by it a tick
-// after hours of sleep would come in time, to hands that have long let go.
+// Suspension measures for how long the machine was suspended. The monotonic clock stands still
+// then, and by it a tick after hours of sleep would be in time, for hands that have long let go.
 #pragma once
 
 #include "base/clock.h"
@@ -8,7 +8,8 @@ namespace dihaptic::servo {
 
 class Suspension {
   public:
-    /// The clock that goes on, read between two readings of the one that does not.
+    /// The clock that goes on in a suspension (boot), read between two readings of the one that
+    /// does not.
     struct Clocks {
         Time before{0};
         Time boot{0};
@@ -18,8 +19,8 @@ class Suspension {
 
     explicit Suspension(const Clocks& clocks) : offset_(clocks.boot - clocks.before) {}
 
-    /// Since this was asked last, or since the beginning; 0 when it was not. A thread that has to
-    /// wait between two readings takes that for no suspension.
+    /// Time suspended since the last call, or since construction; 0 if there was none. A thread
+    /// that has to wait between two readings does not mistake the wait for a suspension.
     Time since(const Clocks& clocks) noexcept {
         const Time least = clocks.boot - clocks.after - offset_;
         if (least < kLeast) return Time(0);
@@ -29,7 +30,7 @@ class Suspension {
 
   private:
     static constexpr Time kLeast = std::chrono::milliseconds(1);
-    Time offset_;  // of the one clock over the other, at most so much
+    Time offset_;  // lower bound of how far the boot clock is ahead
 };
 
 }  // namespace dihaptic::servo

@@ -1,9 +1,9 @@
-// What a task does in a tick: what it shows, what it perturbs, what became of the trial. Its
-// director orders it, the Frame records it, and a replay orders it again.
+// TaskFrame describes what a task does in a tick: what it shows, what it perturbs, and how the
+// trial ended. The task's director orders it, the Frame records it, and a replay orders it again.
 //
 // Perturbations act at three places:
-//   visual map        true pose to displayed pose, of what it names
-//   body properties   inertia and weight apart, friction; over those of the scene
+//   visual map        from true to displayed pose, of the things it names
+//   body properties   inertia and weight independently, and friction; scale those of the scene
 //   loads             of force fields, on handles and bodies
 #pragma once
 
@@ -15,21 +15,21 @@
 
 namespace dihaptic::servo {
 
-/// What a visual map moves: the sum of these.
+/// What a visual map moves: a sum of these.
 enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 };
 
-/// How what is shown differs from what is. A point p is shown at
+/// The difference between what is shown and what is there. A point p is shown at
 ///
 ///     c + R S (p - c),   S = diag(scale)         or, on a ray,     c + |p - c| along
 ///
-/// and a body turned by R as well, so that a rotated hand still touches what is rotated with it.
+/// A body is also turned by R, so that a rotated hand still touches what is rotated with it.
 struct VisualMap {
     uint32_t moves = 0;           ///< Moves
     int32_t object = -1;          ///< the body that kMovesObject means
     Vec3 p_WC = Vec3::Zero();     ///< centre c [m]
     Vec3 scale = Vec3::Ones();    ///< along the world's axes
     Quat R = Quat::Identity();    ///< after scaling
-    Vec3 along_W = Vec3::Zero();  ///< unit direction of the ray; zero: none
+    Vec3 along_W = Vec3::Zero();  ///< unit direction of the ray; zero: no ray
     double size = 1;              ///< the object's displayed size over its true one
 
     Vec3 displayed(const Vec3& p_W) const noexcept {
@@ -51,7 +51,7 @@ struct VisualMap {
     }
 };
 
-/// A sphere that is shown.
+/// A target that is shown as a sphere.
 struct TargetFrame {
     int32_t region = -1;  ///< of the task
     Vec3 p_WT = Vec3::Zero();
@@ -65,7 +65,7 @@ struct TargetFrame {
     }
 };
 
-/// Properties of a body, over those of the scene.
+/// Properties of a body, relative to those of the scene.
 struct PropertiesFrame {
     int32_t body = -1;
     Vec3 mass_scale = Vec3::Ones();  ///< of its inertia along the world's axes
@@ -98,7 +98,7 @@ struct LoadFrame {
     }
 };
 
-/// A body that is put somewhere, at rest.
+/// Puts a body at a pose, at rest.
 struct PlacementFrame {
     int32_t body = -1;
     Pose X_WB;
@@ -112,17 +112,17 @@ struct PlacementFrame {
 };
 
 struct TaskFrame {
-    /// Most of each in a tick; placements: as many as there are bodies.
+    /// Limits of the numbers in a tick; there may be as many placements as bodies.
     static constexpr size_t kMostTargets = 16;
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
 
     int32_t attempt = 0;   ///< of the trial, from 1
     int32_t outcome = -1;  ///< of the trial, in its last frame: index into the session's outcomes
-    int32_t message = -1;  ///< that is shown: index into the session's messages
+    int32_t message = -1;  ///< shown now: index into the session's messages
     int32_t marker = 0;    ///< event code of this tick, 1 to 255; 0: none
-    double share = 0;      ///< of the trial's perturbation that acts
-    std::vector<VisualMap> visual;  ///< none: all is shown where it is
+    double share = 0;      ///< share of the trial's perturbation that acts
+    std::vector<VisualMap> visual;  ///< empty: everything is shown where it is
     std::vector<TargetFrame> targets;
     std::vector<PropertiesFrame> properties;
     std::vector<LoadFrame> loads;
@@ -135,7 +135,7 @@ struct TaskFrame {
         loads.reserve(kMostLoads);
         placements.reserve(bodies);
     }
-    /// As if nothing were ordered; keeps the memory.
+    /// Resets to no orders; keeps the memory.
     void clear() noexcept {
         attempt = 0;
         outcome = message = -1;
@@ -163,7 +163,8 @@ struct TaskFrame {
     }
 };
 
-/// Adds to a list of a TaskFrame unless it is full: the tick allocates nothing.
+/// Adds an item to a list of a TaskFrame unless the list is full, so that the tick allocates
+/// nothing.
 template <class T>
 void add(std::vector<T>& list, const T& item) noexcept {
     if (list.size() < list.capacity()) list.push_back(item);

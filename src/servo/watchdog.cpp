@@ -8,15 +8,15 @@
 namespace dihaptic::servo {
 namespace {
 
-/// A servo that does not sleep would otherwise keep a thread of its own priority waiting for ever
-/// where they share a processor. The servo's thread does it: the other might not come to run.
+/// Without the higher priority, a servo that does not sleep would starve the watchdog on a shared
+/// processor. The servo's thread raises it: the watchdog's might never come to run.
 void raise_above_this(std::thread& thread) {
     int policy = 0;
     sched_param priority{};
     if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO)
         return;
     ++priority.sched_priority;
-    // refused: it watches as well as it can
+    // if refused, it watches as well as it can
     pthread_setschedparam(thread.native_handle(), policy, &priority);
 }
 
@@ -42,7 +42,7 @@ Watchdog::~Watchdog() {
 
 void Watchdog::run() {
     std::unique_lock lock(mutex_);
-    // false when the run ended first
+    // returns false if the run ended first
     const auto no_tick_for = [&](Time limit, Clock::time_point from) {
         while (!done_) {
             const auto deadline = std::max(last_end(), from) + limit;
@@ -55,8 +55,7 @@ void Watchdog::run() {
     lock.unlock();
     stop_();
     lock.lock();
-    // a program that stood still as a whole goes on with this thread or with the servo's: that one
-    // gets its time
+    // after the whole program stood still, this thread may go on before the servo's: give that time
     if (!no_tick_for(kStuck, Clock::now())) return;
     lock.unlock();
     stuck_();

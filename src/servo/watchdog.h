@@ -1,10 +1,10 @@
-// A thread of its own that switches force off when the loop stalls: when a call to a device blocks,
-// or the system keeps the servo's thread waiting, devices hold the last force until somebody else
-// takes it away. It calls nothing but a stop that may be called from any thread; what the servo
-// computes is none of its business.
+// Watchdog switches force off when the loop stalls. When a call to a device blocks, or the system
+// keeps the servo's thread waiting, devices hold the last force until somebody takes it away. The
+// watchdog has a thread of its own and calls nothing but a stop that may be called from any thread;
+// it does not touch what the servo computes.
 //
-// Started from the servo's thread it has that one's priority and one more. It sleeps from deadline
-// to deadline, so ticks cost it nothing.
+// Started from the servo's thread, it gets that thread's priority plus one. It sleeps from deadline
+// to deadline, so it costs the ticks nothing.
 #pragma once
 
 #include <atomic>
@@ -21,17 +21,18 @@ namespace dihaptic::servo {
 class Watchdog {
   public:
     using Clock = std::chrono::steady_clock;
-    /// After the stop, a tick that has not ended for so long more never will.
+    /// If a tick has not ended for this long after the stop, it never will.
     static constexpr Time kStuck = std::chrono::seconds(2);
 
-    /// `stop` is called once when no tick has ended for `limit`, `stuck` once when none has for
-    /// kStuck after it; both from the watchdog's thread. The first tick counts from here.
+    /// Calls `stop` once when no tick has ended for `limit`, and `stuck` once when none has ended
+    /// for kStuck after that, both from the watchdog's thread. The time of the first tick counts
+    /// from construction.
     Watchdog(Time limit, std::function<void()> stop, std::function<void()> stuck);
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
     Watchdog& operator=(const Watchdog&) = delete;
 
-    /// From the servo's thread, at the end of each tick. Neither waits nor allocates.
+    /// Called from the servo's thread at the end of each tick. Neither waits nor allocates.
     void end_tick(Clock::time_point now) noexcept {
         last_end_.store(now.time_since_epoch().count(), std::memory_order_release);
     }

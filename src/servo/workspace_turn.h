@@ -1,17 +1,18 @@
-// Turns the workspaces of all devices together, so that a hand's right stays right in a picture
-// whose camera goes around the scene. By the angle a about the vertical z through C,
+// WorkspaceTurn turns the workspaces of all devices together, so that the hand's right stays right
+// in a picture whose camera goes around the scene. For a turn by the angle a about the vertical z
+// through C,
 //
 //     p_WH = c + T (p_0H - c)               T: rotation by a about z
 //     v_WH = T v_0H + a' z x (p_WH - c)     and so for orientation and angular velocity
 //     f_0H = T^-1 f_WH
 //
-// 0 being the world as it would be without a turn: what stands still with the devices, and what is
-// judged there (speeds, walls, limits) knows nothing of it. The power f_WH . (v_WH - a' z x (p_WH -
-// c)) is f_0H . v_0H; the rest of f_WH . v_WH is the work of whatever turns.
+// where 0 denotes the world without the turn. What is fixed to the devices and judged there
+// (speeds, walls, limits) is independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
+// equals f_0H . v_0H; the rest of f_WH . v_WH is the work of the turn.
 //
 // C is the mean of the devices' origins: their reach stays where it is, nothing in it moves faster
-// than need be, and no camera counts, which a replay has none of. The angle goes on at a rate a'
-// that changes by no more than kMostAcceleration, so that neither force nor velocity steps.
+// than necessary, and C does not depend on a camera, which a replay lacks. The rate a' of the angle
+// changes by at most kMostAcceleration, so that neither force nor velocity steps.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +26,14 @@ namespace dihaptic::servo {
 
 class WorkspaceTurn {
   public:
-    /// 0.2 m off the axis a handle at rest goes 0.2 m/s: a calm hand's speed, 2 % of what switches
-    /// force off; and 8.5 N change by 8.5 N/s in the device's axes, 0.3 % of what is allowed.
+    /// At 0.2 m from the axis a handle at rest moves at 0.2 m/s, the speed of a calm hand and 2 %
+    /// of the speed that switches force off; and a force of 8.5 N changes by 8.5 N/s in the
+    /// device's axes, 0.3 % of what is allowed.
     static constexpr double kMostRate = 1;          // [rad/s]
     static constexpr double kMostAcceleration = 4;  // [rad/s^2]
 
     WorkspaceTurn() = default;
-    /// `X_WD` by device, without a turn.
+    /// `X_WD` by device, without the turn.
     explicit WorkspaceTurn(const std::vector<Pose>& X_WD) {
         for (const Pose& pose : X_WD) p_WC_ += pose.p / static_cast<double>(X_WD.size());
     }
@@ -42,18 +44,18 @@ class WorkspaceTurn {
         angle_ = angle;
         R_ = Quat(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
     }
-    /// The next tick, `elapsed` [s] after the last one.
+    /// Goes on to the next tick, `elapsed` [s] after the last.
     void advance(double elapsed) noexcept {
         if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
     }
-    /// From this tick of h [s] on, within the bounds.
+    /// Sets the rate from this tick of h [s] on, within the bounds.
     void order(double rate, double h) noexcept {
         const double change = kMostAcceleration * h;
         rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);
     }
     void stop() noexcept { rate_ = 0; }
-    /// What to order at `angle` on the shortest way to `goal` [rad]: at kMostRate, and as the way
-    /// ends in proportion to it, which slows down by no more than kMostAcceleration.
+    /// The rate to order at `angle` for the shortest way to `goal` [rad]: kMostRate, and near the
+    /// goal in proportion to the way left, so that it slows down by at most kMostAcceleration.
     static double rate_toward(double goal, double angle) noexcept {
         constexpr double kThere = 1e-6;  // [rad]
         const double way = std::remainder(goal - angle, 2 * std::numbers::pi);
@@ -68,7 +70,7 @@ class WorkspaceTurn {
         return angle_ == 0 ? p : p_WC_ + R_.conjugate() * (p - p_WC_);
     }
     Pose turned(const Pose& X) const noexcept { return {R_ * X.R, turned(X.p)}; }
-    /// `orientation`: the handle has one, and an angular velocity.
+    /// `orientation`: whether the handle has an orientation and an angular velocity.
     haptics::Handle turned(const haptics::Handle& handle, bool orientation) const noexcept {
         if (angle_ == 0 && rate_ == 0) return handle;
         haptics::Handle out;

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 using recording::Mover;
 using recording::SessionState;
 
-/// The simulated person of that session takes its place again, with what it is like; what it had
-/// learned is lost.
+/// Puts the simulated person of that session back, with the same traits; what it had learned is
+/// lost.
 void sit_down_again(experiment::Plan& plan, const recording::SessionFolder& folder) {
     const std::string file = folder.file("person.yaml");
     if (!is_there(file)) {
@@ -53,7 +53,7 @@ const char* who_goes_on(Mover mover) {
     }
 }
 
-/// Of which an attempt was ended, if only by one that is to be done again.
+/// Number of trials with at least one attempt that ended, even if the trial is to be done again.
 size_t trials_done(const recording::SessionFolder& folder) {
     if (!is_there(folder.file("trials.csv"))) return 0;
     const CsvFile trials(folder.file("trials.csv"));
@@ -64,7 +64,7 @@ size_t trials_done(const recording::SessionFolder& folder) {
     return done.size();
 }
 
-/// Whether nobody records or recovers it at this moment.
+/// Whether no program is recording or recovering the session at this moment.
 bool at_rest(const recording::SessionFolder& folder) {
     try {
         const recording::SessionLock lock(folder);
@@ -74,13 +74,13 @@ bool at_rest(const recording::SessionFolder& folder) {
     }
 }
 
-/// The session, if its trials are not all done.
+/// The session if its trials are not all done; otherwise nullopt.
 std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
                                      const recording::SessionInfo& info) {
     if (!is_there(folder.file("task.yaml")) || info.state == SessionState::complete ||
         !at_rest(folder))
         return std::nullopt;
-    // one that was killed has no tables yet
+    // a session that was killed has no tables yet
     const bool killed = info.state == SessionState::running;
     if (!killed && !experiment::trials_left(folder.path())) return std::nullopt;
     return Unfinished{folder.path(), info.started, trials_done(folder),
@@ -99,7 +99,7 @@ Rest rest_of(const std::string& session, experiment::Seat seat,
              const std::function<void(double)>& progress) {
     const auto folder = recording::SessionFolder::open(session);
     Rest out;
-    Diagnostics ignored;  // recovering says it
+    Diagnostics ignored;  // recover_session() reports the same problems
     const recording::RawLogReader log(folder.raw_log());
     if (folder.read_info(log.head(), ignored).state == SessionState::running)
         out.warnings = analysis::recover_session(folder, progress).warnings;
@@ -112,7 +112,7 @@ std::vector<Unfinished> find_unfinished(const std::string& parent, const std::st
                                         const std::string& participant) {
     std::vector<Unfinished> out;
     std::set<std::string> gone_on_with;
-    std::error_code failed;  // without such a folder there are none
+    std::error_code failed;  // without such a folder there are no sessions
     for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
         try {
             const auto folder = recording::SessionFolder::open(i->path().string());
@@ -122,7 +122,7 @@ std::vector<Unfinished> find_unfinished(const std::string& parent, const std::st
             if (info.title != title || info.participant.id != participant) continue;
             if (auto found = unfinished(folder, info)) out.push_back(*std::move(found));
         } catch (const Error&) {
-            continue;  // no session, or damaged
+            continue;  // not a session, or damaged
         }
     }
     std::erase_if(out, [&](const Unfinished& session) {

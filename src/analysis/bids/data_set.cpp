@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-constexpr const char* kSimulated = "Simulated";  // of dataset_description.json: true or false
+constexpr const char* kSimulated = "Simulated";  // key in dataset_description.json: true or false
 
-/// What dataset_description.json says of who is in the data set; unset: it says nothing, as those
-/// of earlier programs and of others.
+/// Whether dataset_description.json says that the data are simulated; nullopt if it does not say,
+/// as in files of earlier versions and of other programs.
 std::optional<bool> says_simulated(const std::string& file) {
     const Json json = Json::parse(read_text_file(file), nullptr, false);
     if (json.is_discarded() || !json.is_object()) {
@@ -89,7 +89,7 @@ const Json kParticipantColumns{
     {"population", {{"Description", "that the simulated person was drawn from"}}},
     {"seed", {{"Description", "by which it was drawn"}}}};
 
-/// Of a list in one cell, with commas.
+/// Adds an item to a list with commas in one cell, unless it is in there.
 std::string with(const std::string& list, const std::string& item) {
     if (item.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos) return list;
     return list.empty() ? item : list + "," + item;
@@ -99,7 +99,7 @@ std::string with(const std::string& list, const std::string& item) {
 
 Lock::Lock(const std::string& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    // a file system without locks has none to wait for
+    // on a file system without locks there is nothing to wait for
     if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
 }
 
@@ -207,7 +207,7 @@ void DataSet::add_participant() const {
         row.insert(row.end(), {by.program, by.population, by.seed});
     }
     if (people.has(subject_)) {
-        // what the data set says of somebody is not taken back, only added to
+        // what the data set says of a participant is kept, and only added to
         for (size_t i = 1; i < columns.size(); ++i) {
             const std::string there = people.text(subject_, columns[i]);
             if (columns[i] != "moved_by" && !there.empty()) row[i] = there;

@@ -1,5 +1,5 @@
-// What a BIDS data set says of itself and of its people: dataset_description.json, README,
-// participants.tsv, and a table of recordings for each of them.
+// The files by which a BIDS data set describes itself and its participants:
+// dataset_description.json, README, participants.tsv, and a table of recordings per participant.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::analysis::bids {
 
-/// One export at a time gives a data set's runs their numbers, and adds rows to its tables.
+/// Locks a data set, so that one export at a time numbers its runs and adds rows to its tables.
 class Lock {
   public:
     explicit Lock(const std::string& folder);
@@ -23,17 +23,16 @@ class Lock {
 
 class DataSet {
   public:
-    /// `folder` need not be there.
+    /// `folder` need not exist.
     DataSet(std::string folder, const recording::SessionFolder& session,
             const recording::SessionInfo& info);
 
-    /// "sub-S07"
+    /// E.g. "sub-S07".
     const std::string& subject() const { return subject_; }
-    /// Throws Error when the session cannot be added: a simulation to persons' data, or a person to
-    /// those of a simulation; somebody else whose label is the same, or another task; a recording
-    /// that is there.
+    /// Throws Error when the session cannot be added: a simulation to people's data or a person to
+    /// simulated data; a participant whose label is another's; a recording that is there already.
     void check() const;
-    /// Adds the participant, and the recordings, which are named from the subject's folder on.
+    /// Adds the participant, and the recordings, whose paths begin at the subject's folder.
     void add(const std::vector<std::string>& recordings) const;
 
   private:

@@ -18,24 +18,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Columns of trials.csv that are known of a trial before it begins: a moment in it has them too.
+/// Columns of trials.csv that are known before a trial begins: rows of moments in it have them too.
 constexpr const char* kAskedFor[] = {"trial_num",          "attempt", "block_num", "block",
                                      "trial_num_in_block", "kind",    "round",     "condition",
                                      "perturbation",       "share",   "procedure"};
-/// What happened in it, or was measured: of the trial's own row.
+/// Columns of what happened or was measured in a trial: only the trial's own row has them.
 constexpr const char* kMeasured[] = {"outcome",        "peak_grip_N",     "peak_force_N",
                                      "reach_time_s",   "hand_angle_deg",  "shown_angle_deg",
                                      "hand_extent_mm", "shown_extent_mm", "wanted_extent_mm"};
-constexpr const char* kLift = "lift_";  // before the names of columns of lifts.csv
+constexpr const char* kLift = "lift_";  // prefix of the names of columns of lifts.csv
 
-/// An attempt at a trial in this session, and its rows in the tables.
+/// An attempt at a trial in this session, and its row in trials.csv.
 struct Attempt {
     double start = 0;  // [s]
     double stop = 0;
     size_t row = 0;
 };
 
-/// Attempts of this session: trials.csv has those of the sessions that it goes on with first.
+/// Attempts of this session alone: trials.csv begins with those of the sessions that it resumes.
 std::vector<Attempt> attempts_of(const CsvFile& trials, const recording::SessionFolder& session) {
     double earlier = 0;
     if (const std::string before = session.file("trials-before.csv"); is_there(before)) {
@@ -51,7 +51,7 @@ std::vector<Attempt> attempts_of(const CsvFile& trials, const recording::Session
     return out;
 }
 
-/// What a column is, its unit out of its name.
+/// Description of a column, with the unit that its name ends in.
 Json describe(const std::string& name, const std::string& description) {
     static const std::map<std::string, std::string> kUnits = {
         {"s", "s"},     {"mm", "mm"},   {"deg", "deg"}, {"N", "N"},
@@ -67,7 +67,7 @@ Json describe(const std::string& name, const std::string& description) {
     return out;
 }
 
-/// Every column but the first five, with what it is.
+/// Columns made from trials.csv and lifts.csv, with their descriptions.
 std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lifts) {
     std::map<std::string, std::string> known;
     for (const Table::Column& c : trial_columns()) known[c.name] = c.description;
@@ -125,7 +125,7 @@ class EventRows {
         row.insert(row.end(), {"simulated", "moved_by"});
         return row;
     }
-    /// With all that is known of the attempt.
+    /// Row of an attempt, with all that is known of it.
     Row trial(const Attempt& attempt) const {
         Row row{trials_.text(attempt.row, "start_time"),
                 fmt::format("{:.6g}", attempt.stop - attempt.start), "trial",
@@ -144,7 +144,7 @@ class EventRows {
         }
         return finished(row);
     }
-    /// A moment, in an attempt or between them.
+    /// Row of a moment, in an attempt or between attempts.
     Row moment(const std::string& onset, const std::string& what, const std::string& value,
                const std::string& number, const Attempt* attempt) const {
         Row row{onset, "n/a", what, value};
@@ -188,7 +188,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     std::vector<std::pair<double, Row>> rows;  // by onset [s]
     for (const Attempt& attempt : attempts) rows.emplace_back(attempt.start, maker.trial(attempt));
     for (size_t i = 0; i < moments.rows(); ++i) {
-        if (moments.text(i, "event") == "trial") continue;  // has its own row
+        if (moments.text(i, "event") == "trial") continue;  // the attempt has its own row
         const double time = moments.number(i, "time_s");
         const auto in_it = [&](const Attempt& a) { return a.start <= time && time <= a.stop; };
         const auto found = std::find_if(attempts.begin(), attempts.end(), in_it);

@@ -1,6 +1,6 @@
-// A session's events as BIDS has them: events.tsv with a row for each attempt at a trial, with all
-// that was asked for and measured in it, and a row for each moment, with the trial that it was in;
-// events.json, which says what each column is.
+// A session's events in BIDS form: events.tsv has a row for each attempt at a trial, with all that
+// was asked for and measured in it, and a row for each momentary event, with the trial that it was
+// in; events.json describes the columns.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,12 @@
 namespace dihaptic::analysis::bids {
 
 struct Events {
-    std::vector<Row> rows;  ///< the header first
+    std::vector<Row> rows;  ///< rows of events.tsv, the header first
     std::string json;
 };
 
-/// From events.csv, trials.csv and lifts.csv; none without the first. Throws Error when one of them
-/// cannot be read.
+/// Makes them from events.csv, trials.csv and lifts.csv; nullopt without events.csv. Throws Error
+/// when one of these files cannot be read.
 std::optional<Events> events_of(const recording::SessionFolder& session,
                                 const recording::SessionInfo& info);
 

@@ -1,10 +1,11 @@
-// Learning curves (model/learning_curve.h) and single-rate adaptation (model/adaptation.h) fitted
-// to what a person did in each trial, by least squares, with profile intervals: for each parameter,
-// those values at which, with all others fitted anew,
+// Fits learning curves (model/learning_curve.h) and single-rate adaptation (model/adaptation.h) to
+// what a person did in each trial, by least squares, with profile intervals: for each parameter,
+// the values at which, with all others fitted anew,
 //
 //     (n - p) ln(SSE / SSE_min) <= 3.84
 //
-// n measured trials, p parameters, SSE the sum of squared residuals. Two-rate: two_rate_fit.h.
+// with n measured trials, p parameters, and SSE the sum of squared residuals. The two-rate model is
+// fitted in two_rate_fit.h.
 #pragma once
 
 #include <span>
@@ -16,7 +17,7 @@
 
 namespace dihaptic::analysis {
 
-/// What all fits tell. Predictions are for every trial, measured or not.
+/// Results of every fit. Predictions are for every trial, measured or not.
 struct CurveFit {
     std::vector<double> predicted;
     double mean_square = 0;  ///< SSE / n, in the unit of the data, squared
@@ -33,17 +34,17 @@ struct SingleRateFit : CurveFit {
     Interval retention, learning;  ///< 95 %
 };
 
-/// `measured`: compensation in trials 0, 1, 2, ..., NaN where there is none. The time constant is
-/// sought between 0.1 trials and ten times their number. Throws Error when fewer trials than
-/// parameters + 1 were measured, as the others do.
+/// `measured`: compensation in trials 0, 1, 2, ..., NaN where not measured. The time constant is
+/// sought between 0.1 trials and ten times the number of trials. All fits throw Error when fewer
+/// trials than parameters + 1 were measured.
 LearningCurveFit fit_learning_curve(std::span<const double> measured);
 
-/// `measured`: compensation in each of the trials, NaN where there is none. Throws Error when their
-/// numbers differ.
+/// `measured`: compensation in each of `trials`, NaN where not measured. Throws Error when their
+/// sizes differ.
 SingleRateFit fit_single_rate(std::span<const double> measured,
                               std::span<const model::AdaptationTrial> trials);
 
-/// Throws Error when their numbers differ.
+/// Throws Error when the sizes differ.
 void check_numbers(std::span<const double> measured,
                    std::span<const model::AdaptationTrial> trials);
 

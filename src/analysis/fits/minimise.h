@@ -1,6 +1,6 @@
-// The least value of a smooth function of a few bounded variables, without derivatives: Powell's
-// BOBYQA (2009), a trust region around a quadratic through earlier points, as NLopt has it.
-// Deterministic.
+// Minimises a smooth function of a few bounded variables without derivatives, by Powell's BOBYQA
+// (2009), a trust region around a quadratic through earlier points, in NLopt's implementation. The
+// result is deterministic.
 #pragma once
 
 #include <functional>
@@ -21,8 +21,8 @@ struct Minimum {
 
 using Cost = std::function<double(std::span<const double>)>;
 
-/// From a start inside the bounds, to about `tolerance` times their distances. `cost` does not
-/// throw.
+/// Minimises `cost` from a start inside the bounds, to about `tolerance` times their distances.
+/// `cost` must not throw.
 Minimum minimise(const Cost& cost, std::span<const Variable> variables, std::vector<double> start,
                  double tolerance = 1e-7);
 
@@ -35,8 +35,8 @@ struct Interval {
     double high = 0;
 };
 
-/// Where a profile, least at `best` and rising to both sides, passes `limit`; or the end of the
-/// range where it does not. To half a percent of the distance from `best`.
+/// Where a profile that is least at `best` and rises to both sides passes `limit`, to half a
+/// percent of the distance from `best`; or the end of the range if the profile does not pass it.
 Interval profile_interval(const std::function<double(double)>& profile, double best,
                           const Variable& range, double limit);
 

@@ -14,9 +14,9 @@ namespace {
 using model::Psychometric;
 using model::Sigmoid;
 
-/// Levels, and the variables that they give the search: threshold, ln of the spread (the shape, or
-/// one over it where it is a slope), lapse rate. Weibull functions are searched in log10 of the
-/// level, where threshold and slope hardly depend on each other.
+/// The search for the most likely function. Its variables are the threshold, ln of the spread (the
+/// shape, or one over it if the shape is a slope), and the lapse rate. Weibull functions are
+/// searched in log10 of the level, where threshold and slope hardly depend on each other.
 class Search {
   public:
     Search(std::span<const LevelCount> counts, const PsychometricFitSettings& settings)
@@ -33,7 +33,7 @@ class Search {
         if (settings_.max_lapse > 0) variables_.push_back({0, settings_.max_lapse});
         for (double share = -0.5; share < 1.55; share += 0.1)
             coarse_places_.push_back(low_ + share * span_);
-        // a step between two levels fits as well wherever it is between them
+        // a step function fits equally well at any place between two levels
         places_ = coarse_places_;
         std::vector<double> levels;
         for (const LevelCount& c : counts_) levels.push_back(c.level);
@@ -46,14 +46,14 @@ class Search {
 
     std::vector<LevelCount>& counts() { return counts_; }
 
-    /// The least of the minima that are found from the best point of a grid at each spread: flat
-    /// and steep functions have minima of their own.
+    /// The least of the minima found from the best point of a grid at each spread, since flat and
+    /// steep functions have minima of their own.
     Minimum run() const { return run(Effort::full); }
-    /// Of a resample: from a coarser grid, on the two best of its minima, to far less than what
-    /// resamples differ by.
+    /// For a resample: searches from the two best points of a coarser grid, with a precision far
+    /// finer than the differences between resamples.
     Minimum run_quickly() const { return run(Effort::quick); }
 
-    /// In the unit of the data.
+    /// The function in the unit of the data.
     Psychometric function(std::span<const double> x) const {
         Psychometric f = searched(x);
         if (linear_weibull()) {
@@ -62,7 +62,7 @@ class Search {
         }
         return f;
     }
-    /// As good an answer as the best has its spread at an end of the range.
+    /// Whether a function with its spread at an end of the range fits as well as the best.
     bool shape_unknown(const Minimum& best) const {
         std::vector<double> x = best.x;
         for (const double end : {variables_[1].low, variables_[1].high}) {
@@ -116,7 +116,7 @@ class Search {
         const Psychometric f = searched(x);
         double sum = 0;
         for (const LevelCount& c : counts_) {
-            // answers that a function holds impossible cost much, not infinitely much
+            // answers that are impossible under a function cost much, but not infinitely much
             const double p = std::clamp(f.probability(c.level), 1e-12, 1 - 1e-12);
             sum -= c.yes * std::log(p) + (c.trials - c.yes) * std::log1p(-p);
         }
@@ -130,7 +130,7 @@ class Search {
     static constexpr std::span<const double> kLapses{kLapseShares};
     static constexpr std::array kSpreads = {0.002, 0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 2.0, 8.0};
     double low_ = 0, span_ = 0;
-    std::vector<double> places_, coarse_places_;  // of thresholds
+    std::vector<double> places_, coarse_places_;  // thresholds of the grid
     std::vector<Variable> variables_;
 };
 
@@ -164,7 +164,7 @@ double saturated(std::span<const LevelCount> counts) {
     return sum;
 }
 
-/// Between which 95 % of the values lie: those of rank 0.025 (n + 1) and 0.975 (n + 1).
+/// Interval of the middle 95 % of the values, between ranks 0.025 (n + 1) and 0.975 (n + 1).
 Interval middle_95(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const auto last = static_cast<double>(values.size() - 1);
@@ -185,7 +185,7 @@ std::vector<LevelCount> count(std::span<const Answer> answers) {
               [](const Answer& a, const Answer& b) { return a.level < b.level; });
     std::vector<LevelCount> counts;
     if (sorted.empty()) return counts;
-    // sums of steps come back to a level but for rounding
+    // sums of steps come back to a level only up to rounding
     const double same = 1e-9 * (sorted.back().level - sorted.front().level);
     for (const Answer& answer : sorted) {
         if (counts.empty() || answer.level > counts.back().level + same)

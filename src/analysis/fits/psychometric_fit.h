@@ -1,5 +1,5 @@
-// The psychometric function that makes the answers of an experiment most likely, and how far it is
-// to be trusted (Wichmann and Hill 2001, I and II).
+// Fits the psychometric function that makes the answers of an experiment most likely, and finds how
+// far it can be trusted (Wichmann and Hill 2001, I and II).
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ struct Answer {
     bool yes = false;
 };
 
-/// By level, ascending; levels that differ by rounding only are one.
+/// Counts answers by level, ascending; levels that differ only by rounding are one level.
 std::vector<LevelCount> count(std::span<const Answer> answers);
 
 struct PsychometricFitSettings {
     model::Sigmoid sigmoid = model::Sigmoid::normal;
     double guess = 0.5;
-    /// The guess rate is the lapse rate, instead: for "more or less?" questions.
+    /// Takes the lapse rate as the guess rate, instead: for "more or less?" questions.
     bool guess_is_lapse = false;
     double max_lapse = 0.05;  ///< the lapse rate is fitted within [0, max_lapse]
 };
@@ -38,30 +38,30 @@ struct PsychometricFit {
     model::Psychometric function;
     /// Sum over trials of -ln p(answer), without the binomial coefficients.
     double negative_log_likelihood = 0;
-    /// Twice the log likelihood lost to the model that has each level's share of "yes" [1]. About
-    /// chi-squared distributed, with levels less parameters degrees of freedom, where each level
-    /// has many trials; see `deviance_share` below for where not.
+    /// Twice the log likelihood lost to the model that has each level's share of "yes" [1]. If each
+    /// level has many trials, it is about chi-squared distributed, with the number of levels less
+    /// that of parameters degrees of freedom; if not, see `deviance_share` below.
     double deviance = 0;
     /// Functions far steeper, or far flatter, than any that the levels could tell apart fit as
     /// well: the answers turn from all "no" to all "yes" between two levels, or have no trend. The
-    /// shape means nothing.
+    /// shape then means nothing.
     bool shape_unknown = false;
 };
 
-/// Throws Error for less than two levels, counts that are impossible, or levels that are not
-/// positive for Sigmoid::weibull.
+/// Throws Error for fewer than two levels, for impossible counts, and for levels that are not
+/// positive with Sigmoid::weibull.
 PsychometricFit fit_psychometric(std::span<const LevelCount> counts,
                                  const PsychometricFitSettings& settings);
 
 struct PsychometricIntervals {
     Interval threshold, shape, lapse;  ///< 95 %
     /// Share of the resamples that fit no better than the data did: below 0.05 the model does not
-    /// describe them.
+    /// describe the data.
     double deviance_share = 0;
 };
 
-/// Parametric bootstrap: `resamples` times, as many trials at the same levels are answered by the
-/// fitted function, and fitted. Intervals hold the middle 95 % of them.
+/// Parametric bootstrap: `resamples` times, the fitted function answers as many trials at the same
+/// levels, and these answers are fitted. Intervals hold the middle 95 % of the fits.
 PsychometricIntervals bootstrap(std::span<const LevelCount> counts, const PsychometricFit& fit,
                                 const PsychometricFitSettings& settings, int resamples,
                                 uint64_t seed);

@@ -30,7 +30,7 @@ Vec4 parameters_of(const TwoRate& rates) {
     return {rates.fast.retention, rates.fast.learning, rates.slow.retention, rates.slow.learning};
 }
 
-/// What was done, and what the model says of it.
+/// The measured trials, and the model's residuals on them.
 struct Data {
     std::span<const double> measured;
     std::span<const AdaptationTrial> trials;
@@ -47,7 +47,7 @@ struct Data {
         return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
     }
 
-    /// Half of the gradient of the squares, and Gauss and Newton's half of their curvature. The
+    /// Half of the gradient of the sum of squares, and half of its Gauss-Newton curvature. The
     /// derivatives d of both states follow from x(n+1) = A x(n) + B e(n), with de = -dx.
     void slope(const Vec4& p, Vec4& gradient, Mat4& curvature) const {
         double fast = 0, slow = 0;
@@ -75,14 +75,14 @@ struct Data {
     }
 };
 
-/// The parameters as a point z of the unit cube, in which their order is no constraint any more.
-/// Of each pair, low <= high (retention: fast, slow; learning: slow, fast):
+/// Maps the parameters to a point z of the unit cube, in which their order is no constraint. Each
+/// pair has low <= high (retention: fast, slow; learning: slow, fast):
 ///
 ///     both free        high = z_high            low = high z_low
 ///     low held at v    high = v + (1 - v) z_high
 ///     high held at v                            low = v z_low
 ///
-/// What is held has a z that means nothing.
+/// The z of a held parameter means nothing.
 class Cube {
   public:
     explicit Cube(int held = kFree, double value = 0) : held_(held), value_(value) {}
@@ -101,7 +101,7 @@ class Cube {
         return p;
     }
 
-    /// The inverse; of parameters outside, their nearest in the cube.
+    /// The inverse of parameters(); parameters outside of the cube are clamped to it.
     Vec4 point(const Vec4& p) const {
         Vec4 z;
         for (const Pair& pair : kPairs) {
@@ -148,7 +148,7 @@ struct Found {
     double squares;
 };
 
-/// Levenberg-Marquardt within the cube: what lies on a face and is pulled outward stays there.
+/// Levenberg-Marquardt within the cube: a point on a face that is pulled outward stays on it.
 Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) {
     Vec4 z = cube.point(start);
     Found best{cube.parameters(z), 0};
@@ -191,10 +191,10 @@ Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) 
     return best;
 }
 
-constexpr size_t kRatesEach = 77;  // of learning in the lattice, for each pair of retentions
+constexpr size_t kRatesEach = 77;  // pairs of learning rates in the lattice, per pair of retentions
 
-/// Points of the whole space, dense where people are: what is forgotten in a trial, and what is
-/// learned, spans powers of ten.
+/// Points of the whole space, denser where people's parameters are: the shares forgotten and
+/// learned in a trial span powers of ten.
 std::vector<Vec4> lattice() {
     constexpr double kSlow[] = {0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 0.7};  // 1 - A_slow
     constexpr double kFast[] = {0, 0.2, 0.4, 0.6, 0.75, 0.88, 0.96, 1};           // A_fast / A_slow
@@ -210,15 +210,15 @@ std::vector<Vec4> lattice() {
     return out;
 }
 
-// the best of the lattice's points, and the best of each pair of retentions, go downhill: where
-// many are good, the least may begin at none of the best
+// The search descends from the best points of the lattice and from the best point of each pair of
+// retentions: if many points are good, the least minimum may not be below any of the best.
 constexpr size_t kScouts = 48;
-constexpr int kScoutSteps = 12;   // so far,
-constexpr size_t kPolished = 12;  // and the best of them to the end
+constexpr int kScoutSteps = 12;   // steps of each scout
+constexpr size_t kPolished = 12;  // best scouts, which go on for kSteps
 constexpr int kSteps = 400;
 constexpr double kSamePlace = 1e-3;  // minima no further apart are one
 
-/// Minima, the least first; more than one, since what is least may change with a parameter held.
+/// Minima, the least first. Several are kept: with a parameter held, another may be the least.
 std::vector<Found> minima(const Data& data) {
     static const std::vector<Vec4> points = lattice();
     std::vector<Found> found;
@@ -250,7 +250,7 @@ std::vector<Found> minima(const Data& data) {
     return different;
 }
 
-/// Least squares with one parameter held, from every minimum.
+/// Least sum of squares with one parameter held at v, searched from every minimum.
 double profile(const Data& data, const std::vector<Found>& minima, int parameter, double v) {
     double least = std::numeric_limits<double>::max();
     for (const Found& minimum : minima)
@@ -260,7 +260,7 @@ double profile(const Data& data, const std::vector<Found>& minima, int parameter
 
 Interval interval(const Data& data, const std::vector<Found>& minima, int parameter, int count) {
     const Found& best = minima.front();
-    // data without noise leave nothing to divide by
+    // data without noise have no residuals, and the limit would be 0
     const double limit =
         std::max(best.squares, 1e-20) * std::exp(kChiSquared95 / (count - kParameters));
     return profile_interval([&](double v) { return profile(data, minima, parameter, v); },

@@ -1,5 +1,5 @@
-// Files that every page carries within it; the build makes them from the charting library's
-// (dygraphs) and from those beside this one.
+// Scripts and styles that every page contains; the build makes them from the charting library's
+// files (dygraphs) and from the files in this folder.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// A chart of a report's page: what is drawn, not how.
+// A chart of a report's page: describes what is drawn, not how.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ struct Series {
     std::string name;
     Drawn drawn = Drawn::line;
     std::vector<double> x;  ///< ascending
-    std::vector<double> y;  ///< NaN: a gap
-    /// An interval around each y; empty: none.
+    std::vector<double> y;  ///< NaN leaves a gap
+    /// Interval around each y; empty if there are no intervals.
     std::vector<double> low;
     std::vector<double> high;
-    /// "#rrggbb", of what has a colour of its own (base/palette.h); empty: the page chooses.
+    /// "#rrggbb" for quantities with their own colour (base/palette.h); empty: the page chooses.
     std::string colour;
 
-    bool empty() const;  ///< has no value
+    bool empty() const;  ///< whether it has no finite value
 };
 
 /// A line across the chart, where something changes.
@@ -36,7 +36,7 @@ struct Chart {
     std::string title;
     std::string x_label;
     std::string y_label;
-    std::string caption;  ///< below it: what made it
+    std::string caption;  ///< text below the chart, with the origin of the data
     std::vector<Series> series;
     std::vector<Mark> marks;
 };

@@ -15,14 +15,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Numbers that are none become null.
+/// Values that are not finite become null.
 Json numbers(const std::vector<double>& values) {
     Json out = Json::array();
     for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
     return out;
 }
 
-/// What is nothing but rounding is 0.
+/// Four significant digits. A value small enough to be rounding is shown as 0.
 std::string in_short(double value) {
     if (std::isnan(value)) return "-";
     return fmt::format("{:.4g}", std::abs(value) < 1e-6 ? 0 : value);
@@ -95,7 +95,7 @@ void Page::chart(Chart chart) {
     json["marks"] = Json::array();
     for (const Mark& mark : chart.marks)
         json["marks"].push_back({{"x", mark.x}, {"text", mark.text}});
-    // a name from a file may be no UTF-8: it is shown with a replacement, rather than not at all
+    // a name from a file may not be valid UTF-8: it is shown with a replacement character
     const std::string data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     body_ += fmt::format(
         "<figure><div class=\"chart\" data-chart=\"{}\"></div><div class=\"legend\"></div>"

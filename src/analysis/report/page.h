@@ -1,5 +1,5 @@
-// A report's page: one HTML file that needs no other, with charts that zoom, and that reads well on
-// paper.
+// Makes a report's page: one HTML file that needs no other, with charts that zoom, and that also
+// prints well.
 #pragma once
 
 #include <string>
@@ -11,17 +11,18 @@ namespace dihaptic::analysis {
 
 class Page {
   public:
-    /// `who`: who moved the hands, and `origin`: what made the page; lines below the title, and at
-    /// the page's end.
+    /// `who` (who moved the hands) and `origin` (what made the page) become lines below the title
+    /// and at the page's end.
     Page(std::string title, std::string who, std::string origin);
 
     void heading(const std::string& text);
     void text(const std::string& text);
-    /// Numbers with three digits or so; NaN is a dash. `caption` below it.
+    /// Adds a table with `caption` below it. Numbers have four significant digits; NaN is a dash.
     void table(const Table& table, const std::string& caption);
-    /// The same, folded away until it is asked for.
+    /// Adds a table that is folded until the reader opens it.
     void folded_table(const std::string& title, const Table& table);
-    /// Series without a value are left out; a chart of none is a line that says so.
+    /// Adds a chart. Series without a value are left out; a chart without series becomes a line
+    /// that says so.
     void chart(Chart chart);
 
     std::string html() const;

@@ -15,14 +15,14 @@ namespace {
 
 using Sessions = std::vector<const SessionData*>;
 
-/// In sentences.
+/// Says in sentences who moved the hands.
 std::string who_moved(const Sessions& sessions) {
     std::set<std::string> who;
     for (const SessionData* session : sessions) who.insert(session->info.moved_by.describe());
     return fmt::format("{}", fmt::join(who, " "));
 }
 
-/// What all figures of these sessions come from.
+/// The origin of these sessions' figures, for captions.
 std::string origin_of(const Sessions& sessions, const std::string& folder) {
     std::set<std::string> programs;
     for (const SessionData* session : sessions) programs.insert(session->info.program);
@@ -31,7 +31,7 @@ std::string origin_of(const Sessions& sessions, const std::string& folder) {
                        fmt::join(programs, ", "));
 }
 
-/// Rows of a table that were added since it had `first` get what moved the hands of their sessions.
+/// Adds to the table's rows from `first` on what moved the hands of their sessions.
 void mark(Table& table, size_t first, const recording::MovedBy& by) {
     for (size_t i = first; i < table.rows.size(); ++i) {
         table.rows[i].emplace_back(by.simulated());
@@ -40,7 +40,7 @@ void mark(Table& table, size_t first, const recording::MovedBy& by) {
     }
 }
 
-/// Compensation of one person under one round, by the trial's place in it.
+/// One person's compensation in one round.
 struct PersonCurve {
     const SessionData* session;
     const AdaptationCurve* curve;
@@ -67,7 +67,7 @@ void add_people(PopulationPage& out, const std::string& title,
     }
 }
 
-/// A row without a figure for somebody whose session has none, but a perturbation to be learned.
+/// Adds a row without figures for a session whose perturbation has no measure of learning.
 void add_unmeasured(PopulationPage& out, const std::string& title, const SessionData& session) {
     std::vector<Table::Cell>& row = out.people.rows.emplace_back();
     row = {title, session.participant(), "", ""};
@@ -75,8 +75,8 @@ void add_unmeasured(PopulationPage& out, const std::string& title, const Session
     row.insert(row.end(), {"not measured: " + session.not_measured(), session.folder.path()});
 }
 
-/// Mean over people, trial by trial. Catch trials fall on other places for everybody: they are left
-/// out, as are repetitions but the last.
+/// Adds the mean over people, trial by trial. Catch trials, which come at different places for each
+/// person, and all but the last attempt at a trial are left out.
 void add_mean_curve(PopulationPage& out, const std::string& title, const std::string& round,
                     const std::vector<PersonCurve>& people, const std::string& origin) {
     std::map<int, std::vector<double>> by_place;
@@ -121,7 +121,7 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
     out.page.chart(chart);
 }
 
-/// What people have in common of the columns of people.csv that are numbers.
+/// Adds statistics over people of the numeric columns of population-people.csv.
 void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::string& origin) {
     Table table;
     table.columns = {{"round", ""},     {"figure", ""}, {"people", ""}, {"mean", ""},
@@ -134,7 +134,8 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
     for (const std::string& round : rounds) {
         for (size_t c = 4; c + 2 < out.people.columns.size(); ++c) {
             const std::string& name = out.people.columns[c].name;
-            if (name.ends_with("_low") || name.ends_with("_high")) continue;  // of one person's
+            if (name.ends_with("_low") || name.ends_with("_high"))
+                continue;  // intervals of one person
             std::vector<double> values;
             for (size_t i = first_row; i < out.people.rows.size(); ++i) {
                 if (std::get<std::string>(out.people.rows[i][2]) == round)
@@ -150,7 +151,7 @@ void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::st
     out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
 }
 
-/// What these sessions have no figure of, and why.
+/// Adds what has no figure in these sessions, and why.
 void add_not_measured(PopulationPage& out, const std::string& title, const Sessions& sessions) {
     std::set<std::string> all;
     for (const SessionData* session : sessions) {
@@ -177,7 +178,7 @@ void add_adaptation(PopulationPage& out, const std::string& title, const Session
         }
     }
     if (rounds.empty()) return;
-    // people do rounds in orders of their own
+    // people do the rounds in different orders
     std::sort(rounds.begin(), rounds.end());
     const size_t first_row = out.people.rows.size();
     for (const std::string& round : rounds) {
@@ -237,7 +238,7 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
         "preload_s",     "loading_s",     "peak_grip_rate_N_s", "peak_load_rate_N_s",
         "peak_grip_N",   "static_grip_N", "static_load_N",      "static_ratio",
         "safety_margin", "coupling",      "coupling_lag_s",     "overshoot_mm"};
-    // each person's median first: people differ more than lifts do
+    // each person's median comes first, since people differ more than lifts do
     std::vector<std::string> groups;
     std::map<std::string, std::map<std::string, std::vector<double>>> medians;
     int lifts = 0;
@@ -308,7 +309,7 @@ void set_columns(PopulationPage& out) {
                          {"mean_low", "95 %"}, {"mean_high", ""}};
 }
 
-/// Sessions of one experiment, of the same kind of people.
+/// Adds the sessions of one experiment and one kind of people.
 void add_group(PopulationPage& out, const std::string& title, const std::string& who,
                const Sessions& sessions, const std::string& folder) {
     const std::string origin = origin_of(sessions, folder);
@@ -342,7 +343,7 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
 
 PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
                                const std::string& command) {
-    // figures of simulated people and of persons, or of two populations, are never of one sample
+    // simulated and real people, or two populations, never count as one sample
     using Group = std::pair<std::string, std::string>;  // the title, and who moved the hands
     std::set<std::string> titles;
     std::map<Group, Sessions> groups;

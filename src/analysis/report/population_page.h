@@ -1,4 +1,4 @@
-// The page of a folder of sessions: each person's figures, and what they have in common.
+// Makes the report's page of a folder of sessions: each person's figures, and means over people.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace dihaptic::analysis {
 
 struct PopulationPage {
     Page page;
-    Table people{};      ///< a row a session and round
-    Table adaptation{};  ///< a row a round and trial; empty without reaches
-    Table thresholds{};  ///< a row a session and procedure; empty without
-    Table lifts{};       ///< a row an experiment, group of trials and figure; empty without lifts
+    Table people{};      ///< a row per session and round
+    Table adaptation{};  ///< a row per round and trial; empty without reaches
+    Table thresholds{};  ///< a row per session and procedure; empty without procedures
+    Table lifts{};       ///< a row per experiment, group of trials and figure; empty without lifts
 };
 
 PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whoever moved the hand stands in each row of a session's tables.
+/// Adds who moved the hand to each row of a session's table.
 Table of(const SessionData& session, Table table) {
     return recording::marked(std::move(table), session.info.moved_by);
 }
 
-/// Tables without rows are not written.
+/// Writes the table, unless it has no rows.
 void write(ReportResult& result, const Table& table, const std::string& file) {
     if (table.rows.empty()) return;
     write_csv(table, file);
@@ -56,7 +56,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         }
         if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(paths.size()));
     }
-    // a session that was gone on with is part of the one that did
+    // a session that another one resumes is part of that one
     std::set<std::string> earlier;
     for (const SessionData& session : sessions) {
         if (!session.info.resumes.empty())
@@ -101,7 +101,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
 
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress) {
-    std::error_code unreadable;  // then it is no session, and that is said
+    std::error_code unreadable;  // report_session() then says that it is no session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, command, progress);

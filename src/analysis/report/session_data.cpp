@@ -30,7 +30,7 @@ SessionData SessionData::read(const std::string& path) {
     }
     if (is_there(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
     data.curves = adaptation_curves(data.trials, data.unmeasured);
-    // what a channel or a field does to the hand is not what was learned
+    // what a channel or a field does to the hand does not show what was learned
     if (!data.curves.empty() && data.unmeasured.empty() && is_there(folder.file("trial-list.csv")))
         data.generalisation =
             find_generalisation(data.trials, CsvFile(folder.file("trial-list.csv")));
@@ -42,7 +42,7 @@ SessionData SessionData::read(const std::string& path) {
 bool SessionData::is_cut_short() const {
     if (!is_there(folder.file("trial-list.csv"))) return false;
     if (info.state == recording::SessionState::interrupted) return true;
-    // of one that was killed its last trial tells
+    // for a session that was killed, the last trial tells
     return info.state == recording::SessionState::recovered &&
            (trials.rows() == 0 || trials.text(trials.rows() - 1, "outcome") == "interrupted");
 }
@@ -71,7 +71,7 @@ std::vector<LiftRow> lift_rows(const SessionData& session) {
         std::string group;
         for (const char* column : {"round", "block", "kind", "condition"}) {
             const std::string text = session.trials.text(i, column);
-            // a block is often called as its kind
+            // a block often has the name of its kind
             if (text.empty() || (column == std::string("kind") && group.ends_with(text))) continue;
             group += (group.empty() ? "" : ", ") + text;
         }

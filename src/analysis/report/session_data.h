@@ -1,4 +1,4 @@
-// What a report knows of a session: its tables.
+// The tables of a session that a report is made from.
 #pragma once
 
 #include <optional>
@@ -21,15 +21,15 @@ struct SessionData {
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
-    Unmeasured unmeasured;  ///< perturbations that trials were under
+    Unmeasured unmeasured;  ///< perturbations in the trials whose learning has no measure
 
-    /// "sideways is a mass that differs by direction", ...: what no figure of this session tells
-    /// the learning of. Empty: all is measured.
+    /// The perturbations in `unmeasured`, e.g. "sideways is a mass that differs by direction";
+    /// empty if all are measured.
     std::string not_measured() const;
-    /// Throws Error when it is no session, or has not ended.
+    /// Throws Error when `path` is no session, or the session has not ended.
     static SessionData read(const std::string& path);
 
-    /// The session ended before its trials were done: means over people are not for it.
+    /// Whether the session ended before its trials were done: means over people leave it out.
     bool is_cut_short() const;
 
     std::string participant() const {
@@ -37,13 +37,13 @@ struct SessionData {
     }
 };
 
-/// Folders of sessions in a folder, at any depth, by name.
+/// Folders of the sessions in a folder, at any depth, sorted by name.
 std::vector<std::string> find_sessions(const std::string& folder);
 
-/// A session's lifts, each with what was asked for: block, kind, condition, perturbation.
+/// A lift of a session, and what was asked for in its trial.
 struct LiftRow {
-    std::string group;  ///< "block, kind, condition", as far as the trial has them
-    size_t row = 0;     ///< of lifts.csv
+    std::string group;  ///< "round, block, kind, condition", as far as the trial has them
+    size_t row = 0;     ///< row of lifts.csv
 };
 std::vector<LiftRow> lift_rows(const SessionData& session);
 
@@ -51,15 +51,15 @@ std::vector<LiftRow> lift_rows(const SessionData& session);
 ///
 ///     rate = a + b W + c W_before
 ///
-/// of the largest rate of load force before lift-off on the weights that were held, over complete
-/// lifts that followed one another.
+/// of the largest rate of load force before lift-off on the weights that were held, over
+/// consecutive complete lifts.
 struct PreviousWeight {
-    double share = 0;   ///< c / (b + c): 0 where only this weight counts, 1 where the last one does
+    double share = 0;   ///< c / (b + c): 0 if only this weight counts, 1 if only the last one does
     double effect = 0;  ///< c [1/s]
     double error = 0;   ///< its standard error [1/s]
     int lifts = 0;
 };
-/// None where weights did not vary by 5 %, or less than ten pairs are complete.
+/// Nullopt if weights did not vary by 5 %, or if fewer than ten pairs are complete.
 std::optional<PreviousWeight> previous_weight(const CsvFile& lifts);
 
 }  // namespace dihaptic::analysis

@@ -17,11 +17,11 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLongest = 60;       // of a session that is drawn as a whole [s]
-constexpr size_t kMostPoints = 1500;  // of a curve over time
+constexpr double kLongest = 60;       // longest session that is drawn as a whole [s]
+constexpr size_t kMostPoints = 1500;  // most points of a curve over time
 constexpr const char* kPeak = "#000000";
 
-/// What the session was, for its head.
+/// Facts about the session, for the head of the page.
 Table facts(const SessionData& session) {
     const recording::SessionInfo& info = session.info;
     Table table{{{"", ""}, {"", ""}}, {}};
@@ -47,7 +47,7 @@ Table facts(const SessionData& session) {
     return table;
 }
 
-/// How the trials ended, by block.
+/// Number of attempts with each outcome, by block.
 Table outcomes(const SessionData& session) {
     const CsvFile& trials = session.trials;
     std::vector<std::string> blocks;
@@ -78,7 +78,7 @@ Table outcomes(const SessionData& session) {
     return table;
 }
 
-/// What papers name of each curve, with its interval; and the models' parameters.
+/// Adds each curve's windows, with their intervals, and the models' parameters.
 void add_windows(Page& page, const SessionData& session,
                  const std::vector<std::optional<AdaptationFits>>& all_fits) {
     Table table;
@@ -89,7 +89,7 @@ void add_windows(Page& page, const SessionData& session,
     for (size_t c = 0; c < session.curves.size(); ++c) {
         const AdaptationCurve& curve = session.curves[c];
         const std::vector<Table::Cell> cells = curve.landmark_cells();
-        // a column of each mean, and two of its interval, after the unit and the perturbation
+        // after the unit and the perturbation, each mean has a column, and its interval two
         for (size_t i = 2; i + 2 < cells.size(); i += 3) {
             const auto at = [&](size_t k) { return std::get<double>(cells[k]); };
             if (std::isnan(at(i))) continue;
@@ -147,7 +147,7 @@ std::vector<Table::Column> fit_columns() {
     return out;
 }
 
-/// Trial by trial: a chart, and rows of the table.
+/// Adds a curve trial by trial: a chart, and rows of the table.
 void add_curve(SessionPage& out, const SessionData& session, const AdaptationCurve& curve,
                const std::optional<AdaptationFits>& fits) {
     Series measured{"compensation", Drawn::points, {}, {}, {}, {}, {}};
@@ -255,7 +255,7 @@ void add_generalisation(SessionPage& out, const SessionData& session) {
         "Compensation in clamps and catch trials after training began. " + origin_of(session));
 }
 
-/// Where the function has its share of yes, level by level, and the answers.
+/// Chart of the fitted function, and of the share of yes among the answers at each level.
 Chart psychometric_chart(const ThresholdTrack& track, const std::optional<PsychometricFit>& fitted,
                          const std::string& origin) {
     Chart chart;
@@ -334,7 +334,7 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
     out.page.table(transposed(out.thresholds), origin_of(session));
 }
 
-/// Medians by group.
+/// Medians of the lifts' figures by group.
 Table lift_summary(const SessionData& session) {
     Table table;
     table.columns = {{"trials", "block, kind, condition"}, {"lifts", ""}, {"complete", ""}};
@@ -418,8 +418,8 @@ void add_lifts(SessionPage& out, const SessionData& session) {
     }
 }
 
-/// Least and largest value of each stretch, in their order: a curve of few points that has every
-/// peak.
+/// Thins a curve to the least and largest value of each stretch, in their order, so that it keeps
+/// every peak.
 void thin(Series& series) {
     if (series.x.size() <= kMostPoints) return;
     const size_t stretch = (2 * series.x.size() + kMostPoints - 1) / kMostPoints;
@@ -438,14 +438,14 @@ void thin(Series& series) {
     series = std::move(out);
 }
 
-/// What is drawn over time.
+/// The part of the session that is drawn over time.
 struct Excerpt {
     double from = 0;  // [s]
     double to = kLongest;
     std::string what = "The session";
 };
 
-/// The whole of a short session, or the first complete lift of a long one; none of one without.
+/// The whole of a short session, or the first complete lift of a long one; nullopt if it has none.
 std::optional<Excerpt> excerpt_of(const SessionData& session, const recording::LogHead& head) {
     if (session.info.ticks * head.tick <= kLongest) return Excerpt{};
     if (!session.lifts) return std::nullopt;
@@ -457,13 +457,13 @@ std::optional<Excerpt> excerpt_of(const SessionData& session, const recording::L
                    fmt::format("Trial {}", session.lifts->text(i, "trial_num"))};
 }
 
-/// Forces and height.
+/// Forces and height over time.
 struct Course {
     Series grip{"grip force", Drawn::line, {}, {}, {}, {}, palette::kGrip};
     Series load{"load force", Drawn::line, {}, {}, {}, {}, palette::kLoad};
     Series height{"height", Drawn::line, {}, {}, {}, {}, {}};
-    std::vector<Series> sent;  // by finger
-    std::vector<Mark> marks;   // of phases
+    std::vector<Series> sent;  // force sent, by finger
+    std::vector<Mark> marks;   // beginnings of phases
 };
 
 Course read_course(const SessionData& session, recording::RawLogReader& log, const Excerpt& excerpt,
@@ -519,8 +519,8 @@ void add_course(SessionPage& out, const SessionData& session, recording::RawLogR
         chart("Height of the " + session.info.object, "mm", {course.height});
 }
 
-/// What the log shows, and what is wrong with it: the tables were made when it may still have been
-/// whole.
+/// Adds what the log shows, and what is wrong with it: it may have been damaged since the tables
+/// were made.
 void add_log(SessionPage& out, const SessionData& session,
              const std::function<void(double)>& progress) {
     recording::RawLogReader log(session.folder.raw_log());
@@ -563,7 +563,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (!session.generalisation.empty()) add_generalisation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
-    // a rehearsal keeps no log
+    // a rehearsal has no log
     if (is_there(session.folder.raw_log())) add_log(out, session, progress);
     out.page.heading("Settings");
     out.page.folded_table("All settings, with where each came from", read_settings(session.folder));

@@ -1,4 +1,4 @@
-// The page of one session.
+// Makes the report's page of one session.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace dihaptic::analysis {
 
-/// What goes below every chart: who moved the hand, session, program, seed.
+/// Text below every chart: who moved the hand, session, program, seed.
 std::string origin_of(const SessionData& session);
 
 struct SessionPage {
     Page page;
-    Table adaptation{};              ///< a row a reach; empty without
-    Table fits{};                    ///< a row a round
-    Table blocks{};                  ///< a row a block of reaches
-    Table thresholds{};              ///< a row a procedure
-    Table generalisation{};          ///< a row a direction
+    Table adaptation{};              ///< a row per reach; empty without reaches
+    Table fits{};                    ///< a row per round
+    Table blocks{};                  ///< a row per block of reaches
+    Table thresholds{};              ///< a row per procedure
+    Table generalisation{};          ///< a row per direction
     std::vector<std::string> log{};  ///< what is wrong with raw.log, in sentences
 };
 

@@ -13,7 +13,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// Of sorted values, linear between them.
+/// Quantile of sorted values, interpolated linearly.
 double quantile(const std::vector<double>& x, double share) {
     if (x.empty()) return kUnmeasured;
     const double at = share * static_cast<double>(x.size() - 1);

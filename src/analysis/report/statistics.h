@@ -1,4 +1,5 @@
-// Figures of a sample, as papers give them. NaNs are left out; of too few values they are NaN.
+// Statistics of a sample, as papers report them. NaNs are left out; statistics of too few values
+// are NaN.
 #pragma once
 
 #include <span>
@@ -11,18 +12,19 @@ namespace dihaptic::analysis {
 struct Sample {
     int count = 0;
     double mean = 0;
-    double sd = 0;           ///< n - 1
-    Interval mean_interval;  ///< 95 %, Student's
+    double sd = 0;           ///< standard deviation, with n - 1
+    Interval mean_interval;  ///< 95 %, by Student's t
     double median = 0;
     Interval quartiles;
 };
 
 Sample sample(std::span<const double> values);
 
-/// Half of the 95 % interval of the difference of two means, whose spreads may differ (Welch 1947).
+/// Half of the 95 % interval of the difference of two samples' means, whose spreads may differ
+/// (Welch 1947).
 double welch_half_width(const Sample& a, const Sample& b);
 
-/// "0.12 to 0.34"; "-" where there is none
+/// E.g. "0.12 to 0.34"; "-" if an end is NaN.
 std::string in_words(const Interval& interval);
 
 }  // namespace dihaptic::analysis

@@ -1,5 +1,5 @@
-// Five hundred synthetic people with wide parameters: no fit is above the squared error at the true
-// parameters, and none of a hundred starts leads lower.
+// Fits five hundred synthetic people with parameters from a wide range: no fit has a larger squared
+// error than the true parameters, and none of a hundred starts leads lower.
 #include <gtest/gtest.h>
 
 #include "analysis/fits/test/wide_people.h"

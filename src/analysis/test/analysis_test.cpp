@@ -9,7 +9,7 @@
 namespace dihaptic::analysis::analysis_test {
 namespace {
 
-/// A second of frames in which body 1 is held by two fingers, 4 cm apart along x.
+/// Frame i of a second in which two fingers, 4 cm apart along x, hold body 1.
 servo::Frame held(int i) {
     servo::Frame frame;
     frame.sequence = i;
@@ -62,7 +62,7 @@ TEST(FaultRecord, KeepsWhatLedToEachFaultOfASessionThatWentOn) {
     FaultRecord record({"thumb", "index"});
     for (int i = 0; i < 6000; ++i) {
         servo::Frame frame = held(i);
-        // from the first fault to the remedy, and again after the second
+        // force is off from the first fault to the remedy, and again after the second fault
         const bool off = (i >= 2000 && i < 3000) || i >= 3500;
         if (off) frame.status = servo::kForceOff;
         if (i == 3000) frame.status = servo::kResumed;
@@ -201,7 +201,7 @@ TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
     EXPECT_EQ(trace.lift_off(), 400u);
 }
 
-/// Each event: ms, name, detail.
+/// Each event as text: time [ms], name, detail.
 std::vector<std::string> said_by(const EventFinder& finder) {
     std::vector<std::string> said;
     for (const Event& e : finder.events())

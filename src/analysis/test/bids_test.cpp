@@ -1,4 +1,4 @@
-// A session in a BIDS data set, against the names and columns of the specification.
+// Tests a session's export to a BIDS data set against the names and columns of the specification.
 #include "analysis/bids.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(motion, set + "/sub-S07/motion");
     const std::string stem = motion + "/sub-S07_task-visuomotorrotation_tracksys-index_run-01_";
     const auto rows = lines(testing::read_file(stem + "motion.tsv"));
-    ASSERT_EQ(rows.size(), 3u);  // and no header
+    ASSERT_EQ(rows.size(), 3u);  // there is no header
     EXPECT_TRUE(rows[1].starts_with("0.001\t0.5\t-0.25\t")) << rows[1];
     EXPECT_TRUE(rows[1].ends_with("\t0.001")) << rows[1];
     const auto channels = lines(testing::read_file(stem + "channels.tsv"));
@@ -92,7 +92,8 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(json["MotionChannelCount"], columns(rows[0]));
     const auto events =
         lines(testing::read_file(motion + "/sub-S07_task-visuomotorrotation_run-01_events.tsv"));
-    // trials of this session alone, with what was asked for and measured; moments with the former
+    // trials of this session alone, with what was asked for and measured; moments only have what
+    // was asked for
     ASSERT_EQ(events.size(), 4u);
     EXPECT_EQ(events[0],
               "onset\tduration\ttrial_type\tvalue\ttrial_num\tattempt\tblock\tcondition\toutcome"

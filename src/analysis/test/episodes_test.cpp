@@ -1,4 +1,4 @@
-// Figures of what was done with an object, on frames whose figures are known.
+// Tests the figures of episodes on frames whose figures are known.
 #include "analysis/episodes.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ std::vector<Episode> episodes_of(int count, const std::function<void(int, servo:
     return find_episodes(trace, object);
 }
 
-/// Held and raised at v for 0.1 s, then in flight for 0.2 s, with steps as the World makes them.
+/// Episodes of an object that is held and raised at v0 for 0.1 s, then flies for 0.2 s, in steps
+/// like the World's.
 std::vector<Episode> thrown(const Vec3& v0, const Vec3& v_hand, const Vec3& gravity) {
     Vec3 p = Vec3::Zero();
     Vec3 v = v0;
@@ -78,7 +79,7 @@ TEST(Episodes, AFlightIsBallisticAndItsReleaseIsComparedWithTheHand) {
     EXPECT_NEAR(flight.start, 0.1, 1e-12);
     EXPECT_NEAR(flight.release_speed, v.norm(), 1e-12);
     EXPECT_NEAR(flight.release_ratio, 1.25, 1e-12);
-    EXPECT_NEAR(flight.rise, v.z() * v.z() / (2 * 9.81), 2e-3);  // its first step is not in it
+    EXPECT_NEAR(flight.rise, v.z() * v.z() / (2 * 9.81), 2e-3);  // the first step does not count
     EXPECT_LT(flight.off_path, 1e-12);
     EXPECT_TRUE(std::isnan(flight.slip));
     EXPECT_TRUE(std::isnan(flight.friction_ratio));
@@ -88,7 +89,7 @@ TEST(Episodes, AFlightUnderOtherForcesIsOffTheBallisticPath) {
     const Vec3 wind(0.5, 0, 0);
     const auto found = thrown({0, 0, 1}, {0, 0, 1}, kGravity + wind);
     ASSERT_EQ(found.size(), 2u);
-    // what the wind adds to the parabola through the first two positions: a t (t - h) / 2
+    // the wind's displacement from the parabola through the first two positions: a t (t - h) / 2
     const double t = 0.199;
     EXPECT_NEAR(found[1].off_path, 0.5 * t * (t - kTick) / 2, 1e-5);
 }
@@ -109,7 +110,7 @@ TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
     EXPECT_TRUE(found[0].fingers.empty());
     EXPECT_NEAR(found[0].distance, 0.25 / (2 * kFriction * 9.81), 1e-3);
     EXPECT_NEAR(found[0].friction_ratio, 1, 1e-9);
-    // half the friction is expected: twice is there
+    // half the friction is expected, so the ratio is 2
     ObjectFacts smoother = facts();
     smoother.friction[0] /= 2;
     x = 0;
@@ -119,7 +120,7 @@ TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
 }
 
 TEST(Episodes, ABlockThatIsPushedTakesMuMG) {
-    // downhill, and leaned on
+    // downhill, with a force that also presses on the block
     const double slope = 0.4;
     const Vec3 n(std::sin(slope), 0, std::cos(slope));
     const Vec3 along(std::cos(slope), 0, -std::sin(slope));
@@ -171,13 +172,13 @@ TEST(Episodes, AHandOverIsAHoldOfEachHandAndOneOfBoth) {
     const auto found = episodes_of(900, [](int i, servo::Frame& frame) {
         const bool first = i < 600;
         const bool second = i >= 300;
-        // lets go for a moment, which is none
+        // lets go for a moment too short to count
         const bool flicker = i >= 100 && i < 105;
         if (first && !flicker) press(frame, 2);
         if (first) press(frame, 3);
         if (second) press(frame, 4);
         if (second) press(frame, 5);
-        // as the first hand lets go it slips up
+        // the first hand slips up as it lets go
         if (i >= 500) frame.fingers[0].p_WP.z() += 1e-5 * (i - 500);
     });
     ASSERT_EQ(found.size(), 3u);

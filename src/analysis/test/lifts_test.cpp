@@ -1,4 +1,4 @@
-// Grip-lifts, on signals whose events are known: ramps of half a cosine.
+// Tests grip-lifts on signals whose events are known: ramps of half a cosine.
 #include "analysis/lifts.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST(SavitzkyGolay, HasTheDerivativesOfACubicToItsEnds) {
               std::vector<double>(10, 0.0));
 }
 
-/// From 0 to 1 between two times.
+/// A ramp from 0 to 1 between two times.
 double ramp(double t, double from, double to) {
     if (t <= from) return 0;
     if (t >= to) return 1;
@@ -42,12 +42,12 @@ double ramp(double t, double from, double to) {
 struct Plan {
     double touch = 0.5, onset = 0.6, lift_off = 0.9, lower = 3, replaced = 3.5, let_go = 3.8;
     double grip = 4, weight = 4, height = 0.05;
-    double noise = 0;       // of each digit's forces [N]
-    double lag = 0;         // of grip after load
-    double slides_at = -1;  // for 20 ms, at 50 mm/s
-    double rise = 0.4;      // takes so long
-    double pauses_at = -1;  // after which grip is thrice what it was
-    double unknown = 0;     // where the object is, until then: ticks are missing
+    double noise = 0;       // SD of the noise of each digit's forces [N]
+    double lag = 0;         // lag of grip after load [s]
+    double slides_at = -1;  // when digits slide, for 20 ms at 50 mm/s [s]
+    double rise = 0.4;      // duration of the rise [s]
+    double pauses_at = -1;  // when the session pauses; the grip is then three times as large [s]
+    double unknown = 0;     // until then ticks are missing, and the object's place is unknown [s]
     bool stands = false;    // contacts with the support are seen
     bool falls = false;
 };
@@ -104,7 +104,7 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
             contact.b = 2 + f;
             contact.n_W = {side, 0, 0};
             contact.normal_force = n;
-            // on the finger: the object pulls it down
+            // force on the finger: the object pulls it down
             contact.f_B_W = {side * n, 0, -load / 2 + plan.noise * random.normal()};
         }
         trace.add(frame);
@@ -117,7 +117,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     const Plan plan;
     const Lift lift = lift_of(plan);
     EXPECT_EQ(lift.mark, "complete");
-    // rates are smoothed over 62 ms: half of it is how early what starts from nothing is seen
+    // rates are smoothed over 62 ms, so that an onset is seen up to half of that early
     EXPECT_NEAR(lift.touch, plan.touch, 0.032);
     EXPECT_NEAR(lift.load_onset, plan.onset, 0.032);
     EXPECT_NEAR(lift.preload, 0.1, 0.032);
@@ -131,7 +131,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     EXPECT_NEAR(lift.safety_margin, 1 - 1 / (2 * kFriction), 1e-9);
     EXPECT_NEAR(lift.peak_grip, 4, 1e-6);
     EXPECT_NEAR(lift.peak_load, 4, 1e-6);
-    // half a cosine rises by pi / 2 over its mean rate
+    // the largest rate of half a cosine is pi / 2 times its mean rate
     EXPECT_NEAR(lift.peak_load_rate, std::numbers::pi / 2 * 4 / 0.3, 0.5);
     EXPECT_NEAR(lift.peak_grip_rate, std::numbers::pi / 2 * 3 / 0.3, 0.5);
     EXPECT_NEAR(lift.height, 0.05, 1e-9);

@@ -108,7 +108,7 @@ TEST(Table, ACsvFileIsReadByTheNamesOfItsColumns) {
     EXPECT_EQ(csv.text(1, "c"), "");
     EXPECT_TRUE(csv.has("b"));
     EXPECT_FALSE(csv.has("c"));
-    EXPECT_THROW(CsvFile(folder.write("none.csv", "")), Error);  // not even a line of names
+    EXPECT_THROW(CsvFile(folder.write("none.csv", "")), Error);  // not even a header
     EXPECT_THROW(CsvFile(folder.file("nowhere.csv")), Error);
 }
 

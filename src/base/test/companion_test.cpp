@@ -1,5 +1,5 @@
-// What becomes of companions that crash, hang, take too much or are not there. The shell stands in
-// for them: it does as it is told.
+// Tests of companions that crash, hang, exceed their limits or are missing. The shell stands in for
+// the companion, as it can be told to do any of that.
 #include "base/companion.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(Companion, EndsWhenItIsCancelledAndOnlyThen) {
     user.join();
     EXPECT_EQ(said,
               "scene.yaml:7: error: file: reading the thing was cancelled. Open the file again.");
-    cancel_companions("/bin/sh");  // there is none
+    cancel_companions("/bin/sh");  // no companion is running
     std::thread stranger([] {
         for (int i = 0; i < 20; ++i) {
             cancel_companions("another");

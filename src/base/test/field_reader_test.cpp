@@ -52,7 +52,7 @@ struct Read {
     explicit Read(const std::string& yaml) {
         read_fields(value, parse_yaml(yaml, "test.yaml"), diagnostics, &origins);
     }
-    /// The only problem's text; fails the test when there is another number of them.
+    /// The text of the only problem; fails the test unless there is exactly one.
     std::string problem() const {
         EXPECT_EQ(diagnostics.problems().size(), 1u);
         return diagnostics.problems().empty() ? "" : diagnostics.problems().front().text();
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
     const Read in("cuont: 3\nfruit: plum\n");
-    EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // and the name is missing
+    EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // the third: the name is missing
     EXPECT_THROW(in.diagnostics.throw_if_errors(), Error);
 }
 
@@ -210,7 +210,7 @@ TEST(Node, RefusesASecondDocument) {
 }
 
 TEST(Node, RefusesAStrayComma) {
-    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // it was read for ever
+    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // such text was once read for ever
     EXPECT_THROW(parse_yaml("{ a: 1 }, { b: 2 }", "comma.yaml"), Error);
     EXPECT_EQ(parse_yaml("", "empty.yaml").kind, Node::Kind::null);
 }

@@ -1,4 +1,4 @@
-// What is said when a maker's library cannot be used.
+// Tests of what is reported when a manufacturer's library cannot be used.
 #include "base/library.h"
 
 #include <gtest/gtest.h>

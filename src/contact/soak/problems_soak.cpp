@@ -1,5 +1,6 @@
-// A hundred thousand problems of bodies thrown together, from zero impulses: what no solver's
-// starts were chosen on. How often each hands over, and how often all of them miss.
+// Solves a hundred thousand problems of bodies thrown together, from zero impulses, on which no
+// solver's starts were chosen. Counts how often each solver hands over, and how often all of them
+// miss.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"

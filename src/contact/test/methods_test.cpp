@@ -1,4 +1,4 @@
-// The parts that solvers are made of: linear complementarity, sparse factorisation, friction
+// Tests the parts that solvers are made of: linear complementarity, sparse factorisation, friction
 // polygon, acceleration, the linearised law.
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) lemke.M(i, j) = M(i, j);
         }
         ASSERT_TRUE(lemke.solve(trial % 3));
-        // positive definite: the solution is the only one, found by trying all sets
+        // positive definite: the solution is unique, and found by trying all sets
         for (int set = 0; set < 1 << n; ++set) {
             Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
             for (int j = 0; j < n; ++j) {
@@ -40,7 +40,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) EXPECT_NEAR(lemke.z(j), set >> j & 1 ? x[j] : 0, 1e-9);
             break;
         }
-        // the set of a solved problem answers one close to it
+        // the set of a solved problem also solves a problem close to it
         for (int i = 0; i < n; ++i) lemke.q(i) *= 1.0001;
         if (q.minCoeff() < 0) {
             EXPECT_TRUE(lemke.try_last_basis());
@@ -158,13 +158,13 @@ TEST(PolygonTest, WithTorsionProjectsToItsNearestPoint) {
         const double radius = random.uniform(0.1, 2);
         const Vec3 x = vector(3);
         const auto on = polygon.project(x, radius);
-        // a convex body's nearest point, and only that: none of it lies beyond the plane there
+        // the nearest point of a convex body, as none of the body lies beyond the plane through it
         double beyond = 0;
         for (int i = 0; i < polygon.count(); ++i) {
             beyond = std::max(beyond, (x - on.point).dot(radius * polygon.direction(i) - on.point));
         }
         EXPECT_LT(beyond, 1e-12);
-        // and it is of the body: a sum of its vertices
+        // and the point belongs to the body: it is a combination of its vertices
         const auto in = polygon.sector(on.point);
         const Vec3 shares = in.inverse * on.point / radius;
         EXPECT_GT(shares.minCoeff(), -1e-12);
@@ -212,7 +212,8 @@ TEST(AndersonTest, SolvesALinearIterationInAsManyStepsAsItHasUnknowns) {
     EXPECT_LT((Eigen::Map<Eigen::Vector3d>(x.data()) - solution).norm(), 1e-8);
 }
 
-/// G and c of a law against differences of its equation: (I + G W) d = -c must be Newton's step.
+/// Checks G and c of a law against finite differences of its equation: (I + G W) d = -c must be
+/// Newton's step.
 template <int D, class Law>
 void check_linearisation(const Law& law, uint64_t seed) {
     using Vec = Eigen::Matrix<double, D, 1>;

@@ -22,8 +22,8 @@ inline Mat3 frame_of(const Vec3& normal) {
     return R;
 }
 
-/// A cube of 4 cm and 100 g on its four lower corners, on a plane whose normal is n; velocity after
-/// a tick of gravity.
+/// A cube of 4 cm and 100 g on its four lower corners, on a plane with normal n, with the velocity
+/// after a tick of gravity.
 inline ContactProblem block_on_plane(const Vec3& n, double mu, double h = 1e-3) {
     const double mass = 0.1;
     const double size = 0.04;
@@ -44,8 +44,8 @@ inline ContactProblem block_on_plane(const Vec3& n, double mu, double h = 1e-3) 
     return out;
 }
 
-/// Bodies scattered in a box, touching each other and the ground at random points: every state of a
-/// contact occurs, W is often singular.
+/// Bodies scattered in a box, touching each other and the ground at random points: all states of
+/// contacts occur, and W is often singular.
 inline ContactProblem random_problem(Random& random, int bodies, int contacts,
                                      double torsion_radius = 0) {
     const auto vector = [&](double size) {
@@ -75,8 +75,8 @@ inline ContactProblem random_problem(Random& random, int bodies, int contacts,
     return out;
 }
 
-/// Projected Gauss-Seidel on the exact cone, contact after contact, each solved by many small
-/// projected steps: slow, simple, and nothing in common with the solvers under test.
+/// Projected Gauss-Seidel on the exact cone, contact by contact, each solved by many small
+/// projected steps: slow, simple, and without anything in common with the solvers under test.
 inline std::vector<Impulse> reference_solution(const ContactProblem& problem, double tolerance) {
     const DelassusProblem d = delassus(problem);
     Eigen::VectorXd r = Eigen::VectorXd::Zero(d.q.size());
@@ -100,7 +100,7 @@ inline std::vector<Impulse> reference_solution(const ContactProblem& problem, do
     return out;
 }
 
-/// Impulses from a cold start, with what was achieved.
+/// Impulses from a cold start, and what was achieved.
 struct Answer {
     std::vector<Impulse> r;
     std::vector<Eigen::Matrix<double, 6, 1>> change;  ///< of the bodies' velocities

@@ -1,5 +1,5 @@
-// All solvers through their door: closed forms, invariance, an independent reference, and what they
-// must never do.
+// Tests all solvers through their interface: closed forms, invariance, an independent reference,
+// and what they must never do.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -54,7 +54,7 @@ TEST_P(EachSolver, SlidesDownTheFallLineAsCoulombSays) {
 }
 
 TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
-    // half-way between two of n directions, friction is mu cos(pi / n)
+    // halfway between two of n directions, friction is mu cos(pi / n)
     const double slope = 30 * kDegree;
     for (const int n : {4, 8, 16}) {
         ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
@@ -91,14 +91,15 @@ TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
         const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
         return std::atan2(v.cross(fall).norm(), v.dot(fall)) / kDegree;
     };
-    // a little of friction across keeps sliding at 45 degrees, where two directions are as good
+    // a little friction across keeps it sliding at 45 degrees, where two directions are equally
+    // good
     EXPECT_NEAR(off_fall_line(DirectionFrame::fixed), 30, 1e-4);
     EXPECT_LT(off_fall_line(DirectionFrame::sliding), 1e-5);
 }
 
 TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
-    // turned polygons end at Coulomb's law; fixed ones at their own problem's answer, torsion or
-    // not
+    // turned polygons end at Coulomb's law, fixed ones at the answer of their own problem, with or
+    // without torsion
     Random random(9, "random problems");
     for (const DirectionFrame frame : {DirectionFrame::fixed, DirectionFrame::sliding}) {
         for (const double radius : {0.0, 0.005}) {
@@ -227,7 +228,7 @@ TEST_P(EachSolver, AnswersRandomProblemsWithTorsion) {
 }
 
 TEST_P(EachSolver, AgreesWithAnIndependentReference) {
-    // velocities are unique where impulses need not be
+    // velocities are unique even if impulses are not
     Random random(3, "random problems");
     int compared = 0;
     for (int i = 0; i < 40; ++i) {
@@ -241,7 +242,7 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
             difference.segment<3>(3 * static_cast<Eigen::Index>(j)) =
                 (a.r[j] - reference[j]).head<3>();
         }
-        // Coulomb friction may have several solutions: those are told by the residual, not by this
+        // Coulomb friction may have several solutions, which only the residual can judge
         if ((d.W * difference).norm() < 1e-6) ++compared;
         EXPECT_LE(natural_map_residual(problem, a.r), 1e-8);
     }

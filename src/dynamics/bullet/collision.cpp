@@ -9,22 +9,23 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Bodies may leave this cube; the broadphase then finds more pairs than it must.
+/// Bodies may leave this cube; the broadphase then finds more pairs than necessary.
 constexpr double kWorldHalfExtent = 10.0;  // [m]
-/// Pairs are found this much before they touch.
+/// Pairs are found this far before they touch.
 constexpr double kApproach = 3e-3;  // [m]
-/// Bullet finds contacts of round shapes this much before they touch, and further for bodies that
-/// could close more in the step.
+/// Bullet finds contacts of round shapes this far before they touch, and further for bodies that
+/// could approach by more in the step.
 constexpr double kRoundMargin = 2e-3;      // [m]
 constexpr double kMostRoundMargin = 5e-2;  // [m]
 
-/// What bodies enter is looked for at least so often along their way [m].
+/// Bodies that enter each other are searched at least once in this distance along their way [m].
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 64;
-/// Room for so many pairs that enter each other in a step.
+/// Room for this many pairs that enter each other in a step.
 constexpr size_t kMostEntered = 64;
 
-/// Largest speed of a point of a body's part by its turning; the body's centre lies anywhere [m/s].
+/// Largest speed of a point of a body's part due to rotation; the body's centre may lie anywhere
+/// [m/s].
 double turning(const btCollisionObject& body, const btCollisionShape& shape,
                const btTransform& X_WS) {
     const btScalar speed = body.getInterpolationAngularVelocity().length();
@@ -40,7 +41,7 @@ double turning(const btCollisionObjectWrapper& part) {
     return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
-/// Where a body is that goes on for t as it goes now.
+/// Moves a body to where it gets in a time t with its present velocities.
 void move_on(btRigidBody& body, const btTransform& from, double t) {
     btTransform to;
     btTransformUtil::integrateTransform(from, body.getLinearVelocity(), body.getAngularVelocity(),
@@ -48,18 +49,19 @@ void move_on(btRigidBody& body, const btTransform& from, double t) {
     body.setWorldTransform(to);
 }
 
-/// Makes a contact that was found at t into one of the step's beginning, when body 0 was at from_0
-/// and body 1 at from_1, that says the same of where the bodies get to: its gap is such that by the
-/// velocities as they are it is what it was found to be at t. True when that is below -kEntered,
-/// and when these velocities do not leave the share of a penetration that the step removes.
+/// Turns a contact that was found at time t into an equivalent one at the beginning of the step,
+/// when body 0 was at from_0 and body 1 at from_1: its gap is such that the present velocities lead
+/// to the gap found at t. Returns whether the gap at t is below -kEntered and these velocities
+/// violate the contact, which asks for the share `recovery` of a penetration to be removed, by more
+/// than kEntered.
 bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
                const btTransform& from_0, const btTransform& from_1, double t, double h,
                double recovery) {
     const btRigidBody& body_0 = *btRigidBody::upcast(manifold.getBody0());
     const btRigidBody& body_1 = *btRigidBody::upcast(manifold.getBody1());
     const btVector3 at = 0.5 * (point.m_positionWorldOnA + point.m_positionWorldOnB);
-    // the chord of the arc that a point makes about a body's centre is at a right angle to the mean
-    // of its arms
+    // the chord of the arc of a point about a body's centre is perpendicular to the mean of its
+    // arms at both ends
     const auto mean_arm = [&](const btRigidBody& body, const btTransform& from) {
         const btTransform& to = body.getWorldTransform();
         const btVector3 arm = at - to.getOrigin();
@@ -86,7 +88,7 @@ btDefaultCollisionConstructionInfo pools(int max_pairs) {
     btDefaultCollisionConstructionInfo info;
     info.m_customCollisionAlgorithmMaxElementSize = 256;
     info.m_defaultMaxPersistentManifoldPoolSize = max_pairs;
-    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // one that looks ahead
+    info.m_defaultMaxCollisionAlgorithmPoolSize = max_pairs + 1;  // one for find_entered()
     return info;
 }
 
@@ -106,7 +108,7 @@ Collision::Collision(int max_parts, int max_pairs)
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
-    // the distance at which contacts are found is ours, whatever the shapes' size
+    // contacts are found at the distance set here, whatever the size of the shapes
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -119,7 +121,7 @@ Collision::Collision(int max_parts, int max_pairs)
     new_.reserve(kMostEntered);
     for (size_t i = 0; i < kMostEntered; ++i) {
         entered_.push_back(std::make_unique<btPersistentManifold>());
-        // Bullet's constructor sets neither, and its solver leaves out contacts further off
+        // Bullet's constructor does not set these, and its solver leaves out contacts further away
         entered_.back()->setContactProcessingThreshold(BT_LARGE_FLOAT);
         entered_.back()->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }
@@ -135,7 +137,7 @@ Collision::~Collision() {
 }
 
 void Collision::reserve_pairs(int pairs) {
-    // The cache's tables grow only with its pairs, and never shrink: so fill and empty it once.
+    // The cache's tables grow only with its pairs and never shrink, so fill and empty it once.
     std::vector<btBroadphaseProxy> dummies(static_cast<size_t>(pairs) + 1);
     for (size_t i = 0; i < dummies.size(); ++i) {
         dummies[i].m_uniqueId = static_cast<int>(i) + 1;
@@ -171,7 +173,7 @@ void Collision::update_bounds(CollisionPart& part, double h) {
 
 void Collision::hide(CollisionPart& part) {
     part.hidden = true;
-    // its pairs end where nothing is
+    // moves its bounds to where nothing is, so that its pairs end
     const btVector3 corner(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent);
     broadphase_.setAabb(part.bounds, corner, corner, &dispatcher_);
 }
@@ -242,7 +244,7 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     const btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    // round shapes are met ahead of touch: Bullet asks for the distance in three places
+    // round shapes are met ahead of touch: Bullet takes the distance from three places
     const double margin =
         std::min(kMostRoundMargin, kRoundMargin + approach(a_wrap, b_wrap, step_));
     dispatcher_.margin = margin;
@@ -309,7 +311,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
-    if (!(way > kEntered)) return false;  // nor what is no number
+    if (!(way > kEntered)) return false;  // also false if it is not a number
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;

@@ -1,6 +1,6 @@
-// Bullet's collision detection, stepped so that sleeping bodies cost nothing and nothing is
-// allocated: a sweep-and-prune broadphase of fixed size, and narrow-phase contact manifolds from
-// pools.
+// Collision runs Bullet's collision detection such that sleeping bodies cost nothing and nothing is
+// allocated: a sweep-and-prune broadphase of fixed size, and contact manifolds from pools in the
+// narrow phase.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -20,45 +20,46 @@ namespace dihaptic::dynamics {
 
 class Collision {
   public:
-    /// Room for so many parts of bodies and so many touching pairs of them.
+    /// Reserves room for this many parts of bodies and this many touching pairs of them.
     Collision(int max_parts, int max_pairs);
     ~Collision();
 
-    /// The part and its body must outlive this. The body's user index names it; its user index 2 is
-    /// 1 when awake.
+    /// Adds a part, which must outlive this object, as must its body. The body's user index
+    /// identifies it; its user index 2 is 1 while it is awake.
     void add(CollisionPart& part, bool can_move);
-    /// To be called of each part of a body that moved or is about to.
+    /// Call for each part of a body that moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
-    /// From the next find_contacts() on the part meets nothing, until it is shown and its bounds
-    /// are updated.
+    /// From the next find_contacts() on the part meets nothing, until show() is called and its
+    /// bounds are updated.
     void hide(CollisionPart& part);
     void show(CollisionPart& part) { part.hidden = false; }
 
-    /// All contacts, and the impulses that they had.
+    /// Forgets all contacts, and their impulses.
     void forget();
 
     /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
-    /// touches wake: their user index 2 becomes 1, and their pairs are looked at too.
+    /// touches wake: their user index 2 becomes 1, and their pairs are searched, too.
     void find_contacts(double h);
-    /// Looks along the way that bodies go in a step of h with the velocities that they have now,
-    /// and adds to manifolds() contacts of those that would enter each other by more than
-    /// `kEntered` although the step's contacts hold: README.md derives them. A penetration may be
-    /// left to the share `recovery`. False: there are none. Wakes as find_contacts() does.
+    /// Searches along the way of all bodies in a step of h with their present velocities, and adds
+    /// contacts to manifolds() for those that would enter each other by more than `kEntered`
+    /// although the step's contacts hold; README.md derives these contacts. The share `recovery` of
+    /// a penetration is removed per step. False if there are none. Wakes bodies as find_contacts()
+    /// does.
     bool find_entered(double h, double recovery);
 
-    /// Tells that bodies fell asleep or woke: other pairs are to be looked at.
+    /// Notes that bodies fell asleep or woke, so that other pairs must be searched.
     void sleepers_changed() { live_is_stale_ = true; }
 
-    /// The manifolds with contacts of the last find_contacts(); those of the same two bodies follow
-    /// each other.
+    /// Manifolds with contacts, of the last find_contacts(); those of the same two bodies are
+    /// adjacent.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
-    /// Those that the last find_entered() added.
+    /// Manifolds that the last find_entered() added.
     std::span<btPersistentManifold* const> entered() const { return new_; }
     btDispatcher& dispatcher() { return dispatcher_; }
     bool overflowed() const { return overflowed_; }
 
   private:
-    /// Tells when pairs come and go.
+    /// Notes when pairs come and go.
     class Pairs final : public btHashedOverlappingPairCache {
       public:
         btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override {
@@ -73,7 +74,7 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Parts of one body do not meet, nor hidden ones.
+    /// Parts of one body do not meet each other, and hidden parts meet nothing.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
@@ -114,7 +115,7 @@ class Collision {
     int max_pairs_;
     OtherBodies other_bodies_;
     std::vector<CollisionPart*> parts_;
-    bool several_parts_ = false;  // of one body, somewhere
+    bool several_parts_ = false;  // whether any body has several
     struct OfBodies {
         std::array<int, 3> key;  // both bodies, and the order in which they were found
         btPersistentManifold* manifold;
@@ -124,7 +125,7 @@ class Collision {
     btManifoldArray scratch_;
     std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for what is found late
     size_t entered_count_ = 0;
-    std::vector<btPersistentManifold*> new_;  // of the last search
+    std::vector<btPersistentManifold*> new_;  // of the last find_entered()
     std::vector<int> live_;                   // pairs with an awake body, by index into the cache
     int64_t live_version_ = -1;               // of the pairs that live_ was made from
     bool live_is_stale_ = true;
@@ -133,11 +134,11 @@ class Collision {
 };
 
 constexpr int kAwake = 1;
-/// How deep a step may let a body enter another [m].
+/// Depth by which a step may let a body enter another [m].
 constexpr double kEntered = 1e-4;
 
-/// How far the surfaces of two bodies' parts may come closer in a step, by their velocities before
-/// contacts act: nothing that could touch in the step is further apart [m].
+/// How much closer the surfaces of two bodies' parts may come in a step, by their velocities before
+/// contacts act: parts further apart than this cannot touch in the step [m].
 double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h);
 
 }  // namespace dihaptic::dynamics

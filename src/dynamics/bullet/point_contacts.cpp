@@ -7,12 +7,12 @@
 namespace dihaptic::dynamics {
 
 void PointContacts::reserve(int points) {
-    // the last step's and the coming one's
+    // for the last step and the coming one
     slots_.resize(2 * static_cast<size_t>(points) * kMostPointContacts);
     taken_.reserve(slots_.size());
     for (Slot& slot : slots_) {
         slot.manifold = std::make_unique<btPersistentManifold>();
-        // Bullet's constructor sets neither, and its solver leaves out contacts further off
+        // Bullet's constructor does not set these, and its solver leaves out contacts further away
         slot.manifold->setContactProcessingThreshold(BT_LARGE_FLOAT);
         slot.manifold->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }

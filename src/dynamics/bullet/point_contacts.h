@@ -1,6 +1,6 @@
-// Contacts of points, which no collision detection finds: whoever places a point says what it may
-// meet in the coming step. They are kept as Bullet's manifolds, like all others, so that solvers
-// start from the last step's impulses.
+// PointContacts keeps the contacts of points, which collision detection does not find: the point's
+// owner states what it may meet in the coming step. They are kept as Bullet's manifolds, like all
+// other contacts, so that solvers start from the last step's impulses.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -15,28 +15,28 @@ namespace dihaptic::dynamics {
 
 class PointContacts {
   public:
-    /// Room for so many points, with kMostPointContacts each.
+    /// Reserves room for this many points, with kMostPointContacts each.
     void reserve(int points);
 
     struct Contact {
         const btCollisionObject* body = nullptr;
         const btCollisionObject* point = nullptr;
         int part = 0;  ///< of the body
-        int face = 0;  ///< of the part: the same face goes on from its last impulse
+        int face = 0;  ///< of the part; a contact with the same face starts from its last impulse
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction = 0;
         double torsion_radius = 0;
     };
-    /// For the next take(); what is more than there is room for is left out.
+    /// Adds a contact for the next take(); it is left out if there is no room.
     void add(const Contact& contact) noexcept;
-    /// The manifolds of all that was added since the last call; others are forgotten.
+    /// Appends the manifolds of all contacts added since the last call, and forgets the others.
     void take(std::vector<btPersistentManifold*>& out) noexcept;
-    /// All of them, and the impulses that they had.
+    /// Forgets all contacts, and their impulses.
     void forget() noexcept;
-    /// After bodies have moved by h [s]: what a turning body carries goes along an arc, a point's
-    /// own step along its tangent. Of the bodies that press on it, by how hard they do, the
-    /// difference [m].
+    /// Call after bodies have moved by h [s]. What a turning body carries moves along an arc, but a
+    /// point's own step is along the tangent. Returns the difference, averaged over the bodies that
+    /// press on the point, weighted by pressure [m].
     btVector3 bend(const btRigidBody& point, double h) const noexcept;
 
   private:

@@ -13,11 +13,11 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Contacts are found this far ahead of touch, and further for bodies that could close more in the
-/// step.
+/// Contacts are found this far ahead of touch, and further for bodies that could approach by more
+/// in the step.
 constexpr double kMargin = 5e-4;      // [m]
 constexpr double kMostMargin = 5e-2;  // [m]
-/// A contact is the continuation of an old one within this distance on the body.
+/// A contact within this distance of an old one on the body continues it.
 constexpr double kSamePoint = 5e-3;  // [m]
 
 const Polyhedron* polyhedron_of(const btCollisionObjectWrapper& part) {

@@ -1,6 +1,6 @@
-// Bullet's door to dynamics/polyhedron.h: the collision algorithm for pairs of boxes and hulls, and
-// for either against a plane. Contacts keep the impulses of the last step's nearest point, for warm
-// starts.
+// Connects dynamics/polyhedron.h to Bullet: the collision algorithm for pairs of boxes and hulls,
+// and for either against a plane. Contacts keep the impulses of the nearest point of the last step,
+// for warm starts.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
@@ -13,15 +13,15 @@
 
 namespace dihaptic::dynamics {
 
-/// Hulls with more edges than this collide by Bullet's distance algorithm: the number of edge pairs
+/// Hulls with more edges than this use Bullet's distance algorithm, as the number of edge pairs
 /// grows with the square.
 constexpr size_t kMostEdges = 64;
 
-/// Registers the algorithm. Shapes show that they are polyhedra by their user pointer: a
-/// `const Polyhedron*` in the shape's frame.
+/// Registers the algorithm. Shapes that are polyhedra have a user pointer: a `const Polyhedron*` in
+/// the shape's frame.
 class PolyhedronAlgorithms {
   public:
-    /// `step` is read at each use: the coming step [s].
+    /// `step` is read at each use: duration of the coming step [s].
     PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step);
     ~PolyhedronAlgorithms();
 

@@ -17,7 +17,7 @@ Mat3 from_bullet(const btMatrix3x3& m) {
     return out;
 }
 
-/// Columns: the normal and two tangents, the same for the same normal.
+/// Columns: the normal and two tangents, which depend on the normal only.
 Mat3 contact_frame(const Vec3& normal) {
     btVector3 first;
     btVector3 second;
@@ -34,9 +34,9 @@ Vec3 middle(const btManifoldPoint& point) {
                   dynamics::from_bullet(point.getPositionWorldOnB()));
 }
 
-/// Along the first normal. Points of one patch are moved by micrometres onto one plane across it:
-/// else closing gaps of different size would need the distance between two points to change, and
-/// where both stick, rigid bodies contradict themselves.
+/// Mean height of a patch's points along the first normal. The points are moved by micrometres onto
+/// one plane perpendicular to it: otherwise closing gaps of different size would require the
+/// distance between two points to change, which rigid bodies that stick at both cannot do.
 double mean_height(const btPersistentManifold& manifold) {
     double sum = 0;
     const Vec3 n_W = manifold.getNumContacts() > 0

@@ -1,4 +1,5 @@
-// Bullet's contact manifolds as a contact problem, and its answer back into them.
+// ManifoldProblem turns Bullet's contact manifolds into a contact problem, and stores its answer in
+// them.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -10,23 +11,25 @@
 
 namespace dihaptic::dynamics {
 
-/// A problem of some manifolds, with the last step's impulses as a start.
+/// A problem made of some manifolds, with the last step's impulses as a start.
 class ManifoldProblem {
   public:
-    /// Memory for user indices of bodies below `bodies`, and so many contact points.
+    /// Reserves memory for bodies with user indices below `bodies`, and for this many contact
+    /// points.
     void reserve(int bodies, int contacts);
 
-    /// Bodies that can move, by their velocities as they are; gaps become velocities that close
-    /// them in one step of h, and a penetration is left to the share `recovery`.
+    /// Builds the problem of these bodies, which can move, with their present velocities. A gap
+    /// becomes the velocity that closes it in one step of h; the share `recovery` of a penetration
+    /// is removed per step.
     void build(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
                double h, double recovery, bool warm_start) noexcept;
 
     const contact::ContactProblem& problem() const noexcept { return problem_; }
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
 
-    /// The impulses into the manifolds.
+    /// Stores the impulses in the manifolds.
     void store(std::span<btPersistentManifold*> manifolds) const noexcept;
-    /// The impulses that the manifolds hold, as another solver left them; their residual.
+    /// Residual of the impulses that another solver left in the manifolds.
     double judge(std::span<btPersistentManifold*> manifolds) noexcept;
 
   private:
@@ -34,20 +37,20 @@ class ManifoldProblem {
 
     contact::ContactProblem problem_;
     std::vector<contact::Impulse> impulses_;
-    std::vector<int> index_;  // in the problem, by a body's user index
+    std::vector<int> index_;  // index in the problem, by a body's user index
     std::vector<Eigen::Matrix<double, 6, 1>> scratch_;
 };
 
-/// Moves the impulses that a step starts from, those of a patch of contacts along their normals, a
-/// tenth of the way to an even share. Which of a pad's four corners carries its load is
-/// undetermined when the pad cannot turn: every share solves the step, and any solver stays near
-/// the one that it started from. Shares that a transient left would stay, until one corner carries
-/// all and the held object turns about it. Shares that the load does determine are restored by the
-/// solve itself.
+/// Moves the impulses from which a step starts a tenth of the way to equal shares, along the
+/// normals within a patch of contacts. Which of a pad's four corners carries its load is
+/// undetermined when the pad cannot turn: every distribution solves the step, and any solver stays
+/// near the one that it started from. A distribution left by a transient would stay, until one
+/// corner carries all and the held object turns about it. Where the load does determine the
+/// distribution, the solve restores it.
 void even_out(btPersistentManifold& manifold) noexcept;
 
-/// Moment about the normal in the last step [N*m*s]. Bullet knows none; this is a member that it
-/// keeps when it replaces a point, and that its solver for rigid bodies does not read.
+/// Moment about the normal in the last step [N*m*s]. Bullet has no such value; this member is kept
+/// when Bullet replaces a point, and its solver for rigid bodies does not read it.
 inline btScalar& torsion_impulse(btManifoldPoint& point) {
     return point.m_prevRHS;
 }

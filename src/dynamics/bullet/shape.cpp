@@ -7,8 +7,8 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Hulls and cylinders carry a thin skin, without which Bullet's distance algorithm loses its
-/// normal at depth zero. Cylinders and boxes are drawn in by as much, and their edges rounded
+/// Hulls and cylinders carry a thin skin, without which Bullet's distance algorithm loses the
+/// normal at zero depth. Cylinders and boxes are shrunk by as much and their edges rounded
 /// (Bullet's own skin would round a box by a tenth of its half edge); a sphere or a capsule meets a
 /// hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
@@ -44,7 +44,7 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
         case ShapeKind::mesh:
             return bullet_hull(shape.hull);
         case ShapeKind::compound:
-            break;  // its parts are what is looked at
+            break;  // its parts have shapes
     }
     return nullptr;
 }
@@ -66,11 +66,11 @@ std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape) {
 
 namespace {
 
-/// Faces of part `of` that the others cover.
+/// Outward normals of the faces of part `of` that the other parts cover.
 std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
                                 const Polyhedron& polyhedron) {
     constexpr double kOutward = 1e-6;  // [m]
-    constexpr double kInward = 0.01;   // toward the middle of the face
+    constexpr double kInward = 0.01;   // share of the way toward the middle of the face
     std::vector<Vec3> out;
     const auto is_covered = [&](const Vec3& p_S) {
         const Vec3 p_B = parts[of].X_BS * p_S;
@@ -105,7 +105,7 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
     const Pose X_MB = X_BM.inverse();
     std::vector<scene::ConvexPart> parts = scene::convex_parts(shape);
     for (scene::ConvexPart& convex : parts) {
-        // hulls are turned once, here, rather than in each step
+        // hulls are transformed once, here, instead of in each step
         if (convex.shape.kind != scene::ShapeKind::mesh) continue;
         const Pose X_MS = X_MB * convex.X_BS;
         for (Vec3& v : convex.shape.hull.vertices) v = X_MS * v;

@@ -1,4 +1,4 @@
-// Scene shapes, poses and axes as Bullet has them.
+// Converts scene shapes, poses and axes to Bullet's.
 #pragma once
 
 #include <btBulletCollisionCommon.h>
@@ -24,22 +24,22 @@ inline Pose from_bullet(const btTransform& X) {
     return {Quat(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin())};
 }
 
-/// 1 for each axis, 0 for those that are not there.
+/// Vector with 1 for each axis in the set and 0 for the others.
 inline btVector3 factors(scene::Axes axes) {
     return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
             contains(axes, 2) ? 1.0 : 0.0};
 }
 
-/// A convex part of a body, as it is looked at for contacts. The frame that Bullet moves is M,
-/// centre of mass and principal axes of inertia; S is the part's own.
+/// A convex part of a body, for collision detection. Bullet moves the frame M, at the centre of
+/// mass along the principal axes of inertia; S is the part's own frame.
 struct CollisionPart {
     btCollisionObject* body = nullptr;
-    std::unique_ptr<btCollisionShape> shape;  // its user pointer is the polyhedron, if it is one
-    std::unique_ptr<Polyhedron> polyhedron;   // null when it is round, flat, or has too many edges
+    std::unique_ptr<btCollisionShape> shape;  // its user pointer is the polyhedron, if there is one
+    std::unique_ptr<Polyhedron> polyhedron;   // null if round, flat, or of too many edges
     btTransform X_MS;
     bool moved = false;                   // X_MS is not the identity
-    bool hidden = false;                  // it meets nothing
-    btBroadphaseProxy* bounds = nullptr;  // once it is looked at
+    bool hidden = false;                  // the part meets nothing
+    btBroadphaseProxy* bounds = nullptr;  // set once the part is added to a Collision
 
     btTransform X_WS() const {
         return moved ? body->getWorldTransform() * X_MS : body->getWorldTransform();

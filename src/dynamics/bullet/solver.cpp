@@ -17,8 +17,8 @@ int SequentialImpulse::solve(std::span<btCollisionObject*> bodies,
                              std::span<btPersistentManifold*> manifolds, const Settings& settings,
                              double h, btDispatcher& dispatcher) {
     btContactSolverInfo info;
-    // Two friction directions, along the slip and across: one lets a gripped block pitch.
-    // Directions are not kept from step to step: that would make the cone a pyramid.
+    // Two friction directions, along the slip and across: with one, a gripped block can pitch.
+    // Directions are not kept from step to step, as that would make the cone a pyramid.
     info.m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS;
     if (settings.warm_start) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
     info.m_warmstartingFactor = 1;
@@ -36,9 +36,9 @@ int SequentialImpulse::solve(std::span<btCollisionObject*> bodies,
 
 void SequentialImpulse::convertContacts(btPersistentManifold** manifolds, int manifold_count,
                                         const btContactSolverInfo& info) {
-    // Bullet starts normal impulses from the last step's, but friction from zero: a hold that
-    // friction alone carries is then found anew in every step. Directions change from step to step,
-    // so the last impulse is kept as a vector and resolved along the new ones.
+    // Bullet starts normal impulses from the last step's, but friction from zero: a hold that only
+    // friction carries would have to be found anew in every step. Directions change from step to
+    // step, so the last impulse is kept as a vector and resolved along the new ones.
     last_friction_.clear();
     for (int m = 0; m < manifold_count; ++m) {
         for (int i = 0; i < manifolds[m]->getNumContacts(); ++i) {
@@ -84,8 +84,8 @@ btScalar SequentialImpulse::solveSingleIteration(
 }
 
 btScalar SequentialImpulse::release_friction() {
-    // Bullet leaves friction alone where the normal impulse has gone: it knows only friction that
-    // began at zero. Ours began at the last step's, and would push on contacts that open.
+    // Bullet leaves friction alone where the normal impulse has become zero, as its friction begins
+    // at zero. Here it begins at the last step's, and would push on contacts that open.
     btScalar most = 0;
     for (int i = 0; i < m_tmpSolverContactFrictionConstraintPool.size(); ++i) {
         btSolverConstraint& friction = m_tmpSolverContactFrictionConstraintPool[i];

@@ -1,5 +1,5 @@
-// Bullet's sequential-impulse solver (Catto 2005), with its working memory reserved and with its
-// iterations and residual told.
+// SequentialImpulse is Bullet's sequential-impulse solver (Catto 2005), with its working memory
+// reserved, and with its iterations counted.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -18,7 +18,7 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
     void reserve(int bodies, int contacts);
 
     /// Changes the bodies' velocities so that the contacts hold; the manifolds keep the impulses.
-    /// Returns the iterations that it took.
+    /// Returns the number of iterations.
     int solve(std::span<btCollisionObject*> bodies, std::span<btPersistentManifold*> manifolds,
               const Settings& settings, double h, btDispatcher& dispatcher);
 
@@ -29,8 +29,8 @@ class SequentialImpulse : private btSequentialImpulseConstraintSolver {
                                   btPersistentManifold** manifolds, int manifold_count,
                                   btTypedConstraint** constraints, int constraint_count,
                                   const btContactSolverInfo& info, btIDebugDraw* draw) override;
-    /// Takes friction off contacts whose normal impulse is zero; the largest change of velocity,
-    /// squared.
+    /// Removes friction from contacts whose normal impulse is zero; returns the largest change of
+    /// velocity, squared.
     btScalar release_friction();
     void apply(const btSolverConstraint& row, btScalar impulse);
 

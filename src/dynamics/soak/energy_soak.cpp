@@ -1,4 +1,4 @@
-// No solver makes energy, over hundreds of random scenes.
+// Tests that no solver creates energy, over hundreds of random scenes.
 #include <gtest/gtest.h>
 
 #include <cstdio>

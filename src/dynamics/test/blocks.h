@@ -1,4 +1,4 @@
-// Boxes and tables that tests of the World are made of.
+// Boxes and tables for tests of the World.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace dihaptic::dynamics {
 constexpr double kStep = 1e-3;     // [s]
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-/// Fixed when it has no mass.
+/// A box; it is fixed if its mass is zero.
 inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& position, double mass,
                        double friction = 0.8) {
     scene::Body body;
@@ -32,7 +32,7 @@ inline scene::Body block(const Vec3& position, double friction = 0.8) {
     return box("block", Vec3::Constant(0.04), position, 0.1, friction);
 }
 
-/// Nothing sleeps.
+/// Settings with which nothing sleeps.
 inline Settings awake() {
     Settings settings;
     settings.sleeping = false;

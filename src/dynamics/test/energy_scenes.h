@@ -1,4 +1,5 @@
-// Random scenes for the conservation of energy: boxes and balls thrown and spinning at a table.
+// Random scenes for tests of the conservation of energy: boxes and balls thrown and spinning at a
+// table.
 #pragma once
 
 #include <cmath>
@@ -41,8 +42,9 @@ class EnergyScene {
         energy_ = energy();
     }
 
-    /// Steps, and returns by how much of its value the energy rose; negative: it fell. Potential
-    /// energy is that above the table top, where nothing sinks to: the value is never near zero.
+    /// Steps, and returns the relative rise of the energy; negative if it fell. Potential energy is
+    /// measured from the table top, which no centre sinks to, so that the energy is never near
+    /// zero.
     double step() {
         world_->step(kStep);
         const double before = energy_;

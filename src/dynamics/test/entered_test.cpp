@@ -1,4 +1,5 @@
-// Fast bodies do not enter each other, whatever the contacts at the step's beginning foresee.
+// Tests that fast bodies do not enter each other, whatever the contacts at the start of the step
+// foresee.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -10,7 +11,7 @@
 namespace dihaptic::dynamics::entered_test {
 namespace {
 
-constexpr double kDeep = 2e-4;  // what a step looks for, and as much again [m]
+constexpr double kDeep = 2e-4;  // twice the depth that a step tolerates [m]
 
 class EnteredTest : public ::testing::TestWithParam<Solver> {
   protected:
@@ -37,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
-    // by 0.4 rad a step: a corner that was beside a face swings into it
+    // by 0.4 rad per step: a corner that was beside a face swings into it
     const Vec3 half = Vec3::Constant(0.02);
     for (uint64_t i = 0; i < 20; ++i) {
         Random random(i, "spin");
@@ -70,7 +71,7 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
 }
 
 TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
-    // both go alike, so nothing foresees that they meet; what holds the first holds the second
+    // both move alike, so nothing foresees that they meet; what holds the first holds the second
     World world = weightless({slippery(box("wall", {0.1, 1, 1}, {0.05, 0, 0}, 0)),
                               slippery(block({-0.0210, 0, 0})), slippery(block({-0.0625, 0, 0}))});
     for (int i : {1, 2}) world.set_velocity({i}, {5, 0, 0});
@@ -106,7 +107,7 @@ TEST_P(EnteredTest, ACapsuleThatSlapsDownOnOneEndMeetsWithTheOtherInTime) {
 }
 
 TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
-    // 70 mm in a step, aslant, so that no face of the block is opposite to it at first
+    // 70 mm in a step, at an angle, so that no face of the block is opposite to it at first
     scene::Finger finger;
     finger.name = "finger";
     finger.shape = scene::Shape::box(Vec3::Constant(0.01));
@@ -118,7 +119,7 @@ TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
     for (int step = 0; step < 3; ++step) {
         world.step(kStep);
         const Vec3 apart = world.states()[1].X_WB.p - world.states()[0].X_WB.p;
-        // the block may turn by what hits it off its middle
+        // the block may turn when it is hit off its centre
         const Mat3 R = world.states()[0].X_WB.R.toRotationMatrix();
         const Vec3 by_block = (R.transpose() * apart).cwiseAbs() - Vec3::Constant(0.02) -
                               0.005 * R.transpose().cwiseAbs() * Vec3::Ones();

@@ -24,7 +24,7 @@ TEST(World, FallsFreelyByTheClosedFormOfItsIntegrator) {
 }
 
 TEST(World, AForceOffTheCentreTurnsABlock) {
-    // at the middle of a face's edge, across it: w = h r x f / I, with I = m a^2 / 6 of a cube
+    // across the middle of a face's edge: w = h r x f / I, with I = m a^2 / 6 for a cube
     World world = make({block({0.3, 0.2, 1})});
     const Vec3 r(0.02, 0, 0.02);
     const Vec3 f(0, 0.5, 0);
@@ -64,7 +64,7 @@ TEST(World, FallsOntoTheTableWithoutPassingOrBouncing) {
 }
 
 TEST(World, StepChangesMomentumByLoadsAndContactForces) {
-    // the force read from contacts is the force that acted
+    // the force read from the contacts is the force that acted
     World world = make({table(0.3), block({0, 0, 0.02}, 0.3)}, awake());
     for (int i = 0; i < 200; ++i) {
         const Vec3 before = 0.1 * world.states()[1].v_WB;
@@ -202,7 +202,7 @@ TEST(World, RoundShapesRestOnAPlaneWhereTheyShould) {
     EXPECT_NEAR(world.states()[3].X_WB.p.z(), 0.02, 1e-4);
 }
 
-/// Steps, and returns the lowest height of `points` of the body, by any time.
+/// Steps for `time`; returns the lowest height of any of a body's `points` in that time.
 double lowest_of(World& world, int body, const std::vector<Vec3>& points, double time) {
     double lowest = 1;
     for (double t = kStep / 2; t < time; t += kStep) {
@@ -284,7 +284,7 @@ TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
         const double falling = world.states()[2].v_WB.z();
         slept = slept || !world.states()[1].awake;
         world.step(kStep);
-        if (world.states()[2].v_WB.z() > falling + 1) break;  // it hit
+        if (world.states()[2].v_WB.z() > falling + 1) break;  // it has landed
     }
     EXPECT_TRUE(slept);
     EXPECT_TRUE(world.states()[1].awake);
@@ -337,7 +337,7 @@ TEST(World, ProxiesFeelNoGravityAndDoNotTurn) {
     EXPECT_EQ(world.state(proxy).w_WB, Vec3::Zero());
 }
 
-/// Blocks thrown together: many contacts that come and go.
+/// Blocks thrown together: many contacts come and go.
 World heap() {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 20; ++i) {
@@ -392,8 +392,7 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
 TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Settings settings;
-    settings.max_contacts =
-        4;  // far too few: memory has to be had in the step, and the step says so
+    settings.max_contacts = 4;  // far too few: the step has to allocate, and reports it
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {
         bodies.push_back(block({0.05 * (i % 10) - 0.25, 0.05 * (i / 10) - 0.2, 0.02}));

@@ -1,4 +1,4 @@
-// Any file as an experiment.
+// Feeds the fuzzer's input to the experiment reader.
 #include "experiment/experiment.h"
 
 #include "testing/fuzz.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)experiment::read_experiment(file, diagnostics);
     } catch (const Error&) {
-        // said with file, line and remedy: as it should be
+        // an Error, with file, line and remedy, is the right answer
     }
     return 0;
 }

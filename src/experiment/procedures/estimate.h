@@ -1,14 +1,14 @@
-// What a procedure makes of the answers so far.
+// The estimate of a threshold that a procedure makes from the answers so far.
 #pragma once
 
 #include <limits>
 
 namespace dihaptic::experiment {
 
-/// In the unit of the level; NaN: not known.
+/// Values in the unit of the level; NaN where not known.
 struct Estimate {
     double threshold = std::numeric_limits<double>::quiet_NaN();
-    /// 95 % interval.
+    /// Ends of the 95 % interval.
     double low = std::numeric_limits<double>::quiet_NaN();
     double high = std::numeric_limits<double>::quiet_NaN();
 };

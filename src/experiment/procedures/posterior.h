@@ -1,4 +1,4 @@
-// Probabilities on a grid.
+// Functions on probabilities over a grid of values.
 #pragma once
 
 #include <algorithm>
@@ -7,23 +7,23 @@
 
 namespace dihaptic::experiment {
 
-/// Divides by the sum, which is above 0.
+/// Divides by the sum, which must be above 0.
 void normalise(std::vector<double>& probabilities);
 
-/// No answer is taken as less likely than this: one that a grid without lapses holds impossible
-/// must not leave a posterior of nothing.
+/// No answer is taken as less likely than this: one that is impossible on a grid without lapses
+/// must not leave a posterior that is 0 everywhere.
 inline constexpr double kLeastLikely = 1e-12;
 
-/// Of an answer, when "yes" has this probability.
+/// Likelihood of an answer, when "yes" has this probability.
 inline double likelihood(double probability_of_yes, bool yes) {
     return std::max(yes ? probability_of_yes : 1 - probability_of_yes, kLeastLikely);
 }
 
-/// Of the ascending values, with these probabilities.
+/// Mean of the values, with these probabilities.
 double mean(std::span<const double> values, std::span<const double> probabilities);
 
-/// Where the cumulative probability, joined linearly from value to value, reaches `share`; the
-/// first value where it is already past it.
+/// Where the cumulative probability, interpolated linearly between the ascending values, reaches
+/// `share`; the first value if it reaches `share` there.
 double quantile(std::span<const double> values, std::span<const double> probabilities,
                 double share);
 

@@ -1,6 +1,6 @@
-// An adaptive procedure chooses the level of each trial by the answers so far. Every one of them
-// can be used through Procedure, a value: a copy goes its own way, and the same answers always lead
-// to the same state, so a session is resumed by giving them again.
+// An adaptive procedure chooses the level of each trial by the answers so far. Procedure wraps any
+// of the procedures as a value: copies are independent, and the same answers always lead to the
+// same state, so a session is resumed by giving the answers again.
 #pragma once
 
 #include <variant>
@@ -17,11 +17,11 @@ class Procedure {
 
     Procedure(Kind kind) : kind_(std::move(kind)) {}
 
-    /// That the next trial should have.
+    /// Level that the next trial should have.
     double level() const;
-    /// A trial was at this level (as a rule the one proposed), and the answer was "yes", or
-    /// correct: the one that grows likelier with the level. Throws Error when the level is not
-    /// finite or the procedure is done.
+    /// Takes the answer of a trial at this level (as a rule the one proposed). `yes`: the answer
+    /// was "yes", or correct: the one that grows likelier with the level. Throws Error when the
+    /// level is not finite or the procedure is done.
     void answer(double level, bool yes);
     bool done() const;
     Estimate estimate() const;

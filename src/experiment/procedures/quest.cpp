@@ -10,14 +10,14 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// Of levels relative to the Weibull function's own threshold.
+/// The function of levels relative to the Weibull function's own threshold.
 model::Psychometric weibull(const QuestSettings& s) {
     return {model::Sigmoid::weibull_log10, 0, s.slope, s.guess, s.blind * (1 - s.guess)};
 }
 
-/// Of levels relative to where it has the probability `target`: joined linearly from grain to
-/// grain, as the original finds it, so that runs agree with other programs' to the last printed
-/// digit.
+/// The function of levels relative to where it has the probability `target`. That point is
+/// interpolated linearly between grains, as in the original, so that runs agree with other programs
+/// to the last printed digit.
 model::Psychometric about_target(const QuestSettings& s) {
     model::Psychometric f = weibull(s);
     double x = -s.cells * s.grain, p = f.probability(x);

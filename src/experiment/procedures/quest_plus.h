@@ -1,6 +1,6 @@
-// QUEST+ (Watson 2017): a posterior over threshold, shape and lapse rate of a psychometric function
-// (model/psychometric.h) on a grid. Each trial is at the level after which the entropy of the
-// posterior is expected to be least,
+// QUEST+ (Watson 2017) keeps a posterior over threshold, shape and lapse rate of a psychometric
+// function (model/psychometric.h) on a grid. Each trial is at the level after which the entropy of
+// the posterior is expected to be least,
 //
 //     E[H | x] = H - I(x),    I(x) = h(sum_i w_i p_i(x)) - sum_i w_i h(p_i(x))
 //
@@ -18,15 +18,15 @@ namespace dihaptic::experiment {
 
 struct QuestPlusSettings {
     model::Sigmoid sigmoid = model::Sigmoid::weibull_log10;
-    std::vector<double> levels;      ///< that may be shown
-    std::vector<double> thresholds;  ///< ascending, as all grids
-    std::vector<double> shapes;      ///< e.g. {2, 3, 4, 5}; one for a known shape
+    std::vector<double> levels;      ///< levels that may be shown
+    std::vector<double> thresholds;  ///< ascending, as all grids are
+    std::vector<double> shapes;      ///< e.g. {2, 3, 4, 5}; a single value for a known shape
     std::vector<double> lapses = {0.02};
     double guess = 0.5;
-    /// The guess rate is the lapse rate, instead: for "more or less?", "left or right?", where the
-    /// function goes from 0 to 1 but for lapses.
+    /// Takes the lapse rate as the guess rate, instead: for "more or less?" or "left or right?",
+    /// where the function goes from 0 to 1 but for lapses.
     bool guess_is_lapse = false;
-    int trials = 40;  ///< it is done after
+    int trials = 40;  ///< number after which it is done
 };
 
 class QuestPlus {
@@ -47,7 +47,7 @@ class QuestPlus {
     double expected_entropy(size_t i) const;
 
     const QuestPlusSettings& settings() const { return settings_; }
-    /// By threshold, then shape, then lapse; the last runs fastest.
+    /// Posterior by threshold, then shape, then lapse; the last index runs fastest.
     const std::vector<double>& posterior() const { return posterior_; }
 
   private:

@@ -48,7 +48,7 @@ double down_over_up_for(int down_after, double probability) {
 Staircase::Staircase(StaircaseSettings settings)
     : settings_(std::move(settings)), level_(settings_.start) {
     check(settings_);
-    // answers are taken up in the tick
+    // answers are processed in the tick, which must not allocate
     reversals_.reserve(static_cast<size_t>(std::max(settings_.trials, settings_.reversals)));
 }
 
@@ -68,7 +68,7 @@ void Staircase::move(double level, int direction) {
     const size_t step = std::min(reversals_.size(), settings_.steps_up.size() - 1);
     const double up = settings_.steps_up[step];
     level_ += direction > 0 ? up : -up * settings_.down_over_up;
-    // so that a level that is come back to is the same number: 0.8 - 4 x 0.2 is not quite 0
+    // rounded so that a level reached again is the same number: 0.8 - 4 x 0.2 is not quite 0
     level_ = std::round(level_ * 1e9) / 1e9;
     level_ = std::clamp(level_, settings_.lowest, settings_.highest);
 }

@@ -1,4 +1,4 @@
-// Two thousand sessions with random extreme settings, and five thousand mutated files.
+// Runs two thousand sessions with random extreme settings, and checks five thousand mutated files.
 #include "experiment/test/extremes.h"
 
 #include <cstdio>
@@ -13,7 +13,7 @@ TEST(ExtremesSoak, TwoThousandSessionsEndInOrderOrAreRefused) {
         const Ending ending = ending_of(
             [&] {
                 if (seed % 20 != 0) return run_extreme(request, std::chrono::seconds(3));
-                // with all of its files
+                // every twentieth session runs with all of its files
                 const testing::TemporaryFolder folder;
                 RunOptions options;
                 options.out = folder.path();

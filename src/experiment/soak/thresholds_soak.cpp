@@ -1,6 +1,6 @@
-// What the thresholds of experiments/visual-scaling.yaml are worth: its own staircases, asked of
-// two hundred observers who judge a ratio of lengths with noise, and fitted as the report fits
-// them. analysis/fits/README.md has the figures.
+// Measures the precision of the thresholds of experiments/visual-scaling.yaml: its own staircases
+// are run on two hundred observers who judge a ratio of lengths with noise, and fitted as in the
+// report. analysis/fits/README.md has the figures.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,17 +14,18 @@
 namespace dihaptic::experiment {
 namespace {
 
-/// Who says "more" when the logarithm of the ratio, with noise, is above 0; now and then anything.
+/// An observer who answers "more" when the logarithm of the ratio, with noise, is above 0, and
+/// sometimes lapses.
 struct Observer {
     double sd;
     static constexpr double kLapse = 0.015;
 
-    /// That the answer is right where `scale` is shown in that share.
+    /// Probability that the answer is right when `scale` is shown with that share.
     double right(double scale, double share) const {
         const double ratio = std::abs(std::log(1 + share * (scale - 1)));
         return kLapse + (1 - 2 * kLapse) * 0.5 * std::erfc(-ratio / sd / std::sqrt(2.0));
     }
-    /// The share at which three of four answers are right, were there no lapses.
+    /// Share at which three of four answers would be right without lapses.
     double threshold(double scale) const {
         return std::abs(std::exp((scale > 1 ? 1 : -1) * 0.6744897501960817 * sd) - 1) /
                std::abs(scale - 1);
@@ -41,7 +42,7 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
     double square = 0;
     int held = 0;
     for (int i = 0; i < kObservers; ++i) {
-        const Observer observer{0.12 * std::exp(0.25 * random.normal())};  // as adults.yaml has it
+        const Observer observer{0.12 * std::exp(0.25 * random.normal())};  // as in adults.yaml
         const ProcedureSpec& spec = experiment.task->procedures[static_cast<size_t>(i % 2)];
         const double scale = i % 2 == 0 ? 2 : 0.5;
         Procedure procedure = make_procedure(spec);
@@ -67,7 +68,7 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
     const double coverage = static_cast<double>(held) / kObservers;
     fmt::print("bias {:.2f} and rms error {:.2f} of the threshold; intervals hold it in {:.2f}\n",
                bias, std::sqrt(square), coverage);
-    // rough, as the README says: whoever makes them better changes that
+    // the thresholds are rough, as the README says; if they get better, the README must change
     EXPECT_GT(std::sqrt(square), 0.5);
     EXPECT_LT(std::sqrt(square), 5);
     EXPECT_GT(coverage, 0.7);

@@ -1,5 +1,5 @@
-// Every number that a file may give has two bounds that are numbers, so that no later one lacks
-// them; and what overflows by its unit is refused.
+// Tests that every number in a file has two finite bounds, so that none can be added without them,
+// and that a value that overflows by its unit is refused.
 #include <gtest/gtest.h>
 
 #include "devices/forcedimension/group.h"
@@ -47,7 +47,7 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
     expect_bounds<Experiment>();
 }
 
-/// What reading a line of settings says.
+/// Problems of reading a line of settings.
 std::string said_of(const std::string& line) {
     Diagnostics diagnostics;
     servo::Settings settings;

@@ -1,6 +1,6 @@
-// Sessions with settings that nobody would choose, drawn at random, and files that a careless or a
-// spiteful hand has changed. Each is tried in a process of its own: whatever it does, the test goes
-// on to tell of it.
+// Tries sessions with random extreme settings, and files with random changes, careless or
+// malicious. Each is tried in a process of its own, so that the test survives to report whatever
+// happens.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,12 +28,12 @@ constexpr auto enum_names(Ending) {
     return std::array{"in order", "faulted", "refused", "crashed", "hung"};
 }
 
-/// How `what` ends in a child of this process that has `longest` seconds of its processor.
+/// How `what` ends in a child process that may use `longest` seconds of processor time.
 inline Ending ending_of(const std::function<Ending()>& what, unsigned longest) {
     const pid_t child = fork();
     if (child == 0) {
         std::freopen("/dev/null", "w", stderr);
-        alarm(20 * longest);  // of the wall's time: the machine may be busy
+        alarm(20 * longest);  // in wall time, since the machine may be busy
         const rlimit cpu{longest, longest};
         setrlimit(RLIMIT_CPU, &cpu);
         int code = static_cast<int>(Ending::crashed);
@@ -41,7 +41,7 @@ inline Ending ending_of(const std::function<Ending()>& what, unsigned longest) {
             code = static_cast<int>(what());
         } catch (const Error&) {
             code = static_cast<int>(Ending::refused);
-        } catch (...) {  // whatever else comes is no order
+        } catch (...) {  // any other exception counts as a crash
         }
         _exit(code);
     }
@@ -53,7 +53,7 @@ inline Ending ending_of(const std::function<Ending()>& what, unsigned longest) {
     return hung ? Ending::hung : Ending::crashed;
 }
 
-/// Lists every setting as the command line has it, with its bounds.
+/// Lists every setting by its name on the command line, with its bounds.
 class SettingLister {
   public:
     struct Setting {
@@ -104,8 +104,8 @@ const T& one_of(Random& random, const std::vector<T>& all) {
     return all[static_cast<size_t>(random.uniform(0, static_cast<double>(all.size())))];
 }
 
-/// A value of a setting: most within its bounds, all of their orders of magnitude alike, some on
-/// them, some beyond.
+/// A random value of a setting: mostly within its bounds, evenly over orders of magnitude;
+/// sometimes on a bound, sometimes beyond.
 inline std::string extreme_value(Random& random, const SettingLister::Setting& setting) {
     if (!setting.choices.empty()) return one_of(random, setting.choices);
     const double kind = random.uniform(0, 1);
@@ -120,7 +120,7 @@ inline std::string extreme_value(Random& random, const SettingLister::Setting& s
     return fmt::format("{:.17g}", value);
 }
 
-/// An experiment and one to five settings of it, of which one may be changed again.
+/// A request for an experiment with one to five settings, of which one may be set again.
 inline Request extreme_request(uint64_t seed) {
     static const std::vector<std::string> kFiles{
         "experiments/lift-block.yaml",  "experiments/push-block.yaml",
@@ -161,8 +161,8 @@ inline std::string words(const Request& request) {
                        fmt::format("--set {}", fmt::join(request.set, " --set ")));
 }
 
-/// The first `longest` of a session, without its files. Forces are what devices may be told, in
-/// every tick, or this is no order.
+/// Runs the first `longest` of a session, without its files. In every tick, forces must be ones
+/// that devices may be sent; otherwise the session has not ended in order.
 inline Ending run_extreme(const Request& request, Time longest) {
     const Plan plan = make_plan(request);
     const auto servo = make_servo(plan);
@@ -184,7 +184,7 @@ inline Ending run_extreme(const Request& request, Time longest) {
     return servo->fault() ? Ending::faulted : Ending::in_order;
 }
 
-/// A text after one to four changes: of a byte, a line, a number, or what kind of thing a value is.
+/// The text after one to four changes: of a byte, a line, a number, or the kind of a value.
 inline std::string mutated(std::string text, Random& random) {
     static const std::vector<std::string> kNumbers{"0",
                                                    "-1",
@@ -237,7 +237,7 @@ inline std::string mutated(std::string text, Random& random) {
             case 4:
                 text.insert(line, text.substr(line, next - line));
                 break;
-            case 5: {  // a line goes elsewhere
+            case 5: {  // moves a line
                 const std::string moved = text.substr(line, next - line);
                 text.erase(line, next - line);
                 text.insert(std::min(spot, text.size()), moved);
@@ -275,7 +275,7 @@ class MutatedFiles {
         std::sort(files_.begin(), files_.end());
     }
 
-    /// What check says of the file of this seed. A word about it goes to `file`.
+    /// Mutates the file that this seed chooses, and checks it. `file` gets its name.
     Ending check(uint64_t seed, std::string& file, std::string& text) const {
         Random random(seed, "mutations");
         file = one_of(random, files_);

@@ -1,4 +1,4 @@
-// Settings and files at their worst: they are refused in words, or all ends in order.
+// Tests extreme settings and changed files: each is refused with an error, or ends in order.
 #include "extremes.h"
 
 namespace dihaptic::experiment::extremes_test {
@@ -21,7 +21,7 @@ TEST(ExtremeSettings, EndInOrderOrAreRefused) {
         EXPECT_TRUE(ending != Ending::crashed && ending != Ending::hung)
             << enum_name(ending) << ": " << words(request);
     }
-    // each kind of ending is one that these can come to
+    // both kinds of ending must occur
     EXPECT_GT(endings[Ending::in_order], 5) << words(endings);
     EXPECT_GT(endings[Ending::refused], 5) << words(endings);
 }

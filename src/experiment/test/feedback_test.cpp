@@ -1,4 +1,4 @@
-// What a task says of a trial is seen: it stays for a while before anything else is said.
+// Tests that a trial's feedback can be read: it stays for a while before the next message.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 namespace dihaptic::experiment::feedback_test {
 namespace {
 
-/// What was shown, and from when to when [s].
+/// A message, and from when to when it was shown [s].
 struct Said {
     std::string message;
     double from = 0;
     double until = 0;
-    int trials = 1;  // that ran meanwhile
+    int trials = 1;  // number of trials that ran meanwhile
 };
 
 std::vector<Said> said_in(const RunResult& result) {
@@ -87,7 +87,7 @@ TEST(Feedback, InATrialHoldsBackTheNextStatesMessageButNotTheState) {
         ++back;
         EXPECT_EQ(said[i - 1].message, "Good");
         EXPECT_NEAR(said[i - 1].until - said[i - 1].from, 1, 2e-3);
-        EXPECT_NEAR(said[i].until - said[i].from, 0.5, 3e-3);  // what is left of the state
+        EXPECT_NEAR(said[i].until - said[i].from, 0.5, 3e-3);  // the rest of the state's time
     }
     EXPECT_EQ(back, 9);
 }

@@ -1,6 +1,5 @@
-// The times of grip-lifts against what the raw frames show, from 40 g to 1 kg, on three surfaces,
-// with grips that hardly hold and that crush: by contact they are right to 2 ms, by force they are
-// not.
+// Tests the times of grip-lifts against the raw frames, from 40 g to 1 kg, on three surfaces, with
+// grips that hardly hold and that crush: by contact they are right to 2 ms, by force they are not.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,12 +23,12 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Grasp {
     double mass;      // [kg]
-    double friction;  // of the block on the fingers
-    double margin;    // grip over what friction needs
+    double friction;  // coefficient between block and fingers
+    double margin;    // grip over the least that friction needs
 };
 
-/// A hand so stiff that targets 15 mm within each face press with the grip; what the devices add is
-/// a spring of 3000 N/m in series.
+/// An experiment with a hand so stiff that targets 15 mm within each face press with the grip. The
+/// devices add a spring of 3000 N/m in series.
 std::string experiment_of(const Grasp& g) {
     const double grip = g.margin * g.mass * kGravity / (2 * g.friction);
     const double both = grip / 0.015;
@@ -73,8 +72,8 @@ devices:
   - { finger: index, backend: simulated, options: { peak_force_N: 60 } }
 )";
 
-/// What the frames show, by none of the analysis' code: contacts of the block with the fingers and
-/// with the table, the table's force, and the block's height.
+/// Times found without the analysis' code, from contacts of the block with fingers and table, the
+/// table's force, and the block's height.
 struct Truth {
     double touch = kNone, load_onset = kNone, lift_off = kNone, replacement = kNone;  // [s]
 };
@@ -87,7 +86,7 @@ Truth truth_of(const std::vector<Seen>& seen, double weight) {
     Truth out;
     double top = 0;
     for (const Seen& s : seen) top = std::max(top, s.height - seen.front().height);
-    size_t high = 0, low = 0;  // first and last at half of the height
+    size_t high = 0, low = 0;  // first and last sample at half of the height
     for (size_t i = 0; i < seen.size(); ++i) {
         if (seen[i].height - seen.front().height < top / 2) continue;
         if (high == 0) high = i;
@@ -129,7 +128,8 @@ Found lift(const Grasp& g) {
             if (c.a != kBlock && c.b != kBlock) continue;
             (c.a + c.b - kBlock == kTable ? s.table : s.fingers) += c.normal_force;
         }
-        if (!block.awake) s.table = g.mass * kGravity;  // what sleeps lies, and shows no contact
+        if (!block.awake)
+            s.table = g.mass * kGravity;  // a sleeping block lies on the table without contacts
         seen.push_back(s);
     }
     const double friction[] = {g.friction, g.friction};
@@ -138,7 +138,7 @@ Found lift(const Grasp& g) {
             find_lift(trace, gravity, friction, EventRule::force)};
 }
 
-/// Largest distance of each figure from the truth [s]; infinite where there is none.
+/// Largest error of each figure [s]; infinite if a figure is missing.
 struct Worst {
     double touch = 0, onset = 0, off = 0, replaced = 0, preload = 0, loading = 0;
 
@@ -189,7 +189,7 @@ TEST(LiftTimes, AreThoseOfTheContactsFrom40gTo1kg) {
     RecordProperty("worst_by_contact", contact.text());
     RecordProperty("worst_by_force", force.text());
     fmt::print("worst by contact: {}\nworst by force:   {}\n", contact.text(), force.text());
-    // what has contacts is not left to the rules for what has none
+    // traces with contacts gain by the rule that uses them
     EXPECT_GT(force.touch, 10 * contact.touch);
 }
 

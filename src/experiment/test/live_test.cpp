@@ -1,4 +1,4 @@
-// A session that somebody watches and steers from another thread, as a window does.
+// Tests sessions that another thread watches and steers, as a window does.
 #include "experiment/live.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Runs in a thread of its own until it ends by itself or by the desk.
+/// Runs a session in a thread of its own until it ends by itself or the desk ends it.
 class Desk {
   public:
     explicit Desk(const Request& request) {
@@ -39,7 +39,7 @@ class Desk {
         if (thread_.joinable()) thread_.join();
     }
 
-    /// The newest frame, once session time is `t` or its thread had ten seconds for it.
+    /// The newest frame, once session time has reached `t` or the thread has had ten seconds.
     const servo::Frame& at(double t) {
         for (int i = 0; i < 10000; ++i) {
             const servo::Frame& frame = live.frame.read();
@@ -56,8 +56,8 @@ class Desk {
         goal.aperture = aperture;
         plan.mouse->follow(goal, now());
     }
-    /// At 5 cm/s of session time, each step once the last was made: a hand that goes on while a
-    /// busy machine lets the session lose ticks would be torn off what it holds.
+    /// Lifts at 5 cm/s of session time, each step after the last was made: if the hand went on
+    /// while a busy machine makes the session lose ticks, it would be torn off what it holds.
     void lift(double height) {
         hand::Posture goal = plan.mouse->goal();
         const double end = goal.centre.z() + height;
@@ -108,7 +108,7 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
     const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
     int resumed = 0;
     for (size_t i = 2; i < frames.size(); ++i) {
-        // ticks that were missed are left out; the pause is not in session time
+        // missed ticks have no frame; the pause is not in session time
         EXPECT_LT(seconds(frames[i].time - frames[i - 1].time), 0.2);
         if ((frames[i].status & servo::kResumed) == 0) continue;
         ++resumed;
@@ -117,7 +117,8 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
         EXPECT_NE(frames[i - 1].status & servo::kPaused, 0u);
         EXPECT_EQ(frames[i - 1].status & servo::kForceOff, 0u);
         for (const servo::FingerFrame& finger : frames[i - 1].fingers)
-            EXPECT_EQ(finger.f_sent_W, Vec3::Zero());  // in the last tick before it already
+            EXPECT_EQ(finger.f_sent_W,
+                      Vec3::Zero());  // already in the last tick before the resumption
         EXPECT_GT(frames[i - 2].fingers[0].f_sent_W.norm(), 0.5);
     }
     EXPECT_EQ(resumed, 1);
@@ -173,7 +174,7 @@ TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
     desk.squeeze(0.034);
     EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
     desk.live.proxy.publish(haptics::ProxyKind::point);
-    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, 0);  // they hold the block
+    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, 0);  // unchanged while the fingers hold the block
     desk.squeeze(open);
     EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, 1);
     desk.squeeze(0.03);  // points close on the block as pads do
@@ -199,7 +200,7 @@ TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
     EXPECT_TRUE(desk.live.paused);
     const double at = desk.now();
     std::this_thread::sleep_for(milliseconds(100));
-    EXPECT_EQ(desk.now(), at);  // it waits
+    EXPECT_EQ(desk.now(), at);  // the session waits
     desk.live.paused = false;
     desk.at(at + 0.3);
     desk.end();
@@ -249,7 +250,7 @@ TEST(Live, AWatcherThatFallsSilentTakesForceAwayWithinASecond) {
     desk.squeeze(0.034);
     double last = 0;
     const auto end = Live::Clock::now() + milliseconds(1500);
-    while (Live::Clock::now() < end) {  // it answers for longer than it may be silent
+    while (Live::Clock::now() < end) {  // answers for longer than it may be silent
         desk.live.note_alive();
         last = desk.now();
         std::this_thread::sleep_for(milliseconds(20));
@@ -318,7 +319,7 @@ TEST(Live, TriggersComeInAndEventCodesGoOutOnTheRigsSerialLine) {
     Desk desk(files.request());
     EXPECT_TRUE(desk.plan.warnings.empty());
     desk.at(0.3);
-    EXPECT_EQ(desk.live.frame.read().phase, 1);  // it waits
+    EXPECT_EQ(desk.live.frame.read().phase, 1);  // the trial waits
     far.send(200);
     EXPECT_EQ(far.receive(1), (std::vector<int>{7}));
     desk.end();

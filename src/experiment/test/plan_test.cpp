@@ -45,7 +45,7 @@ TEST(ShippedFiles, TheMovementHasTheFaultsThatItIsToShow) {
     }
 }
 
-/// Messages of planning an experiment with these files beside it.
+/// An experiment with its files, and the messages of planning it.
 struct Files {
     testing::TemporaryFolder folder;
     std::string scene =
@@ -108,7 +108,7 @@ TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
     Plan plan = make_plan(files.request());
     EXPECT_EQ(plan.settings.coupling.stiffness, 500);
     EXPECT_EQ(plan.settings.coupling.damping, 0.8);
-    // what a session freezes has the values, once
+    // a session freezes the values only, not the shares
     EXPECT_FALSE(plan.settings.coupling.stiffness_share);
     EXPECT_FALSE(plan.settings.coupling.damping_share);
     EXPECT_NE(
@@ -116,7 +116,7 @@ TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
         std::string::npos)
         << plan.origins["coupling.stiffness"];
     EXPECT_EQ(plan.origins.count("coupling.stiffness_share"), 0u);
-    // a later word on it counts, whichever way it is said
+    // a later setting counts, whether it is a value or a share
     Request request = files.request();
     request.set = {"coupling.stiffness_N_m=700"};
     EXPECT_EQ(make_plan(request).settings.coupling.stiffness, 700);
@@ -477,7 +477,7 @@ TEST(Plan, SetIsAnsweredInItsOwnTerms) {
               "coupling.stiffness_N_m=600.");
 }
 
-/// What check says of a movement, a line a problem.
+/// Problems that check finds in a movement, one per line.
 std::string said_of_movement(const std::function<void(std::string&)>& change) {
     const testing::TemporaryFolder folder;
     std::string text = testing::read_file("movements/reach-to-grasp.csv");
@@ -502,7 +502,7 @@ TEST(CheckFile, TellsOfFingersOfAMovementThatNobodyKnows) {
 
 TEST(CheckFile, TellsOfAMovementThatIsMostlyBridged) {
     const std::string said = said_of_movement([](std::string& text) {
-        // after a while, one frame in twelve
+        // keeps only one frame in twelve after a while
         std::istringstream in(text);
         std::string line, thin;
         for (int i = 0; std::getline(in, line); ++i) {

@@ -1,7 +1,7 @@
-// A disk that keeps no more than it was told to: of each file what it had when it was last
-// synchronised, of each folder the names that it had then. All else is lost with the power.
+// Simulates a loss of power: the disk keeps of each file only its contents at the last
+// synchronisation, and of each folder only the names in it at that time.
 //
-// It stands in place of fsync() in the program that includes this, once.
+// This replaces fsync() in the program that includes this header; include it in one source file.
 #pragma once
 
 #include <sys/stat.h>
@@ -33,12 +33,12 @@ class Disk {
     /// Called after each synchronisation, by the thread that asked for it.
     std::function<void()> synced;
 
-    /// What is left of the folder when power fails now, in another one.
+    /// Writes to the folder `to` what is left of `folder` when power fails now.
     void lose_power(const std::string& folder, const std::string& to) {
         const std::lock_guard lock(guard_);
         restore(inode_of(folder), to);
     }
-    /// When the file was last synchronised: when that began.
+    /// When the last synchronisation of the file began.
     Clock::time_point last_sync(const std::string& file) {
         const std::lock_guard lock(guard_);
         return times_[inode_of(file)];

@@ -1,4 +1,4 @@
-// What is left of a session when the power fails.
+// Tests what is left of a session when the power fails.
 #include "experiment/test/power_loss.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ hand: { centre_mm: [0, 0, 100], script: [{ name: wait, duration_s: 0.2 }] }
 RunResult run(const std::string& file, const std::string& out, Clock clock, double sync) {
     Request request;
     request.file = file;
-    request.set = {"safety.max_pause_ms=1000"};  // a busy machine
+    request.set = {"safety.max_pause_ms=1000"};  // the machine may be busy
     RunOptions options;
     options.out = out;
     options.clock = clock;
@@ -52,7 +52,7 @@ struct Loss {
     Disk disk;
     int64_t written = 0;  ///< frames that a kill would have left
     double unsynced = 0;  ///< how long ago the last synchronisation began [s]
-    std::string left;     ///< the session's folder; "": there is none
+    std::string left;     ///< the session's folder; "" if there is none
 
     explicit Loss(double sync) {
         const std::string out = folder.file("new/sessions");
@@ -80,11 +80,12 @@ TEST(PowerLoss, EverythingUpToTheLastSynchronisationIsThere) {
     const int64_t left = frames_in(loss.left);
     EXPECT_GT(loss.written, 700);
     EXPECT_LT(static_cast<double>(loss.written - left), 1000 * loss.unsynced + 100);
-    EXPECT_LT(loss.unsynced, 2);  // 0.2 s, and what a busy machine makes of it
+    EXPECT_LT(loss.unsynced, 2);  // 0.2 s, and more on a busy machine
     const auto folder = recording::SessionFolder::open(loss.left);
     const analysis::Recovery recovery = analysis::recover_session(folder, {});
     EXPECT_EQ(recovery.figures.frames, left);
-    EXPECT_TRUE(recovery.warnings.empty());  // its other files were there before it began
+    EXPECT_TRUE(
+        recovery.warnings.empty());  // the session's other files were written before it began
     EXPECT_TRUE(recovery.figures.log.gaps.empty());
     EXPECT_TRUE(replay_session(loss.left, kGoOn, {}).good());
 }
@@ -128,7 +129,7 @@ TEST(PowerLoss, AStateThatSaysCompleteHasAllFilesWheneverPowerFails) {
     analysis::finish_session(recording::SessionFolder::open(session), result.info, {});
     EXPECT_GT(losses, 10);
     EXPECT_GE(complete, 1);  // the last synchronisation is that of the state
-    // and when it has returned, all of it is there
+    // once finish_session() has returned, everything is there
     look();
     EXPECT_GE(complete, 2);
 }

@@ -1,5 +1,5 @@
-// Procedures in experiment files: shares that follow from the answers, by people who answer as a
-// psychometric function says.
+// Tests procedures in experiment files: shares follow from the answers of observers who answer by a
+// psychometric function.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace dihaptic::experiment::procedures_in_tasks_test {
 namespace {
 
-/// Is what is shown turned? y, n: two tracks of different kinds.
+/// A task that asks whether the display is rotated (y, n), with two procedures of different kinds.
 const char* const kThresholds = R"(title: Thresholds
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -65,7 +65,7 @@ struct Answered {
     Attempt attempt;
 };
 
-/// A director answered at once, until it stops or `most` trials are over.
+/// Answers a director's questions at once, until it stops or `most` trials are over.
 std::vector<Answered> answer(const Plan& plan, const std::vector<Attempt>& done, Random& observer,
                              size_t most = 100000) {
     TaskDirector task(*plan.task, plan.seed, 1e-3, done);

@@ -1,4 +1,4 @@
-// A small experiment of reaches, in a folder of its own, for tests to change and to run.
+// A small reaching experiment in a folder of its own, which tests change and run.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ fingers:
   - { name: index, shape: sphere, radius_mm: 6, mass_g: 1 }
 )";
 
-/// Reaches of 50 mm, a rotation, a clamp, a channel; an exit of each kind that needs no object.
+/// Reaches of 50 mm with a rotation, a clamp and a channel, and exits of each kind that needs no
+/// object.
 inline const char* const kReaches = R"(title: Reaches
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }
@@ -91,14 +92,14 @@ struct Files {
     }
 };
 
-/// A mistake: what is written in place of what, and what must be said of it.
+/// A mistake in a file: `what` is replaced by `by`, and the error must contain `said`.
 struct Mistake {
     const char* what;
     const char* by;
     const char* said;
 };
 
-/// check refuses the file with the mistake, and says file, line and remedy.
+/// Expects that check refuses the file with the mistake, and gives file, line and remedy.
 inline void expect_refused(Files& files, const Mistake& mistake) {
     files.replace(mistake.what, mistake.by);
     Diagnostics diagnostics;

@@ -1,4 +1,4 @@
-// Sessions on real devices: our fakes of them, in real time.
+// Tests sessions on fakes of real devices, in real time.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -24,7 +24,7 @@ std::string rig_text(const std::string& backend) {
         out += fmt::format("  - {{finger: {}, backend: {}, options: {{library: {}, {}}}}}\n",
                            i == 1 ? "thumb" : "index", backend, library, which);
     }
-    // a busy machine is another test's
+    // a long pause is allowed: busy machines are the subject of another test
     return out + "settings: { safety: { max_pause_ms: 1000, hand_damping_Ns_m: 100 } }\n";
 }
 
@@ -105,8 +105,8 @@ TEST_P(RealDevices, ThatRefuseToStartLeaveNoSession) {
 }
 
 TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
-    // the thumb pushes into the block from the left, the index waits; the thumb's device cuts its
-    // force once, and later the index's is lost
+    // the thumb pushes into the block from the left, the index finger waits; the thumb's device
+    // cuts its force once, and later the index finger's device is lost
     constexpr int kDrop = 300;
     constexpr int kLost = 600;
     devices::openhaptics::FakeHd* const fake_hd =

@@ -1,4 +1,4 @@
-// The rig's limits are limits, whatever an experiment, a scene or a command line asks for.
+// Tests that the rig's safety limits hold, whatever an experiment, a scene or a command line says.
 #include <gtest/gtest.h>
 
 #include "devices/test/fakes.h"
@@ -15,7 +15,7 @@ fingers: [{ name: thumb, shape: sphere, radius_mm: 8 }]
 hand: { centre_mm: [0, 0, 100], script: [{ name: wait, duration_s: 0.1 }] }
 )";
 
-/// A rig, a scene and an experiment with settings: safety: of their own.
+/// A rig, a scene and an experiment, each with its own `settings: safety:`.
 struct Files {
     testing::TemporaryFolder folder;
     Request request;
@@ -34,7 +34,7 @@ struct Files {
         request.file =
             folder.write("experiment.yaml", "title: One\nscene: scene.yaml\n" + safety(experiment));
     }
-    /// What is wrong; "" if nothing.
+    /// The error of planning; "" if there is none.
     std::string refusal() const {
         try {
             make_plan(request);
@@ -112,7 +112,7 @@ TEST_P(Limit, IsTightenedByAnyoneAndKeptByAll) {
     EXPECT_EQ(Files(c.rig, c.tighter).refusal(), "");
     EXPECT_EQ(Files(c.rig, "", c.tighter).refusal(), "");
     if (*c.tighter == '\0') return;
-    // what a scene asks for holds, though a rig's other settings come after a scene's
+    // a scene's safety settings hold, though a rig's other settings override a scene's
     const Files files(c.rig, "", c.tighter);
     const std::string told = describe_safety(make_plan(files.request)).front();
     EXPECT_NE(told.find("scene.yaml:"), std::string::npos) << told;

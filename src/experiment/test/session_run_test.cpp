@@ -50,10 +50,10 @@ std::vector<std::string> shipped() {
     std::vector<std::string> out;
     for (const char* folder : {"scenes", "experiments"}) {
         for (const auto& entry : fs::directory_iterator(folder)) {
-            // a stand alone has no hand that does anything; its experiment has
+            // this scene's hand does nothing; the hand of its experiment does
             if (entry.path().stem() == "block-on-stand") continue;
-            // hundreds of trials: ShippedTask has some of them; the last four are people's
-            // (src/person/test)
+            // these have hundreds of trials: ShippedTask runs some of them; src/person/test runs
+            // the last four with simulated people
             if (entry.path().stem() == "visuomotor-rotation") continue;
             if (entry.path().stem() == "directional-mass") continue;
             if (entry.path().stem() == "rotation-reversal") continue;
@@ -117,7 +117,7 @@ TEST(Session, ARealClockSessionReplaysToTheBit) {
     EXPECT_EQ(replay.different_ticks, 0) << "first at " << replay.first_difference << " s";
 }
 
-/// Writes the session's log anew, with frames and a head that were changed.
+/// Writes the session's log anew, with changed frames and a changed head.
 void rewrite_log(const std::string& folder, const std::function<bool(servo::Frame&)>& change,
                  const std::function<void(recording::LogHead&)>& change_head = {}) {
     const std::string file = folder + "/raw.log";
@@ -231,7 +231,7 @@ TEST(Session, StopsInOrderWhenAsked) {
     const std::atomic<bool> stop{true};
     const RunResult result = run_session(make_plan(request), options, stop, {});
     EXPECT_TRUE(result.interrupted);
-    // its other files are not there yet
+    // the session's other files are not there yet
     const recording::SessionInfo info = recording::SessionFolder::open(result.folder).read_info();
     EXPECT_EQ(info.state, recording::SessionState::running);
     EXPECT_TRUE(info.interrupted);
@@ -258,7 +258,7 @@ TEST(Session, TheOperatorsStopOnTheRealClockIsRecordedAndReplayed) {
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 
-/// Runs a scene on devices with these options, and replays it. `more`: of the rig.
+/// Runs a scene on devices with these options, and replays it. `more`: more lines of the rig file.
 std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector<std::string> set,
                                          const std::string& more = "") {
     const testing::TemporaryFolder folder;
@@ -333,7 +333,7 @@ TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
     };
     const auto wide = run_and_replay("{workspace_mm: [600, 600, 600]}", {});
     EXPECT_EQ(status_of(wide) & servo::kPushedInward, 0u);
-    // in place of the box that the devices say they reach
+    // a wall in place of the box that the devices say they reach
     const auto low =
         run_and_replay("{workspace_mm: [600, 600, 600]}", {"safety.workspace_stiffness_N_m=2000"},
                        "wall: {centre_mm: [0, 0, 10], size_mm: [600, 600, 80]}\n");
@@ -384,13 +384,12 @@ TEST(Session, ThreeFingersLiftABlockAndGripItAsEachSideDoes) {
         // the hand's springs and the couplings' give way to the weight
         const double spring = model::series_spring_force(1, 300, 1000);
         EXPECT_NEAR(frame->bodies[1].X_WB.p.z(), 0.08 - kWeight / (3 * spring), 5e-4);
-        // in the hold the thumb's side presses as hard as the other two together
+        // in the hold the thumb presses as hard as the other two fingers together
         const auto& f = frame->fingers;
         EXPECT_NEAR(f[0].normal_force, f[1].normal_force + f[2].normal_force, 0.02);
         EXPECT_NEAR(frame->grip_force, f[0].normal_force, 0.02);
         EXPECT_NEAR(frame->load_force, kWeight, 0.02);
-        // one by one they are pressed as by springs in series: 300 and 1000 N/m, 7.5 mm beyond
-        // touch
+        // each of the two is pressed as by springs in series: 300 and 1000 N/m, 7.5 mm beyond touch
         EXPECT_NEAR(f[1].normal_force, f[2].normal_force, 0.02);
         EXPECT_NEAR(f[1].normal_force, model::series_spring_force(0.0075, 300, 1000), 0.02);
     }
@@ -403,7 +402,7 @@ TEST(Session, AConcaveMeshIsFrozenWithItsPieces) {
     EXPECT_TRUE(fs::exists(result.folder + "/mesh-1-cup.obj.pieces"));
     EXPECT_TRUE(fs::exists(result.folder + "/mesh-2-cup.obj.pieces"));
     EXPECT_FALSE(fs::exists(result.folder + "/mesh-3-fingertip.obj.pieces"));
-    // they are inputs of the session as its meshes are
+    // the pieces are inputs of the session, like its meshes
     std::ofstream(result.folder + "/mesh-1-cup.obj.pieces") << "other pieces";
     EXPECT_THROW(replay_session(result.folder, kGoOn, {}), Error);
 }
@@ -418,7 +417,7 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
         const auto n = static_cast<int>(frame->bodies.size());
         for (const servo::ContactFrame& c : frame->contacts) {
             if (c.a == n + 1 || c.b == n + 1) {
-                // a point touches where it is; it moved on by a tick
+                // a point proxy touches at its own position; it has since moved on by a tick
                 EXPECT_LT((c.p_WC - frame->fingers[1].p_WP).norm(), 1e-3);
                 EXPECT_EQ(c.points, 1);
                 stirred = std::max(stirred, c.normal_force);
@@ -427,7 +426,7 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
         mug = frame->bodies[3].X_WB.p.z();
     }
     EXPECT_GT(stirred, 0.05);
-    EXPECT_GT(mug, 0.02);  // it hangs on the hook
+    EXPECT_GT(mug, 0.02);  // the mug hangs on the hook
 }
 
 /// Largest change of any sent force from tick to tick, over the largest allowed.

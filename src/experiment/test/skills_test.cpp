@@ -1,4 +1,5 @@
-// What the shipped experiments have the hand do with a block, against mechanics, with every solver.
+// Tests what the hand does with a block in the shipped experiments, against mechanics, with every
+// solver.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -71,7 +72,8 @@ TEST_P(Skills, ABlockRollsOnTheFingertipsThatTurnIt) {
     const double r = 0.006;
     const double w = 0.02;
     EXPECT_NEAR(hold.hand_turn / (hold.turn - std::atan(r * hold.turn / (w + r))), 1, 0.001);
-    EXPECT_NEAR(hold.slip, r * hold.turn, 1e-5);  // the way that they rolled, and nothing more
+    EXPECT_NEAR(hold.slip, r * hold.turn,
+                1e-5);  // the distance that the fingers rolled, and nothing more
     EXPECT_GT(hold.sag, -1e-6);
 }
 
@@ -116,7 +118,7 @@ TEST_P(Skills, ABlockChangesHandsWithoutFalling) {
     EXPECT_LT(found[0].slip, 1e-6);
     EXPECT_LT(found[1].least_slip, 1e-6);
     EXPECT_LT(found[2].slip, 1e-6);
-    // its weight goes onto the springs of the other hand, and of its coupling
+    // the block's weight passes to the springs of the other hand and of its coupling
     double before = 0;
     double after = 0;
     recording::RawLogReader log(session + "/raw.log");
@@ -134,7 +136,7 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].kind, EpisodeKind::hold);
     EXPECT_LT(found[0].slip, 1e-4);
-    // level, and tilted by 10 degrees and what the weight turns it
+    // level, and tilted by 10 degrees; the weight turns it in addition
     for (const double when : {2.9, 4.9}) {
         recording::RawLogReader log(session + "/raw.log");
         const servo::Frame* frame = log.next();
@@ -144,7 +146,7 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
         EXPECT_NEAR(torque.y() / (0.1 * kGravity * distance), 1, 0.005) << when;
         EXPECT_LT(std::hypot(torque.x(), torque.z()), 1e-4);
         EXPECT_NEAR(frame->fingers[0].f_sent_W.z() / (-0.1 * kGravity), 1, 0.005);
-        // it takes the hand, 1 N*m/rad, and the coupling, 1 N*m/rad, along
+        // the torque turns the hand, 1 N*m/rad, and the coupling, 1 N*m/rad
         const double tilt = rotation_vector(frame->fingers[0].R_WP).y();
         const double script = when > 4 ? 10 * std::numbers::pi / 180 : 0;
         EXPECT_NEAR(tilt - script, 2 * torque.y(), 1e-3);

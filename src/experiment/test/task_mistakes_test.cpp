@@ -1,4 +1,4 @@
-// Every mistake that a task's file can have, and what is said of it.
+// Tests the error message for every mistake that a task's file can have.
 #include <gtest/gtest.h>
 
 #include "experiment/test/reaches.h"

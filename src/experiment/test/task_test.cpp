@@ -1,4 +1,4 @@
-// Tasks: states and what ends them, perturbations in the file, sessions that go on.
+// Tests tasks: states and their exits, perturbations in the file, sessions that are resumed.
 #include "experiment/task.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ analysis::SessionFigures finish(const RunResult& result) {
     return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
 }
 
-/// The plan with some of its trials only, as a session in `out`.
+/// Runs the plan with only some of its trials, as a session in `out`.
 RunResult run_some(Plan& plan, const std::shared_ptr<const TaskPlan>& some,
                    const std::string& out) {
     plan.task = some;
@@ -54,7 +54,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
     const auto number = column(result.folder, "trial_num");
     for (size_t i = 0; i < 9; ++i) EXPECT_EQ(number[i], std::to_string(i + 1));
-    // the hand of the file does not adapt
+    // the file's hand does not adapt
     const auto hand = column(result.folder, "hand_angle_deg");
     const auto shown = column(result.folder, "shown_angle_deg");
     for (size_t i = 0; i < 9; ++i) {
@@ -77,7 +77,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
 TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     Files files;
     files.replace("perturb: clamp", "perturb: channel");
-    // a hand that goes astray: 10 mm to the side
+    // the hand goes astray, 10 mm to the side
     files.replace("hand: [{ duration_s: 0.2, reach: target }]",
                   "hand: [{ duration_s: 0.2, reach: target, move_mm: [10, 10, 0] }]");
     const Plan plan = make_plan(files.request());
@@ -118,7 +118,7 @@ std::vector<servo::BodyFrame> fall_through(const std::string& field) {
     std::vector<servo::BodyFrame> out;
     recording::RawLogReader log(result.folder + "/raw.log");
     while (const servo::Frame* frame = log.next()) {
-        // in its last tick nothing is perturbed any more
+        // in the trial's last tick nothing is perturbed any more
         if (frame->trial == 1 && frame->task.outcome < 0) out.push_back(frame->bodies[1]);
     }
     EXPECT_GT(out.size(), 190u);
@@ -129,12 +129,12 @@ constexpr double kMass = 0.1;
 constexpr double kGravity = 9.81;
 
 TEST(Task, ABodyFallsThroughAViscousFieldTowardItsTerminalVelocity) {
-    const double b = 1;  // terminal after some 0.1 s
+    const double b = 1;  // reaches terminal velocity after about 0.1 s
     double t = 0;
     for (const servo::BodyFrame& block : fall_through("kind: viscous, damping_Ns_m: 1")) {
         t += 1e-3;
         const double closed = -kMass * kGravity / b * (1 - std::exp(-b * t / kMass));
-        EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // a step is 10 mm/s at first
+        EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // a tick changes v by 10 mm/s at first
         EXPECT_NEAR(block.v_WB.x(), 0, 1e-12);
     }
 }
@@ -241,7 +241,7 @@ TEST(Task, ConditionsPutObjectsInPlacesOfTheirOwn) {
 
 TEST(Task, ASimulatedHandThatStaysInTheWayDoesNotFillTheDisk) {
     Files files;
-    // where the first trial ends, a block is put for the second
+    // the block of the second trial is put where the hand is at the end of the first
     files.replace("    - name: far\n",
                   "    - name: far\n      places: [{ body: block, position_mm: [50, 0, 120] }]\n");
     files.replace("    - { name: before, kind: baseline, repeats: 1 }\n",
@@ -259,7 +259,7 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
     const RunResult whole = files.run(plan);
     finish(whole);
     for (const int ticks : {5, 700, 1234, 2000}) {
-        // what a kill leaves: a log that is cut
+        // a killed session leaves a log that is cut off
         const RunResult cut = files.run(make_plan(files.request()));
         recording::RawLogReader all(cut.folder + "/raw.log");
         const recording::LogHead head = all.head();
@@ -335,7 +335,8 @@ TEST(Task, AKeyEndsAState) {
     EXPECT_EQ(plan.task->outcomes.at(static_cast<size_t>(std::max(0, outcome))).name, "reached");
 }
 
-/// A director of these files' task, asked tick by tick: one finger over a block that is not home.
+/// A director of these files' task, called tick by tick: one finger is where the block belongs, and
+/// the block is elsewhere.
 struct Asked {
     explicit Asked(Files& files) : plan(make_plan(files.request())) {
         last.fingers.resize(1);
@@ -409,7 +410,7 @@ TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
     const servo::Commands& skipped = asked.tick();
     EXPECT_EQ(skipped.trial, 1);
     EXPECT_EQ(skipped.task.outcome, asked.plan.task->skipped);
-    EXPECT_NE(skipped.phase, kBetween);  // whose frames are no trial's
+    EXPECT_NE(skipped.phase, kBetween);  // frames between trials belong to no trial
     EXPECT_EQ(asked.tick().trial, 2);
 }
 
@@ -420,7 +421,7 @@ TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
     request.participant = "S02";
     Plan plan = make_plan(request);
     const auto some = std::make_shared<TaskPlan>(*plan.task);
-    // the beginning of each block of the first two rounds
+    // keeps the beginning of each block of the first two rounds
     std::erase_if(some->trials, [](const Trial& trial) {
         return trial.number > 8 || trial.in_block > (trial.block == 1 ? 8 : 2);
     });
@@ -464,7 +465,7 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
         const Vec3 a = (block.v_WB - v) / 1e-3;
         v = block.v_WB;
         if (frame->phase != 3) continue;
-        // what the fingers' contacts do is m a, with the m of each axis, and the same weight
+        // the fingers' contact forces are m a, with the m of each axis, less the unchanged weight
         Vec3 force = Vec3::Zero();
         for (const servo::FingerFrame& finger : frame->fingers) force -= finger.f_contact_W;
         const bool heavy = !frame->task.properties.empty();

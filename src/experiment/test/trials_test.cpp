@@ -1,4 +1,4 @@
-// The order of trials, and which are done again.
+// Tests the order of trials, and which are done again.
 #include "experiment/trials.h"
 
 #include <gtest/gtest.h>

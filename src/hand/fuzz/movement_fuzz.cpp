@@ -1,4 +1,4 @@
-// Any file as a recorded movement; one that is read without errors is repaired, too.
+// Reads any file as a recorded movement, and repairs it if it reads without errors.
 #include "hand/movement.h"
 
 #include "hand/repair.h"
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             const hand::Movement movement = hand::read_movement(file, axes, diagnostics);
             if (!diagnostics.has_errors()) (void)hand::repair(movement);
         } catch (const Error&) {
-            // said with file, line and remedy: as it should be
+            // reported with file, line and remedy, as it should be
         }
     }
     return 0;

@@ -33,7 +33,7 @@ TEST(Movement, TurnsAxesThatHaveYUp) {
     EXPECT_LT((m.frames[0].p_WH[0] - Vec3(p.x(), -p.z(), p.y())).norm(), 1e-6);
 }
 
-// every way in which one line of a file may be damaged
+// one way in which a line of a file may be damaged, and what is reported of it
 struct Damage {
     const char* what;
     std::vector<std::string> (*apply)(std::vector<std::string> lines);
@@ -214,7 +214,7 @@ const std::vector<Damage> kDamages{
 };
 INSTANTIATE_TEST_SUITE_P(Movement, DamagedMovement, ::testing::ValuesIn(kDamages));
 
-/// What is said of a file that is no table of a movement at all: it is said once.
+/// Files that are no table of a movement at all: a single message says so.
 class NoMovement : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 TEST_P(NoMovement, IsRefusedInOneMessage) {
     const auto& [text, says] = GetParam();

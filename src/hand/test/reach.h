@@ -1,4 +1,4 @@
-// A recorded reach without a fault, as a file that tests damage.
+// A recorded reach without faults, as a file for tests to damage.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace dihaptic::hand {
 
 constexpr double kFrame = 1.0 / 85;
 
-/// Thumb and index go 30 cm out, open to 80 mm, close to 40 mm, wait, and come back.
+/// Thumb and index move 30 cm out, open to 80 mm, close to 40 mm, wait, and come back.
 struct Reach {
     static Vec3 at(int finger, double t) {
         const double there =
@@ -26,7 +26,7 @@ struct Reach {
     }
 };
 
-/// The reach as a CSV, a line of text a frame.
+/// The reach as CSV, one line per frame, the header first.
 inline std::vector<std::string> reach_lines() {
     std::vector<std::string> lines{
         "time_ms,thumb_x_mm,thumb_y_mm,thumb_z_mm,index_x_mm,index_y_mm,index_z_mm,occluded"};

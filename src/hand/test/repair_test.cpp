@@ -1,4 +1,4 @@
-// What becomes of a recorded movement: mended, its grasp found, followed.
+// Tests of recorded movements as they are repaired, searched for their grasp, and followed.
 #include "hand/repair.h"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTick = 1e-3;
 
-/// The first tick in which it chatters; -1: in none of a second.
+/// The first tick in which a force chatters; -1 if it does not within a second.
 int chatters_at(const std::function<double(int tick)>& force, double h = kTick) {
     Chatter chatter;
     for (int i = 0; i < 1 / h; ++i) {

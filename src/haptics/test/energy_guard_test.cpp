@@ -13,7 +13,7 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr double kStiffness = 1000;  // [N/m]
 
-/// One tick along x. Returns what the guard adds [N].
+/// Does one tick along x; returns what the guard adds [N].
 double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double force,
              unsigned& flags) {
     const double stored = kStiffness / 2 * (p_P - p_H) * (p_P - p_H);
@@ -23,7 +23,7 @@ double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double forc
         .force.x();
 }
 
-/// A handle and a proxy along x, and the coupling's force on the handle.
+/// Moves a handle and a proxy along x, with the coupling's force on the handle.
 struct Motion {
     EnergyGuard guard{EnergyGuardMode::warn};
     unsigned flags = 0;
@@ -31,8 +31,8 @@ struct Motion {
     void tick(double p_H, double v_H, double p_P, double force) {
         watch(guard, p_H, v_H, p_P, force, flags);
     }
-    /// The handle goes `depth` into a wall at x = 0, and out again, by a sine of 20 Hz, for
-    /// `cycles`; its damping is c. Returns the sum of the squares of its steps inside.
+    /// Takes the handle `depth` into a wall at x = 0 and out again, as a sine of 20 Hz, for
+    /// `cycles`, with damping c. Returns the sum of the squares of its steps inside.
     double press(double c, double depth, int cycles) {
         const double w = 2 * std::numbers::pi * 20;
         double squares = 0;
@@ -49,7 +49,7 @@ struct Motion {
 };
 
 TEST(EnergyGuard, SeesWhatTheHoldOfASampleGenerates) {
-    // kStiffness / 2 times the square of each step (README.md): no damper takes it
+    // kStiffness / 2 times the square of each step (README.md), as no damper takes it
     Motion run;
     const double squares = run.press(0, 0.004, 1);
     EXPECT_NEAR(run.guard.generated(), kStiffness / 2 * squares, 0.06 * kStiffness / 2 * squares);
@@ -75,7 +75,7 @@ TEST(EnergyGuard, LetsAHandRestHoldAndCarry) {
 }
 
 TEST(EnergyGuard, LetsBodiesGiveWhatTheyHave) {
-    // a heavy body carries the hand along at 1 m/s against 4 N of its own: 4 J, all its own
+    // a heavy body carries the hand along at 1 m/s against a force of 4 N: 4 J, all the body's own
     Motion run;
     for (int i = 0; i < 1000; ++i) run.tick(i * kTick, 1, i * kTick + 0.004, 4);
     EXPECT_LT(run.guard.generated(), 1e-12);
@@ -105,8 +105,8 @@ TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
 }
 
 TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
-    // the proxy slides at 1 m/s, the hand comes on at 2: friction takes the harder push a tick
-    // before the hand feels it, 20 mJ in 20 ticks, and keeps them
+    // the proxy slides at 1 m/s, the hand follows at 2 m/s: friction takes the harder push a tick
+    // before the hand feels it, 20 mJ in 20 ticks, and keeps that energy
     const auto strain = [](Motion& run, double c) {
         for (int i = 0; i <= 20; ++i) {
             const double stretch = -1.0 * kTick * i;
@@ -121,8 +121,8 @@ TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
 }
 
 TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
-    // a wedged proxy slips out from a stretch of 150 mm, and is caught again before it is at home;
-    // the hand is still pushed in that tick
+    // a wedged proxy slips out from a stretch of 150 mm and is caught again before its spring is
+    // relaxed; the hand is still pushed in that tick
     Motion run;
     for (int i = 0; i < 10; ++i) run.tick(0, 0, 0.15, 170);
     run.tick(0.001, 0, 0.15, 0);
@@ -130,7 +130,8 @@ TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
     for (int i = 0; i < 3; ++i) run.tick(0.001, 0, 0.04, 39);
     EXPECT_LT(run.guard.generated(), 1e-12);
     EXPECT_EQ(run.flags, 0u);
-    // what it did not keep it may not have: it comes home, and is stretched while nobody pays
+    // it may not have energy that it did not keep: it relaxes, and is stretched again without any
+    // work
     run.tick(0.001, 0, 0.001, 0);
     run.tick(0.021, 0, 0.001, 0);
     for (int i = 0; i < 3; ++i) run.tick(0.021, 0, 0.001, -20);
@@ -147,8 +148,8 @@ TEST(EnergyGuard, LetsABodyHitARestingProxy) {
 }
 
 TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
-    // 5 N*s/m take energy for a second; then as much negative damping gives it. With v the mean
-    // square of the speed while in touch, half of the time, it gives c v / 2 a second.
+    // 5 N*s/m take up energy for a second; then as much negative damping gives it. With v the mean
+    // square of the speed while in touch, half of the time, that is c v / 2 per second.
     Motion run;
     const double depth = 0.002;
     run.press(5, depth, 20);
@@ -159,13 +160,13 @@ TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
     run.press(-5, depth, cycles);
     EXPECT_NE(run.flags & kEnergyGenerated, 0u) << cycles;
     EXPECT_LT(cycles, 10);
-    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // it only warns
+    EXPECT_EQ(run.flags & kEnergyDamped, 0u);  // the mode is warn
 }
 
 TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
     EnergyGuard guard(EnergyGuardMode::act);
     unsigned flags = 0;
-    // a push of 5 N out of nowhere, in which proxy and wall stand still
+    // a push of 5 N out of nowhere while proxy and wall stand still
     watch(guard, 0, 0.5, 0.005, 5, flags);
     double damper = 0;
     double x = 0;
@@ -176,7 +177,7 @@ TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
     EXPECT_EQ(flags, 0u) << "a body pushed";
     for (int i = 0; i < 40 && flags == 0; ++i) {
         x += 0.5 * kTick;
-        // the force stays though the spring relaxes
+        // the force stays the same although the spring relaxes
         damper = watch(guard, x, 0.5, 0.025, 5, flags);
     }
     EXPECT_EQ(flags, unsigned{kEnergyGenerated} | kEnergyDamped);

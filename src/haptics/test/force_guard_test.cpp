@@ -14,7 +14,7 @@ constexpr double kTick = 1e-3;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(Heating, FallsFromThePeakToTheContinuousForceAsTheClosedFormSays) {
-    // all that is allowed is asked for: then f^2 - f_c^2 decays with tau f_c^2 / f_p^2
+    // with all that is allowed asked for, f^2 - f_c^2 decays with tau f_c^2 / f_p^2
     const double peak = 8.5, continuous = 1.4, tau = 10;
     Heating heating(peak, continuous, tau);
     double last = peak;
@@ -42,7 +42,8 @@ TEST(Heating, NeverCutsWhatCanBeHeldForLong) {
 }
 
 TEST(Heating, BearsMoreForAWhileAndCools) {
-    // 2 N are cut where f_c^2 + (f_p^2 - f_c^2) (1 - q / f_c^2) = 4, q = 4 (1 - exp(-t / tau))
+    // a force of 2 N is cut where f_c^2 + (f_p^2 - f_c^2) (1 - q / f_c^2) = 4, q = 4 (1 - exp(-t /
+    // tau))
     Heating heating(8.5, 1.4, 10);
     int ticks = 0;
     for (; heating.most_force() > 2; ++ticks) heating.add({2, 0, 0}, kTick);
@@ -68,7 +69,7 @@ TEST(WorkspaceWall, PushesInwardInProportionToTheDepth) {
     // damping k h / 2
     EXPECT_NEAR(wall.force({0.102, 0, 0}, {0.4, 0, 0}).x(), -1.1, 1e-12);
     EXPECT_NEAR(wall.force({-0.102, 0, 0}, {-0.4, 0, 0}).x(), 1.1, 1e-12);
-    // never outward, however fast it comes back
+    // never outward, however fast the handle comes back
     EXPECT_EQ(wall.force({0.102, 0, 0}, {-50, 0, 0}).x(), 0);
 }
 
@@ -128,7 +129,7 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
     const Pose X_WD{rotation_xyz({0, 0, std::numbers::pi / 2}), {1, 0, 0}};
     ForceGuard guard({}, {8.5, kInfinite, {{X_WD, Vec3(0.2, 0.1, 0.1)}}}, kTick);
     unsigned flags = 0;
-    // 2 mm beyond D's x, which is the world's y
+    // the handle is 2 mm beyond the box along D's x, which is the world's y
     const Vec3 p_WH(1, 0.102, 0);
     EXPECT_LT((guard.push({p_WH, Vec3::Zero()}, flags) - Vec3(0, -1, 0)).norm(), 1e-12);
     EXPECT_EQ(flags, unsigned{kPushedInward});

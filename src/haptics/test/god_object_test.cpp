@@ -1,5 +1,5 @@
-// The point proxy's place, against geometry: presses on every shape, corners, wedges, moving
-// bodies, and Coulomb's law.
+// Tests the point proxy's position against geometry: presses on every shape, corners, wedges,
+// moving bodies, and Coulomb's law.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -12,7 +12,7 @@
 namespace dihaptic::haptics::god_object_test {
 namespace {
 
-/// Fixed or moved by the test, with one point among them.
+/// Bodies that are fixed or moved by the test, and one point among them.
 struct Room {
     std::vector<scene::Body> bodies;
     std::vector<dynamics::BodyState> states;
@@ -36,12 +36,12 @@ struct Room {
         point->follow(p_WH, states);
         return point->position();
     }
-    /// Straight there, in steps of 0.1 mm.
+    /// Goes straight there, in steps of 0.1 mm.
     void go(const Vec3& from, const Vec3& to) {
         const int steps = std::max(1, static_cast<int>((to - from).norm() / 1e-4));
         for (int i = 1; i <= steps; ++i) follow(from + (to - from) * i / steps);
     }
-    /// How far the point is inside any body [m].
+    /// Depth of the point inside any body [m].
     double depth() const {
         double deepest = 0;
         for (size_t i = 0; i < bodies.size(); ++i) {
@@ -54,9 +54,10 @@ struct Room {
 
 class EveryShape : public ::testing::TestWithParam<int> {};
 
-/// Ten thousand straight ways through a shape, from outside, in strides of up to 8 mm. The point
-/// stays outside; what holds it back points out of the shape; and while the handle's foot on the
-/// face that it came through is on that face, the point is there, however thin the shape.
+/// Takes the handle ten thousand straight ways through a shape, from outside, in strides of up to 8
+/// mm. The point stays outside; what holds it back points out of the shape; and while the handle's
+/// foot on the face that the point came through is on that face, the point is there, however thin
+/// the shape.
 TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -89,7 +90,8 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
             const Vec3 foot =
                 next - surface.distance(entered, next) * surface.normal(entered, next);
             const bool flat = surface.bent_part(entered, foot, Vec3::UnitX()).isZero(0);
-            // near its middle a round shape lets the point around to the other side, in a few ticks
+            // near its centre a round shape lets the point around to the other side within a few
+            // ticks
             const bool shallow =
                 flat || surface.distance(entered, next) > -0.6 * surface.bend_radius();
             if (shallow && force.norm() > 1e-6) {
@@ -126,14 +128,15 @@ TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
 }
 
 TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
-    // 1 mm from the edge; 5 mm below the top, the side is nearer, but it came through the top
+    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but it came through the
+    // top
     Room room;
     room.add(scene::Shape::box({0.04, 0.04, 0.04}));
     room.start({0.019, 0, 0.025});
     room.go({0.019, 0, 0.025}, {0.019, 0, 0.010});
     EXPECT_LT((room.point->position() - Vec3(0.019, 0, 0.02)).norm(), 1e-9);
     EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitZ()).norm(), 1e-12);
-    // over the edge it comes free, and back in through the side it is the side that is felt
+    // over the edge it comes free, and on the way back in it is the side that is felt
     room.go({0.019, 0, 0.010}, {0.022, 0, 0.010});
     EXPECT_TRUE(room.point->contacts().empty());
     room.go({0.022, 0, 0.010}, {0.012, 0, 0.010});
@@ -152,7 +155,7 @@ TEST(GodObject, PushingThroughAThinWedgeIsFeltOutThroughTheFaceItCameBy) {
     EXPECT_LT((force.normalized() - n).norm(), 1e-6);
     EXPECT_GT(force.norm(), 0.008);  // deeper than the wedge is thick
     EXPECT_LT(room.depth(), kOnSurface);
-    // a blow through it in a single tick
+    // a stroke through it in a single tick
     room.start(above);
     room.follow({0.015, 0.003, -0.02});
     EXPECT_LT((room.point->position() - Vec3(0.015, 0.003, -0.02)).normalized().cross(n).norm(),
@@ -183,7 +186,7 @@ TEST(GodObject, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
 }
 
 TEST(GodObject, ANotchBetweenTiltedWallsIsExact) {
-    // two half spaces that meet at 60 degrees along y: forces are those of the wedge
+    // two half-spaces that meet at 60 degrees along y: the forces are those of the wedge
     Room room;
     const double third = std::numbers::pi / 3;
     room.add(round(scene::ShapeKind::plane, 0, 0), {rotation_xyz({0, third, 0}), Vec3::Zero()});
@@ -198,7 +201,7 @@ TEST(GodObject, ANotchBetweenTiltedWallsIsExact) {
 }
 
 TEST(GodObject, AMovingBodyPushesIt) {
-    // a box comes from the left at 0.5 m/s, the handle stands still
+    // a box comes from the left at 0.5 m/s while the handle stands still
     Room room;
     room.add(scene::Shape::box({0.02, 0.04, 0.04}), {Quat::Identity(), {-0.03, 0, 0}});
     room.start({0, 0.005, 0});
@@ -213,7 +216,7 @@ TEST(GodObject, AMovingBodyPushesIt) {
 }
 
 TEST(GodObject, AFastThinBodyDoesNotPassThroughIt) {
-    // a plate of 1 mm that goes 20 mm in a tick
+    // a plate of 1 mm that moves 20 mm in a tick
     Room room;
     room.add(scene::Shape::box({0.001, 0.04, 0.04}), {Quat::Identity(), {-0.01, 0, 0}});
     room.start({0, 0.005, 0});
@@ -224,7 +227,7 @@ TEST(GodObject, AFastThinBodyDoesNotPassThroughIt) {
 }
 
 TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
-    // stuck to a turntable: it turns with it to the bit, while the handle turns with both
+    // stuck to a turntable, the point turns with it to the bit, while the handle turns with both
     Room room;
     room.add(round(scene::ShapeKind::cylinder, 0.05, 0.02), {Quat::Identity(), {0, 0, -0.01}});
     room.start({0.03, 0, 0.001}, 2.0);
@@ -232,7 +235,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
     for (int i = 1; i <= 2000; ++i) {
         const Quat R = rotation_xyz({0, 0, i * 1e-3});
         room.states[0].X_WB.R = R;
-        // it lags by 4 mm: within the cone, of 2 x 3 mm
+        // the handle lags by 4 mm: within the cone, of 2 x 3 mm
         room.follow(R * Vec3(0.03, -0.004, -0.003));
     }
     const Quat R = rotation_xyz({0, 0, 2.0});
@@ -241,7 +244,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
 }
 
 TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
-    // in the corner of a box and a plate that fly off as one, turning on the way
+    // in the corner of a box and a plate that fly off together, turning on the way
     Room room;
     room.skin = kSkin;
     room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
@@ -287,7 +290,7 @@ TEST(GodObject, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     room.follow({0.00161, 0, -0.002});
     EXPECT_TRUE(room.point->sliding());
     EXPECT_NEAR(room.point->position().x(), 0.00161 - 0.0008, 1e-9);
-    // it slides on behind the handle, and rests when that stops
+    // it slides on behind the handle, and rests when the handle stops
     room.go({0.00161, 0, -0.002}, {0.01, 0, -0.002});
     EXPECT_NEAR(room.point->position().x(), 0.01 - 0.0008, 1e-9);
     EXPECT_NEAR(room.point->held().norm(), 0.0008, 1e-9);
@@ -340,7 +343,7 @@ TEST(GodObject, WhatItStartsInsideOfIsFeltOnceItHasLeft) {
 }
 
 TEST(GodObject, RandomRoomsAreNeverEntered) {
-    // bodies of every kind drift and turn through each other's neighbourhood, apart from each other
+    // bodies of every kind drift and turn near each other, without touching
     Random random(12, "test");
     for (int trial = 0; trial < 40; ++trial) {
         Room room;
@@ -402,7 +405,7 @@ TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
         for (const double step : {0.0, 4e-9, -4e-9, 5e-8}) {
             {
                 Room room;
-                room.skin = kSkin;  // without, the seam is a crack that a point falls into
+                room.skin = kSkin;  // otherwise the seam is a crack that a point falls into
                 room.add(two_boards(angle, step), {rotation_xyz({0.2, 0.1, 0}), {0.1, 0.2, 0.3}});
                 const auto at = [&](double x, double z) {
                     return Vec3(room.states[0].X_WB *
@@ -421,7 +424,7 @@ TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
     }
 }
 
-/// A cup as parts: a floor and four walls, open at the top.
+/// A tray made of parts: a floor and four walls, open at the top.
 scene::Shape tray() {
     scene::Shape shape;
     shape.kind = scene::ShapeKind::compound;
@@ -451,7 +454,7 @@ TEST(GodObject, RestsInTheCornerOfATrayAndNeverEntersIt) {
               kMicron);
     EXPECT_EQ(room.point->contacts().size(), 3u);
     for (const PointContact& c : room.point->contacts()) EXPECT_EQ(c.body, 0u);
-    // anywhere within the wall's reach, from inside
+    // from inside, anywhere that the walls can hold
     Random random(5, "test");
     for (int i = 0; i < 2000; ++i) {
         const Vec3 h(random.uniform(-0.033, 0.033), random.uniform(-0.033, 0.033),
@@ -476,8 +479,8 @@ TEST(GodObject, FollowsACompoundAllocatingNothing) {
     EXPECT_EQ(guard.count(), 0u);
 }
 
-/// A step leaves a point a micrometre deep in two bodies that it pinches: it stays there, rather
-/// than slip out between them, millimetres away.
+/// When a step leaves a point a micrometre deep in two bodies that pinch it, the point stays there
+/// instead of slipping out between them, millimetres away.
 TEST(Move, LeavesAPointWhereAStepPinchesIt) {
     Room room;
     room.skin = kSkin;
@@ -486,12 +489,12 @@ TEST(Move, LeavesAPointWhereAStepPinchesIt) {
     room.add(scene::Shape::box({0.04, 0.04, 0.02}), {tilted, {0, 0, 0.012}});
     const Vec3 p(0.001, 0, kSkin);
     room.start(p);
-    // closes down on the point until 1 um is missing
+    // the upper body closes on the point until 1 um is missing
     const double low = (tilted * Vec3(0, 0, -0.01 - kSkin)).z();
     room.states[1].X_WB.p.z() = kSkin - 1e-6 - low - p.x() * std::tan(0.002);
     room.point->move(p, room.states);
     EXPECT_LT((room.point->position() - p).norm(), 2e-6);
-    // and is still felt of both
+    // and both bodies are still felt
     const auto met = room.point->obstacles(p, room.states, 1e-3);
     EXPECT_EQ(met.size(), 2u);
     for (const Obstacle& o : met) EXPECT_NEAR(std::abs(o.n_W.z()), 1, 1e-5);

@@ -60,7 +60,7 @@ TEST(Limiter, DropsToZeroAtOnceAndForGoodOnWhatIsNoNumber) {
     }
 }
 
-/// A finger in front of a fixed wall whose face is x = 0, solid beyond.
+/// A finger in front of a fixed wall, solid beyond its face at x = 0.
 struct Scene {
     scene::Finger finger;
     World world;
@@ -167,7 +167,7 @@ TEST(DualSpring, SmoothsTheForceByItsFilter) {
     settings.damping = 0;
     Finger finger(s.finger, s.proxy, settings, 8.5);
     const Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
-    // the proxy stands still for the first force: it is one hundredth of a metre behind
+    // the proxy stands still for the first force, 10 mm behind
     finger.begin_tick(s.world, handle, kStep);
     const Vec3 first = finger.force(s.world, handle, kStep);
     finger.begin_tick(s.world, handle, kStep);
@@ -187,7 +187,7 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
         f = s.tick(finger, {{-0.05, 2 * t * t, 0}, {0, 4 * t, 0}});
     }
     // the proxy's 20 g at 4 m/s^2, through a spring ten times as stiff as the hand's; the damper
-    // adds a little, since the proxy's speed is a step late
+    // adds a little, since the proxy's velocity is a step late
     EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
 }
 
@@ -213,7 +213,7 @@ TEST(VelocityImpulse, IsBoundedByWhatTheHandMayFeel) {
     const double max_force = 2;
     Scene s;
     Finger finger(s.finger, s.proxy, velocity_impulse(k), max_force);
-    // free: far behind a handle that jumped, it comes with max_force at most
+    // in free space: far behind a handle that jumped, it follows with at most max_force
     const double mass = kStep * kStep * k * 1.5;  // h^2 k + h c, c = k h / 2
     double v = 0;
     for (int i = 0; i < 5; ++i) {
@@ -280,13 +280,13 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
     Finger hard(h.finger, h.proxy, settings, 1e3);
     Vec3 last = Vec3::Zero();
     int touches = 0;
-    int ticks = 0;  // of this touch
+    int ticks = 0;  // of the current touch
     for (int i = 0; i < 715; ++i) {
         const Handle handle = there_and_back(i);
         const Vec3 f = s.tick(soft, handle);
         const Vec3 f_hard = h.tick(hard, handle);
-        // share k v h and c v while the handle moves, and the growth of the share at 10 mm; the
-        // dual spring's proxy bounces, and each touch has its own
+        // share times k v h and c v while the handle moves, and the growth of the share at 10 mm;
+        // the dual spring's proxy bounces, and each touch has its own step
         const double step = k * 0.57 * kStep * 1.5 + 0.9 * kStep / time * k * 0.01;
         EXPECT_LT((f - last).norm(), dual ? 2 * step : step) << i;
         last = f;
@@ -298,7 +298,8 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
         if ((i > 200 && i < 300) || i > 700) {
             EXPECT_NEAR(f.x() / f_hard.x(), 1, 1e-9);
         } else if (ticks > 2 && !dual) {
-            // once the proxy stands, the wall gets what the handle feels: its mass is shared, too
+            // once the proxy stands still, the wall gets what the handle feels: the mass is shared,
+            // too
             EXPECT_NEAR(soft.touch().normal_force, -f.x(), 1e-6) << i;
         }
     }

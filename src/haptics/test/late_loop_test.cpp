@@ -8,8 +8,8 @@
 namespace dihaptic::haptics::late_loop_test {
 namespace {
 
-/// Whether a handle of 75 g in a hand of k_h and b_h that presses a wall of stiffness k with 1.5 N
-/// comes to rest after a push of 1 mm, with a tick every T seconds, and the wall's damper k h / 2.
+/// Whether a handle of 75 g in a hand of k_h and b_h, which presses a wall of stiffness k with
+/// damper k h / 2 at 1.5 N, comes to rest after a push of 1 mm, with a tick every T seconds.
 bool comes_to_rest(double k, double T, double k_h, double b_h) {
     constexpr double kTick = 1e-3;
     constexpr double kStep = 1e-4;
@@ -97,7 +97,7 @@ TEST(LateLoop, SoftensOnceAsTwice) {
 TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     const Vec3 last(-2, 0, 0);
     const double k = 200;
-    // 1 mm deeper along x, into what pushes back along -x
+    // the handle goes 1 mm deeper along x, against a force along -x
     const Vec3 deeper(1e-3, 0, 0);
     const auto bounded = [&](double asked) {
         return bound_rise({-asked, 0, 0}, last, deeper, k, 0.01).x();
@@ -106,13 +106,13 @@ TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     EXPECT_EQ(bounded(2.1), -2.1);
     EXPECT_EQ(bounded(0.3), -0.3);
     EXPECT_EQ(bound_rise(Vec3::Zero(), last, deeper, k, 0.01), Vec3::Zero());
-    // on its way out the bound falls with the same spring, and so gives nothing more than it took
+    // on the way out the bound falls as the same spring does, and so gives no more than it took
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -deeper, k, 0.01).x(), -(2 - 0.2 + 0.01));
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -50 * deeper, k, 0.01).x(), -0.01);
 }
 
 TEST(BoundRise, IsForTheWayInWhichTheForceActs) {
-    // what acted to the other side, or across, is no force to go on from
+    // a force that acted the other way, or across, is no force to go on from
     EXPECT_DOUBLE_EQ(bound_rise({3, 0, 0}, {-2, 0, 0}, Vec3::Zero(), 200, 0.01).x(), 0.01);
     EXPECT_DOUBLE_EQ(bound_rise({0, 3, 0}, {-2, 0, 0}, {0, -1e-3, 0}, 200, 0.01).y(), 0.21);
     const Vec3 turned = bound_rise({0, 2, 2}, {0, 2, 0}, Vec3::Zero(), 200, 0);

@@ -49,7 +49,7 @@ TEST_P(BadReading, FaultsAndLeavesTheHandleWhereItWasForGood) {
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
     Fault again;
     handle =
-        guard.accept(moving(11), FaultKind::none, kTick, again);  // good once more, and too late
+        guard.accept(moving(11), FaultKind::none, kTick, again);  // good once more, but too late
     EXPECT_FALSE(again);
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
             FaultKind::device_fault}));
 
 TEST(HandleGuard, AllowsTheDistanceOfTheTimeThatPassed) {
-    // a pause is another rule's business: after 30 ms at 1 m/s the handle is 30 mm further
+    // pauses are judged elsewhere: after 30 ms at 1 m/s the handle is 30 mm further
     HandleGuard guard(2);
     Fault fault;
     guard.accept(moving(0), FaultKind::none, 0, fault);
@@ -121,7 +121,7 @@ TEST(Fault, SaysWhatWhichWhenAndWhatToDo) {
         const std::string text = describe({kind, 0, when}, "thumb", "Premium 1.0");
         EXPECT_NE(text.find("thumb"), std::string::npos) << text;
     }
-    // a text that cannot be made would throw just when force goes off
+    // a text that cannot be formatted would throw just when force goes off
     for (int i = 1; i <= static_cast<int>(FaultKind::stopped); ++i) {
         for (const int device : {-1, 0}) {
             const Fault fault{static_cast<FaultKind>(i), device, when, 2, 1};

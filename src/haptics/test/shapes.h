@@ -1,4 +1,4 @@
-// The shapes that points are pressed against, for tests.
+// Shapes that tests press points against.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,8 @@ inline scene::Shape mesh(const std::vector<Vec3>& points) {
     return shape;
 }
 
-/// 40 mm long along y, 30 mm wide at its foot x = 0, 2 mm thick there, sharp at x = 30 mm.
+/// A wedge 40 mm long along y, 30 mm wide from its foot at x = 0, where it is 2 mm thick, to its
+/// sharp edge at x = 30 mm.
 inline scene::Shape thin_wedge() {
     return mesh({{0, -0.02, 0.001},
                  {0, 0.02, 0.001},
@@ -56,7 +57,7 @@ inline Press random_press(Random& random, scene::ShapeKind kind) {
     return press;
 }
 
-/// One of kShapes.
+/// Number of test shapes; shape(i) is one of them.
 constexpr int kShapes = 7;
 inline scene::Shape shape(int i) {
     Random random(77, "test");

@@ -1,5 +1,5 @@
-// A point whose friction is solved with the dynamics: what god_object_test.cpp asks of a point on
-// surfaces, and mechanics.
+// Tests a point whose friction is solved with the dynamics: what god_object_test.cpp tests for
+// points on surfaces, and mechanics.
 #include "haptics/solved_point.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ struct Room {
         handle = {p, Vec3::Zero()};
         finger->place(*world, handle);
     }
-    /// One tick with the handle at p; the force that it feels.
+    /// Does one tick with the handle at p; returns the force that the handle feels.
     Vec3 follow(const Vec3& p) {
         handle.v_WH = (p - handle.p_WH) / kTick;
         handle.p_WH = p;
@@ -82,7 +82,7 @@ struct Room {
         for (int i = 1; i <= steps; ++i) f = follow(from + (to - from) * i / steps);
         return f;
     }
-    /// Until all is at rest.
+    /// Waits n ticks, until everything is at rest; returns the force.
     Vec3 wait(int n = 300) {
         Vec3 f = Vec3::Zero();
         for (int i = 0; i < n; ++i) f = follow(handle.p_WH);
@@ -103,8 +103,8 @@ struct Room {
 class EveryShapeSolved : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, EveryShapeSolved, ::testing::Range(0, kShapes), shape_name);
 
-/// As EveryShape's in god_object_test.cpp: ten thousand straight ways through a shape, in strides
-/// of up to 8 mm.
+/// As EveryShape in god_object_test.cpp: takes the handle ten thousand straight ways through a
+/// shape, in strides of up to 8 mm.
 TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -136,7 +136,8 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
                 continue;
             }
             ++pressed;
-            // straight out of the body, which is convex, from where the point was
+            // the force leads straight out of the body, which is convex, from where the point was
+            // away from it
             inward += surface.separation(before + 1e-3 * force_B.normalized()) < 0.999e-3;
             const Vec3 n = surface.normal(entered, before);
             const Vec3 foot =
@@ -170,7 +171,7 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
     const double depth = 0.01 + kSkin;
     EXPECT_LT((room.wait() - Vec3(0, 0, 1000 * depth)).norm(), 1e-6);
     EXPECT_LT((room.position() - Vec3(0.019, 0, 0.02 + kSkin)).norm(), 1e-8);
-    // over the edge it comes free, and back in through the side it is the side that is felt
+    // over the edge it comes free, and on the way back in it is the side that is felt
     room.go({0.022, 0, 0.010});
     EXPECT_EQ(room.wait(), Vec3::Zero());
     room.go({0.012, 0, 0.010});
@@ -209,7 +210,7 @@ TEST(SolvedPoint, ThreeWallsOfARoomsCornerHoldItInTheCorner) {
 }
 
 TEST(SolvedPoint, ATurntableCarriesItAround) {
-    // stuck to a disc that turns freely: pulled along a circle, the point turns the disc with it
+    // stuck to a disc that turns freely and pulled along a circle, the point turns the disc with it
     Room room;
     scene::Body& disc = room.add(round(scene::ShapeKind::cylinder, 0.05, 0.02), {0, 0, -0.01});
     disc.fixed = false;
@@ -228,7 +229,7 @@ TEST(SolvedPoint, ATurntableCarriesItAround) {
 }
 
 TEST(SolvedPoint, AFallingPlateIsCaughtAndItsWeightFelt) {
-    // 200 g, free to move up and down, falls on a point that waits
+    // a plate of 200 g that can only move up and down falls on a point that waits
     Room room;
     room.scene.gravity = {0, 0, -9.81};
     scene::Body& plate = room.add(scene::Shape::box({0.05, 0.05, 0.002}), {0, 0, 0.02});
@@ -249,9 +250,9 @@ TEST(SolvedPoint, AFallingPlateIsCaughtAndItsWeightFelt) {
 }
 
 TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
-    // 2 mm deep: static friction 0.8 holds 1.6 N, dynamic friction 0.5 of it 0.8 N
+    // at a depth of 2 mm static friction of 0.8 holds 1.6 N, dynamic friction of 0.5 of it 0.8 N
     Room room;
-    room.add(round(scene::ShapeKind::plane, 0, 0)).friction = 0.64;  // of the pair: 0.8
+    room.add(round(scene::ShapeKind::plane, 0, 0)).friction = 0.64;  // 0.8 for the pair
     room.proxy.sliding_friction = 0.5;
     room.start({0, 0, 0.001});
     room.go({0, 0, -0.002 + kSkin});
@@ -260,7 +261,7 @@ TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
     EXPECT_LT(room.position().head<2>().norm(), 1e-7);
     const Vec3 f = room.go({0.02, 0, -0.002 + kSkin});
     EXPECT_NEAR(f.x() / f.z(), -0.4, 1e-6);
-    // it rests, and sticks again up to the static cone
+    // it comes to rest, and sticks again up to the static cone
     room.wait();
     const double rest = room.position().x();
     room.go({rest + 0.00155, 0, -0.002 + kSkin}, 1e-5);
@@ -268,7 +269,7 @@ TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
 }
 
 TEST(SolvedPoint, BetweenStepsOfTheWorldTheForceIsThatOfTheHandle) {
-    // steps every 10 ticks; a wall that the handle meets between two steps
+    // the world steps every 10 ticks; the handle meets a wall between two steps
     Room room;
     room.dynamics.every = 10;
     room.coupling.damping = 0;
@@ -280,7 +281,7 @@ TEST(SolvedPoint, BetweenStepsOfTheWorldTheForceIsThatOfTheHandle) {
         const double f = room.follow(h).z();
         EXPECT_NEAR(f, std::max(0.0, 1000 * (kSkin - h.z())), 1e-6) << i;
     }
-    // stuck, the spring across stays in the cone at every tick
+    // while it sticks, the spring along the surface stays in the cone in every tick
     for (int i = 0; i < 100; ++i) {
         const Vec3 f = room.follow(room.handle.p_WH + Vec3(2e-4, 0, 0));
         EXPECT_LE(f.head<2>().norm(), f.z() * (1 + 1e-9)) << i;
@@ -302,7 +303,7 @@ TEST(SolvedPoint, ASurfaceThatIsPressedTooHardYieldsUntilThePointHasLeftIt) {
         room.go({0, 0, -0.02}, 1e-5);
         EXPECT_EQ(room.wait(), Vec3::Zero());
         EXPECT_LT((room.position() - Vec3(0, 0, -0.02)).norm(), 1e-9);
-        // what lies beyond is felt; and the box again, once the point has been outside of it
+        // bodies beyond are felt, and the box again once the point has been outside it
         room.go({0, 0, -0.041}, 1e-5);
         EXPECT_NEAR(room.wait().z(), 1 + 1000 * kSkin, 1e-3);
         room.go({0.03, 0, -0.035}, 1e-5);

@@ -1,12 +1,12 @@
-// Stops that a bar along x lies between.
+// Two stops for a bar along x.
 #pragma once
 
 #include "scene/scene.h"
 
 namespace dihaptic::haptics {
 
-/// Blocks 1 um above one end and below the other: a bar of 0.2 x 0.02 x 0.01 m does not turn about
-/// +y, which would take its end at +x down.
+/// Two blocks, 1 um above one end of a bar of 0.2 x 0.02 x 0.01 m and below the other: they keep
+/// the bar from turning about +y, which would take its end at +x down.
 inline scene::Scene stops() {
     scene::Scene out;
     for (const int side : {-1, 1}) {

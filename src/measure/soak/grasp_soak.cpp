@@ -1,8 +1,9 @@
-// A million consecutive solves of grasps that differ in all that an experiment may vary: how often
-// a solver hands over, and whether anything ever misses.
+// Solves grasps that differ in everything that an experiment may vary, a million solves in a row,
+// to count how often a solver falls back to another, and whether a solve ever misses its tolerance.
 //
-// Where newton starts again (kNewtonStarts) was chosen on the first family, so that one says how
-// well it was chosen; the others judge. Their seeds and ranges were fixed before they were run.
+// The points where newton starts again (kNewtonStarts) were chosen on the first family, so that
+// family shows how well they were chosen; the others judge them. Their seeds and ranges were fixed
+// before they were run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,9 +15,9 @@ namespace dihaptic::measure {
 namespace {
 
 enum class Family {
-    chosen_on,    ///< what newton's starts were chosen on
-    other_seed,   ///< the same ranges, other draws
-    other_grips,  ///< squeezed from 2 to 30 mm, in gusts, by fingers that are further off
+    chosen_on,    ///< the grasps on which newton's starts were chosen
+    other_seed,   ///< other draws from the same ranges
+    other_grips,  ///< squeezed by 2 to 30 mm, in gusts, by fingers that are further off centre
 };
 constexpr auto enum_names(Family) {
     return std::array{"chosen_on", "other_seed", "other_grips"};
@@ -57,7 +58,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
     const dynamics::Solver solver = GetParam().solver;
     Random random = scenes();
     int64_t solves = 0;
-    int64_t fallbacks = 0;  // of newton; of the others, those with up to 12 contacts
+    int64_t fallbacks = 0;  // with newton all; with other solvers those with up to 12 contacts
     int64_t missed = 0;
     int64_t not_finite = 0;
     std::array<int64_t, enum_names(contact::Route{}).size()> routes{};

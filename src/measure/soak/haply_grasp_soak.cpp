@@ -1,5 +1,5 @@
-// The whole of `dihaptic bench grasp` on Inverse3 devices behind a fake service, beside the same
-// simulated devices reached directly.
+// Compares the whole of `dihaptic bench grasp` on Inverse3 devices behind a fake service with the
+// same simulated devices used directly.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

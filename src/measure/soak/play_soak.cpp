@@ -1,4 +1,4 @@
-// Ten minutes of play with every solver.
+// Tests ten minutes of play with every solver.
 #include "measure/test/bars.h"
 #include "measure/test/play.h"
 

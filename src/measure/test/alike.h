@@ -1,4 +1,4 @@
-// Whether two runs of a bench gave the same figures.
+// Compares the figures of two runs of a bench.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 
 namespace dihaptic::measure {
 
-/// Every number of both, under the same names. Below a thousandth, of whatever unit the bench
-/// prints, figures are as good as zero.
+/// Expects the same numbers under the same names. Figures below a thousandth, in the unit that the
+/// bench prints, count as zero.
 inline void expect_alike(const nlohmann::json& a, const nlohmann::json& b,
                          const std::string& name) {
     ASSERT_EQ(a.type(), b.type()) << name;

@@ -1,5 +1,5 @@
-// The figures that the project claims for the default coupling, as bars for each solver: for tests
-// and soaks.
+// Bars for the figures that the project claims for the default coupling, for each solver; tests and
+// soaks use them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,12 +13,12 @@
 
 namespace dihaptic::measure {
 
-/// A solver's name, for tests that have it as their parameter.
+/// A solver's name, for tests with the solver as their parameter.
 inline std::string solver_name(const ::testing::TestParamInfo<dynamics::Solver>& which) {
     return std::string(enum_name(which.param));
 }
 
-/// What a finger may slip while it holds [mm]. An exact answer sticks to rounding; Bullet's
+/// Largest slip of a finger while it holds [mm]. An exact solution sticks up to rounding; Bullet's
 /// iterations end near it.
 inline double slip_bar(dynamics::Solver solver, Fingering fingering) {
     switch (solver) {
@@ -32,12 +32,12 @@ inline double slip_bar(dynamics::Solver solver, Fingering fingering) {
     }
     return 0;
 }
-/// The same during the lift [mm].
+/// Largest slip of a finger during the lift [mm].
 inline double lift_slip_bar(dynamics::Solver solver, Fingering fingering) {
     return solver == dynamics::Solver::sequential_impulse ? 0.01 : slip_bar(solver, fingering);
 }
 
-/// The stiffest hold that is asked for, more than the bench's table has.
+/// Expects the stiffest hold that is claimed, beyond the bench's table.
 inline void expect_held_at_6000(BenchSetup setup) {
     setup.settings.coupling.stiffness = 6000;
     for (const Fingering fingering : {Fingering::ideal, Fingering::real, Fingering::off_centre}) {
@@ -92,16 +92,16 @@ inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind 
     }
 }
 
-/// A block of `share` of the weight that the grip can carry in closed form, 2 mu F / g: held and
-/// calm, or dropped.
+/// Expects that a block of this mass is held calmly or dropped, by the mass that the grip can carry
+/// in closed form, 2 mu F / g.
 inline void expect_hold_as_friction_says(dynamics::Solver solver, double friction, double mass) {
     BenchSetup setup;
     setup.settings.dynamics.solver = solver;
     setup.settings.coupling.stiffness = 1000;
     setup.friction = friction;
     setup.mass = mass;
-    // a hand gives way under a heavy block, and bobs: it rises by so much more, and slowly enough
-    // for "never 1 mm lower" to be about the grip
+    // a hand gives way under a heavy block, and bobs: it rises higher by that much, and so slowly
+    // that "never 1 mm lower" tests the grip
     setup.rise_time = 2;
     const double load = mass * 9.81 / 2;
     setup.lift += model::series_spring_stretch(load, setup.impedance.stiffness, 1000);
@@ -135,7 +135,7 @@ inline void expect_bars_of_friction(dynamics::Solver solver) {
     EXPECT_TRUE(figures.arch_drift_mm);
     EXPECT_LT(figures.creep_mm, 0.001);
     if (solver == dynamics::Solver::sequential_impulse) {
-        // improving on this is other work; losing it would be a fault: README has 0.14
+        // guards against getting worse: README has 0.14
         EXPECT_LT(figures.stack_drift_mm, 0.2);
     } else {
         EXPECT_LE(figures.stack_drift_mm, 0.01);

@@ -1,4 +1,4 @@
-// The bars of the default solver and of Bullet's; the others' are a soak.
+// Tests the bars of the default solver and of Bullet's; a soak tests those of the others.
 #include "measure/test/bars.h"
 
 namespace dihaptic::measure::bars_test {
@@ -13,8 +13,8 @@ TEST_P(GraspBars, AreReached) {
     expect_bars_of_grasp(GetParam());
 }
 
-/// At the ends of 0.3 to 1.2, on both sides of what the grip can carry, and the lightest block; all
-/// solvers and the grid between are a soak.
+/// Friction at the ends of 0.3 to 1.2, masses on both sides of what the grip can carry, and the
+/// lightest block; a soak has all solvers and the grid between.
 TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
     for (const double friction : {0.3, 1.2}) {
         const auto [held, dropped] = held_and_dropped(friction);

@@ -1,4 +1,4 @@
-// `bench contact`: other simulators' problems, and files that are none.
+// Tests `bench contact` on other simulators' problems, and on files that are not usable.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using testing::TemporaryFolder;
 
-/// Figures of one solver on all problems with up to so many contacts; every file must be usable.
+/// Figures of one solver on all problems with up to `most_contacts`; every file must be usable.
 std::vector<ContactFigures> measure_all(const std::string& folder, contact::Solver solver,
                                         int most_contacts,
                                         const contact::PolygonSettings& polygon = {}) {
@@ -48,8 +48,8 @@ TEST(BenchContact, StaggeredProjectionsSolveUpToSixtyContacts) {
         EXPECT_LE(f.residual, 1e-8) << f.file;
 }
 
-/// How many of the problems stewart_trinkle answers by means of its own, to its own problem's
-/// residual and, where directions follow friction, to Coulomb's as well.
+/// Number of the problems that stewart_trinkle solves without fallback, to the residual of its own
+/// problem and, where directions follow friction, also to Coulomb's.
 int answered_by_its_own_means(const std::string& folder, contact::DirectionFrame frame) {
     int count = 0;
     for (const ContactFigures& f :
@@ -93,7 +93,7 @@ TEST(BenchContact, SolvesTheProblemThatCarriesASolution) {
     }
 }
 
-/// A file of one contact, 1 kg of a point mass on a plane, with as much of it wrong as a test asks.
+/// A file of one contact, a point mass of 1 kg on a plane, with the mistakes that a test wants.
 struct Small {
     std::vector<double> q{-1, 0, 0};
     std::vector<double> mu{0.5};
@@ -126,7 +126,7 @@ struct Small {
     }
 };
 
-/// What is said of a file; "" when it can be used.
+/// The error for a file; "" if it can be used.
 std::string fault(const std::string& file) {
     try {
         read_contact_file(file);
@@ -241,7 +241,7 @@ TEST(BenchContact, GoesOnAfterABadFile) {
         contact_files({folder.path(), folder.file("gone.hdf5")}, diagnostics);
     const std::vector<ContactFigures> figures = bench_contact(files, {}, diagnostics, {});
     EXPECT_EQ(diagnostics.problems().size(), 2u);
-    ASSERT_GE(figures.size(), 3u);  // and peers, where they are installed
+    ASSERT_GE(figures.size(), 3u);  // more with peers, in builds that have them
     for (const ContactFigures& f : figures) {
         EXPECT_EQ(f.file, folder.file("good.hdf5"));
         EXPECT_LE(f.residual, 1e-8) << f.solver;

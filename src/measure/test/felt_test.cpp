@@ -1,4 +1,4 @@
-// What one finger feels, against mechanics.
+// Tests what one finger feels against mechanics.
 #include <gtest/gtest.h>
 
 #include "measure/grasp.h"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-/// With either kind of proxy, and a point's friction in the step and apart.
+/// Both kinds of proxy; a point's friction either together with the dynamics or apart.
 enum class Way { rigid, together, apart };
 class Felt : public ::testing::TestWithParam<Way> {
   protected:
@@ -41,13 +41,13 @@ TEST_P(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     double last_ratio = 0;
     bench.run([&](const servo::Frame& frame) {
         const Vec3 v = frame.bodies[1].v_WB;
-        // what a point apart does to the block acts in the next step
+        // with friction apart, a point's force acts on the block in the next step
         const double now = -frame.fingers[0].f_sent_W.x();
         const double force = apart() ? force_before : now;
         force_before = now;
         const double expected = setup.mass * (v.x() - v_before.x()) / setup.settings.tick() +
                                 setup.friction * setup.mass * kGravity;
-        // while it is pushed and slides; the first ticks of touch bring it from rest to speed
+        // only while the block is pushed and slides; the first ticks of touch accelerate it
         if (v.x() > 0.05 && v_before.x() > 0.05 && force > 0.1) {
             EXPECT_NEAR(force / expected, 1, 0.01) << seconds(frame.time);
             last_ratio = force / expected;
@@ -106,8 +106,8 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     Bench bench(scene, hand, setup);
     bench.run([&](const servo::Frame& frame) {
         const servo::FingerFrame& f = frame.fingers[0];
-        // nothing but the proxy's own gram, at the peak acceleration of minimum jerk over 0.2 m in
-        // 1 s; a point weighs nothing
+        // only the inertia of the proxy's own gram, at the peak acceleration of minimum jerk over
+        // 0.2 m in 1 s; a point has no mass
         const double drag = point() ? 1e-12 : 1.02 * scene.fingers[0].mass * 5.774 * 0.2;
         EXPECT_LT(f.f_sent_W.head<2>().norm(), drag);
         const double radius = point() ? haptics::kSkin : 0.008;
@@ -117,7 +117,7 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     });
 }
 
-/// Touching, leaving and moving freely, at every stiffness and speed.
+/// Expects clean touching, leaving and free motion, at every stiffness and speed.
 void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffnesses) {
     for (const double k : stiffnesses) {
         for (const double speed : {0.1, 0.3, 0.5}) {
@@ -132,7 +132,7 @@ void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffness
     EXPECT_EQ(measure_drag(setup), 0);
 }
 
-/// A slow ramp takes the peak of a fast touch down, and adds no step and no pull.
+/// A slow onset lowers the peak of a fast touch, and adds no step and no pull.
 TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
     setup.settings.coupling.onset = 0.1;
     for (const double k : {1000.0, 2000.0}) {
@@ -174,7 +174,7 @@ TEST_P(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
 }
 
 TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
-    // 6 mm deep at 1000 N/m, static friction 0.5, dynamic friction 0.6 of it
+    // 6 mm deep at 1000 N/m, static friction 0.5, sliding friction 0.6 of it
     setup.settings.proxy.sliding_friction = 0.6;
     scene::Scene scene;
     scene::Body plane;
@@ -189,7 +189,7 @@ TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
     finger.shape = scene::Shape::sphere(0.008);
     scene.fingers = {finger};
     hand::HandSpec hand;
-    hand.impedance.stiffness = 3000;  // against the hand's own stick and slip
+    hand.impedance.stiffness = 3000;  // so stiff that the hand itself does not stick and slip
     hand.centre = {0, 0, 0.01};
     hand.script = {{"press", 1, {}, {0, 0, -0.018}, false}, {"slide", 2, {}, {0.1, 0, 0}, true}};
     Bench bench(scene, hand, setup);

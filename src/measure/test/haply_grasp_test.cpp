@@ -1,6 +1,6 @@
-// The grasp bench on Inverse3 devices. Messages carry numbers to the last bit and cost no tick, so
+// Tests the grasp bench on Inverse3 devices. Messages carry numbers exactly and cost no tick, so
 // the figures are those of the devices behind the service; but a run begins with a message of its
-// own, so that the hand, its tremor and all, is a tick further.
+// own, so that the hand, with its tremor, is a tick ahead.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST_P(HaplyGrasp, HasTheFiguresOfTheSimulatedDevices) {
     expect_near(haply.hf_force_n, simulated.hf_force_n);
     expect_near(haply.weight_ratio, simulated.weight_ratio);
     expect_near(haply.grip_ratio, simulated.grip_ratio);
-    EXPECT_GT(service->received().size(), 9000u);  // that they came this way
+    EXPECT_GT(service->received().size(), 9000u);  // the figures came this way
 }
 INSTANTIATE_TEST_SUITE_P(Bench, HaplyGrasp, ::testing::Values(Fingering::ideal, Fingering::real));
 

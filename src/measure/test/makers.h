@@ -1,4 +1,4 @@
-// The benches' plant with a maker's library (our fake of it) between servo and simulated device.
+// The benches' plant with a fake of a maker's library between servo and simulated device.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,8 +23,7 @@ inline BenchSetup by_maker(BenchSetup setup, const std::string& backend) {
     return setup;
 }
 
-/// To 1 %; what is as good as nothing is that in both: `nothing` is a thousandth of what it takes
-/// to be seen or felt.
+/// Expects values that agree to 1 % or to `nothing`, a thousandth of what can be seen or felt.
 inline void expect_alike(double a, double b, double nothing) {
     EXPECT_NEAR(a, b, std::max(0.01 * std::abs(a), nothing));
 }

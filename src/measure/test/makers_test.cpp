@@ -1,4 +1,4 @@
-// bench grasp through the makers' libraries (our fakes of them): the same figures as on the
+// Tests that bench grasp through fakes of the makers' libraries gives the same figures as on the
 // simulated devices themselves.
 #include "measure/test/makers.h"
 

@@ -1,6 +1,6 @@
 // Play: the simulated hand pushes, pinches, shakes, tosses and presses at random in a cluttered
-// tray under a lid, and what happens is judged by mechanics of its own: overlaps from the shapes
-// alone, energy from masses, speeds and the forces on the fingers.
+// tray under a lid. The result is judged by independent mechanics: overlaps from the shapes alone,
+// energy from masses, speeds and the forces on the fingers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,9 +21,9 @@
 
 namespace dihaptic::measure {
 
-/// A box, ball or capsule as all points within a radius of a box, of a point, or of a line along z.
+/// A box, ball or capsule, as all points within a radius of a box, a point, or a line along z.
 struct Rounded {
-    Vec3 half = Vec3::Zero();  ///< of the box [m]
+    Vec3 half = Vec3::Zero();  ///< half extents of the box [m]
     double radius = 0;         ///< [m]
 
     static Rounded of(const scene::Shape& shape) {
@@ -39,17 +39,17 @@ struct Rounded {
     double reach() const { return half.norm() + radius; }
 };
 
-/// Distance of a point from a box; inside: minus the way out [m].
+/// Distance of a point from a box; inside, minus the shortest way out [m].
 inline double box_distance(const Vec3& half, const Vec3& p) {
     const Vec3 beyond = p.cwiseAbs() - half;
     return beyond.cwiseMax(0).norm() + std::min(0.0, beyond.maxCoeff());
 }
 
-/// How deep two shapes overlap; negative: apart [m].
+/// Depth of the overlap of two shapes; negative if they are apart [m].
 inline double overlap(const Rounded& a, const Pose& X_WA, const Rounded& b, const Pose& X_WB) {
     if (a.radius == 0 && b.radius == 0) return box_overlap(a.half, X_WA, b.half, X_WB);
     if (a.radius == 0) return overlap(b, X_WB, a, X_WA);
-    // a is a line along its z: its distance to b's core is convex along it
+    // a is a line along its z, and its distance to b's core is convex along that line
     const Pose X_BA = X_WB.inverse() * X_WA;
     const auto distance = [&](double z) { return box_distance(b.half, X_BA * Vec3(0, 0, z)); };
     double low = -a.half.z();
@@ -84,25 +84,25 @@ class Player final : public hand::Driver {
     double start_ = 0;
 };
 
-/// What is wrong with a play, and how near it came.
+/// What went wrong in a play, and how near it came to going wrong.
 struct PlayReport {
     double deepest = 0;  ///< largest overlap of any two bodies [m]
     std::string deepest_pair;
     double deepest_at = 0;        ///< [s]
-    double largest_force = 0;     ///< sent [N]
-    double largest_change = 0;    ///< of a force, from tick to tick [N]
-    double fastest = 0;           ///< object [m/s]
-    double hand_work = 0;         ///< most that the fingers gave to objects, losses included [J]
-    double energy_made = 0;       ///< by which the objects' energy rose more than that, summed [J]
-    double energy_made_once = 0;  ///< most of it in a tick [J]
-    uint32_t status = 0;          ///< all bits
-    int64_t missed = 0;           ///< ticks whose solve was missed
+    double largest_force = 0;     ///< largest force sent [N]
+    double largest_change = 0;    ///< largest change of a force from tick to tick [N]
+    double fastest = 0;           ///< largest speed of an object [m/s]
+    double hand_work = 0;         ///< most work that the fingers gave to objects, with losses [J]
+    double energy_made = 0;       ///< rise of the objects' energy beyond that, summed [J]
+    double energy_made_once = 0;  ///< most of that in one tick [J]
+    uint32_t status = 0;          ///< all status bits that occurred
+    int64_t missed = 0;           ///< ticks in which the solver missed its tolerance
     int64_t fallbacks = 0;
-    int64_t held = 0;    ///< ticks in which both fingers pressed one object, off everything else
+    int64_t held = 0;    ///< ticks in which only the two fingers pressed an object
     int64_t flying = 0;  ///< ticks in which an object touched nothing
     int64_t ticks = 0;
-    int lost = 0;           ///< objects that left the tray at any time
-    int64_t generated = 0;  ///< ticks in which the energy guard had something to say
+    int lost = 0;           ///< number of objects that left the tray at any time
+    int64_t generated = 0;  ///< ticks in which the energy guard reported something
 };
 
 class Play {
@@ -146,9 +146,9 @@ class Play {
   private:
     static inline const std::vector<std::string> kFingers{"thumb", "index"};
     static constexpr size_t kFixed = 7;
-    static constexpr double kHalfX = 0.16;  // of the tray [m]
-    static constexpr double kHalfY = 0.12;
-    static constexpr double kWall = 0.5;  // its height [m]
+    static constexpr double kHalfX = 0.16;  // half width of the tray [m]
+    static constexpr double kHalfY = 0.12;  // half depth of the tray [m]
+    static constexpr double kWall = 0.5;    // height of its walls [m]
 
     static bool in_tray(const Vec3& p) {
         return std::abs(p.x()) < kHalfX && std::abs(p.y()) < kHalfY && p.z() > 0 && p.z() < kWall;
@@ -162,7 +162,7 @@ class Play {
             scene_.bodies.push_back(body);
         };
         fixed("floor", {0.6, 0.5, 0.02}, {0, 0, -0.01});
-        // some tosses rise higher than any wall: what leaves went through one
+        // some tosses rise higher than any wall; with a lid, an object that leaves went through one
         fixed("lid", {0.6, 0.5, 0.02}, {0, 0, kWall + 0.01});
         fixed("left wall", {0.01, 0.3, kWall}, {-kHalfX - 0.005, 0, kWall / 2});
         fixed("right wall", {0.01, 0.3, kWall}, {kHalfX + 0.005, 0, kWall / 2});
@@ -178,7 +178,7 @@ class Play {
             } else {
                 body.shape = scene::Shape::box({size(), size(), size()});
             }
-            // however they are turned, apart: the largest reaches 39 mm
+            // apart in any orientation: the largest reaches 39 mm
             body.position = {-0.11 + 0.055 * (i % 5), i < 5 ? -0.06 : 0.07, 0.11 + 0.08 * (i % 2)};
             body.rotation = {pick(-1, 1), pick(-1, 1), pick(-3, 3)};
             body.mass = std::pow(10, pick(-2, -0.7));  // 10 to 200 g
@@ -202,7 +202,7 @@ class Play {
         }
     }
 
-    /// The next thing to do, from where the hand is.
+    /// Plans the hand's next action, from where it is.
     void plan(double now) {
         hand::HandSpec spec;
         spec.centre = centre_;
@@ -212,7 +212,7 @@ class Play {
         const auto step = [&](const Vec3& to, double duration, double aperture, double turn = 0,
                               const Vec3& end_velocity = Vec3::Zero()) {
             hand::ScriptStep& s = spec.script.emplace_back();
-            // fingers push at walls and floor as hard as the devices can answer, and hardly harder
+            // fingers push at walls and floor about as hard as the devices can render
             const Vec3 most(kHalfX - 0.025, kHalfY - 0.025, 0.4);
             const Vec3 least(-most.x(), -most.y(), -0.02);
             const Vec3 goal = to.cwiseMin(most).cwiseMax(least);
@@ -246,7 +246,7 @@ class Play {
                 step({centre_.x(), centre_.y(), 0}, pick(0.08, 0.3), aperture_);
                 step(centre_, 0.1, 0.06);
             }
-        } else if (kind < 0.75) {  // push, into what is there and the walls
+        } else if (kind < 0.75) {  // push, into other objects and the walls
             const double angle = pick(-3.1, 3.1);
             const Vec3 way(std::cos(angle), std::sin(angle), 0);
             step({centre_.x(), centre_.y(), 0.08}, 0.15, 0.03);
@@ -265,7 +265,7 @@ class Play {
         player_.go_on(std::make_unique<hand::ScriptDriver>(spec, kFingers), now);
     }
 
-    /// Where one is that can be reached.
+    /// Position of an object within reach.
     Vec3 some_object() {
         for (int i = 0; servo_ && i < 20; ++i) {
             const auto which =
@@ -314,7 +314,7 @@ class Play {
         }
         for (size_t a = 0; a < X_WB.size(); ++a) {
             for (size_t b = std::max(a + 1, kFixed); b < X_WB.size(); ++b) {
-                // a point meets the scene's bodies, not other fingers
+                // a point proxy touches the scene's bodies, not other fingers
                 if (a >= bodies && has_point_) continue;
                 if ((X_WB[a].p - X_WB[b].p).norm() > shapes_[a].reach() + shapes_[b].reach())
                     continue;
@@ -328,8 +328,8 @@ class Play {
                 out.deepest_pair = name(a) + " and " + name(b);
             }
         }
-        // with J a step's impulse on an object where the finger has the speed v: objects gain J . v
-        // at most, since the end of a step is when contact's law holds
+        // with J a step's impulse on an object where the finger has the velocity v, objects gain at
+        // most J . v, since the law of contact holds at the end of a step
         double work = 0;
         std::vector<char> touched(bodies, 0);
         std::vector<int> fingers_on(bodies, 0);
@@ -363,9 +363,9 @@ class Play {
     Random random_;
     bool has_point_;
     scene::Scene scene_;
-    std::vector<Rounded> shapes_;  // of the bodies, then of the fingers
+    std::vector<Rounded> shapes_;  // shapes of the bodies, then of the fingers
     std::vector<Mat3> inertia_;    // by body, in B
-    std::vector<bool> left_;       // the tray, by body
+    std::vector<bool> left_;       // by body: it left the tray
     Vec3 centre_{0, 0, 0.15};
     double aperture_ = 0.09;
     double yaw_ = 0;
@@ -375,8 +375,8 @@ class Play {
     std::optional<double> energy_;
 };
 
-/// Plays for `time` [s] with the energy guard armed, and expects that nothing was wrong and that
-/// the guard had nothing to say.
+/// Plays for `time` [s] with the energy guard armed, and expects that nothing went wrong and that
+/// the guard reported nothing.
 inline PlayReport expect_harmless_play(dynamics::Solver solver, uint64_t seed, double time,
                                        scene::ProxyKind index = scene::ProxyKind::rigid) {
     servo::Settings settings;

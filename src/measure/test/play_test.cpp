@@ -1,4 +1,4 @@
-// A few seconds of play with every solver; src/measure/soak/play_soak.cpp has ten minutes.
+// Tests a few seconds of play with every solver; src/measure/soak/play_soak.cpp has ten minutes.
 #include "measure/test/play.h"
 
 #include "measure/test/bars.h"
@@ -22,7 +22,7 @@ TEST(Overlap, OfShapesWhoseDepthIsKnown) {
     EXPECT_NEAR(overlap(ball, here, cube, at(corner, corner, corner)), 0.001, 1e-12);
     EXPECT_NEAR(overlap(ball, at(0.019, 0, 0.015), capsule, here), 0.001, 1e-9);
     EXPECT_NEAR(overlap(capsule, at(0.019, 0, 0.01), capsule, here), 0.001, 1e-9);
-    // its line comes nearest to the cube's edge at its end
+    // the capsule's line comes nearest to the cube's edge at its end
     EXPECT_NEAR(overlap(capsule, at(0.026, 0, 0.048), cube, here), 0.01 - std::hypot(0.006, 0.008),
                 1e-9);
 }

@@ -1,4 +1,4 @@
-// Ours and the peers of this build: the same scenes, forces and poses.
+// Tests that our simulator and the peers in this build treat scenes, forces and poses alike.
 #include <gtest/gtest.h>
 
 #include "measure/friction.h"
@@ -48,7 +48,7 @@ TEST(Simulators, LetStonesFallByTheirOwnFrames) {
 
 TEST(Simulators, HoldABlockThatIsPinchedHardEnough) {
     for (const Simulator& simulator : all()) {
-        // soft contacts of default MuJoCo let the pads through
+        // MuJoCo's contacts are so soft by default that the pads go through
         if (simulator.name == "mujoco") continue;
         SCOPED_TRACE(simulator.name);
         Trial trial = pinch_trial();

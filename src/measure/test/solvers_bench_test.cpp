@@ -1,4 +1,4 @@
-// `bench solvers`, with few solves: that it measures what it says, not how long anything takes.
+// Tests with few solves that `bench solvers` measures what it says; it tests no times.
 #include <gtest/gtest.h>
 
 #include "measure/bullet_problem.h"

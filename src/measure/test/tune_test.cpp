@@ -7,7 +7,7 @@ namespace {
 
 const std::vector<std::string> kFingers{"thumb", "index"};
 
-/// A short search: one row about where the ideal plant's margin ends.
+/// A short search: one row, around the stiffness at which the ideal plant's margin ends.
 TuneSetup small_search() {
     TuneSetup setup =
         tune_setup(rig::simulated_rig(kFingers), kFingers, servo::Settings{}, hand::Impedance{});
@@ -27,7 +27,7 @@ TEST(Tune, ProposesWhatIsCalmUnderEveryBurdenAndNoMuchStiffer) {
     TunePoint proposal = *searched().proposal;
     EXPECT_TRUE(proposal.calm_with_margin());
     EXPECT_GT(proposal.k, 1300);
-    // the bench says so, too, and that 1.5 times the stiffness is too much for one of them
+    // the bench agrees, and 1.5 times the stiffness is too much under one of the burdens
     int too_much = 0;
     for (const Burden burden :
          {Burden::none, Burden::delay, Burden::light, Burden::loose, Burden::firm}) {

@@ -80,7 +80,7 @@ TEST(TwoRate, RecoversSpontaneouslyTowardWhatWasLearnedFirst) {
     const auto x = compensation(kSmith2006, rotation_schedule());
     EXPECT_LT(x[240], 0);
     EXPECT_GT(*std::max_element(x.begin() + 240, x.end()), 5);
-    // a single rate has nothing to recover from
+    // with a single rate there is no spontaneous recovery
     const auto single = compensation(SingleRate{0.99, 0.1}, rotation_schedule());
     for (size_t n = 241; n < single.size(); ++n)
         EXPECT_LE(std::abs(single[n]), std::abs(single[n - 1]));
@@ -90,7 +90,7 @@ TEST(TwoRate, LearnsFasterAgainAfterBeingTurnedBack) {
     Trials trials;
     add(trials, 160, {30});
     const auto first = compensation(kSmith2006, trials);
-    // turned back until the output is near zero, while the slow state still remembers
+    // turned back until the output is near zero, while the slow state still remembers the rotation
     add(trials, 7, {-30});
     const size_t again = trials.size();
     add(trials, 10, {30});
@@ -105,7 +105,7 @@ TEST(TwoRate, ForgetsALittleInACatchTrialAndAllInALongWashout) {
     add(trials, 1, {0});
     add(trials, 1, {30});
     const auto x = compensation(kSmith2006, trials);
-    // the catch trial's own output is not changed by it; the next trial's is
+    // a catch trial does not change the output in that trial, but in the next
     EXPECT_GT(x[100], x[99]);
     EXPECT_LT(x[101], x[100]);
     add(trials, 400, {0});

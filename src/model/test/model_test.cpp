@@ -62,15 +62,15 @@ std::vector<double> sine(double frequency, double rate, size_t n) {
     return out;
 }
 
-/// Of a sine, from the root mean square of its middle half.
+/// Amplitude of a sine, from the root mean square of its middle half.
 double amplitude(const std::vector<double>& x) {
     double square = 0;
     for (size_t i = x.size() / 4; i < 3 * x.size() / 4; ++i) square += x[i] * x[i];
     return std::sqrt(2 * square / (static_cast<double>(x.size()) / 2));
 }
 
-/// |H|^2 of a second-order Butterworth at a frequency, by the bilinear transform: both passes
-/// together.
+/// |H|^2 of a second-order Butterworth filter made by the bilinear transform: the gain of both
+/// passes together at a frequency.
 double both_passes(double frequency, double cutoff, double rate, bool high) {
     const double ratio =
         std::tan(std::numbers::pi * frequency / rate) / std::tan(std::numbers::pi * cutoff / rate);
@@ -106,7 +106,8 @@ TEST(Grasp, ClosedForms) {
 
 TEST(Grasp, SafetyMargin) {
     const double g = 9.81;
-    // per digit, with a margin of 0.40: sandpaper, suede, silk (Westling and Johansson 1984)
+    // grip force per digit [N] with a margin of 0.40 on sandpaper, suede and silk (Westling and
+    // Johansson 1984)
     const double friction[] = {1.2, 0.7, 0.35};
     const double hold[][3] = {{1.4, 2.3, 4.7}, {2.7, 4.7, 9.3}, {5.4, 9.3, 18.7}};
     const double mass[] = {0.2, 0.4, 0.8};

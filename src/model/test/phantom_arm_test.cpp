@@ -12,7 +12,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 const PhantomLinks kLinks{0.215, 0.17};
 
-/// Allowed joint angles, at random.
+/// Random joint angles within the limits.
 Vec3 some_joints(Random& random) {
     const PhantomLimits& limits = phantom_limits();
     for (;;) {
@@ -24,7 +24,7 @@ Vec3 some_joints(Random& random) {
 
 TEST(PhantomArm, HasItsEndpointAtTheOriginInTheResetPose) {
     EXPECT_EQ(phantom_position(kLinks, Vec3::Zero()), Vec3::Zero());
-    // the turret to the right, the thigh up, the shin out
+    // turret to the right, thigh up, shin toward the person
     EXPECT_GT(phantom_position(kLinks, {0.1, 0, 0}).x(), 0);
     EXPECT_GT(phantom_position(kLinks, {0, 0.1, 0}).y(), 0);
     EXPECT_NEAR(phantom_position(kLinks, {0, 0, 90 * kDegree}).z(), kLinks.shin, 1e-15);
@@ -49,7 +49,7 @@ TEST(PhantomArm, JacobianIsThatOfFiniteDifferences) {
                            phantom_jacobian(kLinks, q - kStep * turning)) /
                           (2 * kStep) * turning;
         EXPECT_LT((phantom_steady_acceleration(kLinks, q, turning) - bent).norm(), 1e-9);
-        // a force's power is that of its joint torques
+        // the power of a force on the endpoint equals that of its joint torques
         const Vec3 f(1, -2, 3), rate(0.3, 0.1, -0.7);
         EXPECT_NEAR((J.transpose() * f).dot(rate), f.dot(J * rate), 1e-15);
     }

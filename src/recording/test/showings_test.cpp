@@ -25,7 +25,7 @@ TEST(Showings, AChangeWasSeenFromTheFirstPictureOnThatIsOfItsTickOrALaterOne) {
     EXPECT_EQ(showings.onset(0, 0), 0.104);
     EXPECT_EQ(showings.onset(100, 0.1), 0.104);
     EXPECT_EQ(showings.onset(101, 0.101), 0.1225);
-    // gone before the next picture, or in it
+    // the change is gone before the next picture, or in it
     EXPECT_TRUE(std::isnan(showings.onset(101, 0.101, 110)));
     EXPECT_EQ(showings.onset(101, 0.101, 117), 0.1225);
     EXPECT_TRUE(std::isnan(showings.onset(117, 0.117)));  // the window was away for seconds

@@ -1,4 +1,5 @@
-// Any file as a mesh, of a kind that its beginning tells: what dihaptic-mesh answers, above all.
+// Reads any file as a mesh, of a format that its beginning tells; above all tests how the answers
+// of dihaptic-mesh are handled.
 #include "scene/mesh.h"
 
 #include <string_view>
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)scene::read_mesh(testing::as_file({data, size}, "mesh." + ending), 1e-3, {});
     } catch (const Error&) {
-        // said with file, line and remedy: as it should be
+        // reported with file, line and remedy, as it should be
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// Any file as a scene.
+// Reads any file as a scene.
 #include "scene/scene.h"
 
 #include "testing/fuzz.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)scene::read_scene(file, diagnostics);
     } catch (const Error&) {
-        // said with file, line and remedy: as it should be
+        // reported with file, line and remedy, as it should be
     }
     return 0;
 }

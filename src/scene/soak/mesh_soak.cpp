@@ -1,4 +1,5 @@
-// Ten thousand damaged meshes: the program survives each, and says of each that it refuses why.
+// Reads ten thousand damaged meshes: the program survives each, and gives a reason for each that it
+// refuses.
 #include <thread>
 
 #include "scene/test/mutated_mesh.h"

@@ -1,4 +1,4 @@
-// Concave meshes and compounds: what they weigh, and how they are cut into convex pieces and kept.
+// Tests of concave meshes and compounds: their weight, and their convex pieces, cut and kept.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An L of 2 x 1 x 1 and 1 x 1 x 1, the second on the first along y.
+/// An L of two boxes, 2 x 1 x 1 and 1 x 1 x 1, the second on top of the first along y.
 constexpr const char* kL =
     "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
     "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\n"
@@ -47,7 +47,7 @@ struct Files {
     std::string kept() const { return folder.file("l.obj.pieces"); }
 };
 
-/// By hand: the two boxes and Steiner's theorem, in cm.
+/// Calculated by hand from the two boxes and the parallel axis theorem, in cm.
 void expect_l(const VolumeIntegrals& l) {
     constexpr double cm = 1e-2;
     EXPECT_NEAR(l.volume, 3 * std::pow(cm, 3), 1e-14);
@@ -78,7 +78,7 @@ TEST(Concave, ThePiecesFillTheMeshAndNoMore) {
     EXPECT_EQ(shape.pieces.hulls.size(), 2u);
     EXPECT_NEAR(volume(shape.pieces.hulls), 3e-6, 1e-12);
     EXPECT_GT(depth(shape, {0.005, 0.015, 0.005}), 0.0049);
-    EXPECT_LT(depth(shape, {0.015, 0.015, 0.005}), -0.0049);  // in the hull, outside of the L
+    EXPECT_LT(depth(shape, {0.015, 0.015, 0.005}), -0.0049);  // in the hull, outside the L
     const Shape boxes = files.read(kCompound);
     EXPECT_NEAR(depth(boxes, {0.005, 0.015, 0.005}), 0.005, 1e-12);
     EXPECT_NEAR(depth(boxes, {0.015, 0.015, 0.005}), -0.005, 1e-12);
@@ -110,14 +110,14 @@ TEST(Concave, PiecesAreKeptAndReadAgain) {
     for (size_t i = 0; i < first.pieces.hulls.size(); ++i)
         EXPECT_EQ(first.pieces.hulls[i].vertices, second.pieces.hulls[i].vertices);
 
-    // another mesh, or another unit, makes others
+    // another mesh, or another unit, makes other pieces
     files.read(std::string(kBody).replace(std::string(kBody).find("cm,"), 2, "mm"));
     EXPECT_NE(testing::read_file(files.kept()), kept);
     files.read(kBody);
     EXPECT_EQ(testing::read_file(files.kept()), kept);
 }
 
-/// A prism over a star: the more teeth, the longer it takes to cut.
+/// A prism over a star; the more teeth it has, the longer it takes to cut.
 std::string star(int teeth) {
     std::string out;
     const int n = 2 * teeth;
@@ -145,7 +145,7 @@ TEST(Concave, ACutThatTakesLongCanBeCancelled) {
     Files files(star(300));
     std::atomic<bool> read{false};
     std::thread user([&] {
-        while (!read) {  // until it has begun
+        while (!read) {  // until the cut has begun
             cancel_cut();
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
@@ -157,7 +157,7 @@ TEST(Concave, ACutThatTakesLongCanBeCancelled) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     EXPECT_NE(files.said().find("was cancelled"), std::string::npos) << files.said();
     EXPECT_FALSE(fs::exists(files.kept()));
-    cancel_cut();  // there is none
+    cancel_cut();  // no cut is going on
 }
 
 TEST(Concave, DamagedPiecesAreCutAnew) {

@@ -1,4 +1,4 @@
-// Meshes are read by a program of its own, which damage may end: what its caller makes of that.
+// Tests of reading meshes through a separate program, which a damaged file may crash.
 #include <sys/stat.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ void expect_refused(const std::string& file, const std::string& why) {
     EXPECT_NE(said.find(why), std::string::npos) << said;
 }
 
-/// Corners of a mesh's triangles, in order [mm].
+/// The corners of a mesh's triangles, in order and in the unit of its file.
 std::vector<Vec3> corners(const Mesh& mesh) {
     std::vector<Vec3> out;
     for (const auto& f : mesh.faces) {
@@ -57,7 +57,7 @@ TEST(MeshReading, GivesTheSameTrianglesInEachFormat) {
 
 TEST(MeshReading, CoordinatesAreTheFilesToTheBit) {
     const testing::TemporaryFolder folder;
-    // single precision, as meshes are exported, then the unit, in double
+    // coordinates are rounded to single precision, as meshes are exported, then scaled in double
     const std::string file =
         folder.write("t.obj",
                      "v 0.1 0 0\nv 1 0 0\nv 0 1.7 0\nv 0 0 12345.678\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
@@ -81,7 +81,7 @@ TEST(MeshReading, ReadsNoOtherFileThatAMeshNames) {
         "f 1 4 3\nf 2 3 4\n";
     const std::string file = folder.write("m.obj", text);
     const std::vector<Vec3> alone = corners(read_mesh(file, 1, {}));
-    ASSERT_EQ(mkfifo(folder.file("m.mtl").c_str(), 0600), 0);  // whoever opens it waits
+    ASSERT_EQ(mkfifo(folder.file("m.mtl").c_str(), 0600), 0);  // opening it would block
     EXPECT_EQ(corners(read_mesh(file, 1, {})), alone);
     fs::remove(folder.file("m.mtl"));
     folder.write("m.mtl", "newmtl a\nnewmtl b\n");
@@ -110,7 +110,7 @@ TEST(MeshReading, SurvivesTwoHundredDamagedFiles) {
     EXPECT_EQ(outcomes.all(), 200);
     EXPECT_GT(outcomes.read, 0) << outcomes.text();
     EXPECT_GT(outcomes.refused, 0) << outcomes.text();
-    EXPECT_GT(outcomes.crashed, 0) << outcomes.text();  // else this tests nothing
+    EXPECT_GT(outcomes.crashed, 0) << outcomes.text();  // otherwise this tests nothing
     for (const std::string& message : outcomes.untold) ADD_FAILURE() << message;
 }
 
@@ -121,7 +121,7 @@ TEST(MeshReading, CanBeCancelled) {
     const std::string file = folder.write("big.obj", big);
     std::atomic<bool> done{false};
     std::thread user([&] {
-        while (!done) {  // until it has begun
+        while (!done) {  // until the reading has begun
             cancel_reading();
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
@@ -130,7 +130,7 @@ TEST(MeshReading, CanBeCancelled) {
     done = true;
     user.join();
     EXPECT_NE(said.find("reading the mesh " + file + " was cancelled"), std::string::npos) << said;
-    cancel_reading();  // there is none
+    cancel_reading();  // no mesh is being read
 }
 
 }  // namespace

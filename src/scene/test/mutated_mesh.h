@@ -1,5 +1,5 @@
-// Meshes as damage leaves them: the shipped ones in each format that is read, with bytes turned,
-// ends cut off, lines lost or doubled, numbers that no mesh has, and heads that promise too much.
+// Damaged meshes for tests: the shipped meshes in each format that can be read, with changed bytes,
+// cut-off ends, lines lost or doubled, impossible numbers, and headers that promise too much.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ struct MeshFile {
     std::string bytes;
 };
 
-/// The value's bytes as they are in memory.
+/// The bytes of a value as they are in memory.
 template <class Value>
 std::string raw(Value value) {
     std::string out(sizeof(Value), '\0');
@@ -59,7 +59,7 @@ inline std::string stl_of(const Mesh& mesh, bool binary) {
     return binary ? out : out + "endsolid t\n";
 }
 
-/// As text, or as binary of this machine's order of bytes or of the other.
+/// A mesh as PLY text, or as binary in either byte order.
 inline std::string ply_of(const Mesh& mesh, const std::string& format) {
     std::string out = fmt::format(
         "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
@@ -83,7 +83,7 @@ inline std::string ply_of(const Mesh& mesh, const std::string& format) {
     return out;
 }
 
-/// The shipped meshes in each way.
+/// The shipped meshes in every format.
 inline std::vector<MeshFile> whole_meshes() {
     std::vector<MeshFile> out;
     for (const char* name : {"cup", "fingertip", "hook", "pad", "spatula", "stone", "stylus"}) {
@@ -98,7 +98,7 @@ inline std::vector<MeshFile> whole_meshes() {
     return out;
 }
 
-/// Damage, by numbers that are the same everywhere.
+/// Damages files; the same number gives the same damage on every machine.
 class Damage {
   public:
     explicit Damage(uint64_t number) : engine_(number) {}
@@ -140,7 +140,7 @@ class Damage {
         }
     }
 
-    /// Doubles a line or takes it away.
+    /// Doubles or removes a line.
     void line(std::string& bytes, bool twice) {
         const size_t from = bytes.find('\n', below(bytes.size()));
         if (from == std::string::npos) return;
@@ -150,7 +150,7 @@ class Damage {
         if (!twice) bytes.erase(from, text.size());
     }
 
-    /// Puts a number that no mesh has in the place of one in the text before `end`.
+    /// Replaces a number in the text before `end` by one that no mesh has.
     void number(std::string& bytes, size_t end) {
         static constexpr std::array kExtreme{
             "1e38", "-1e39", "1e308", "1e-45",      "nan",        "-inf",
@@ -167,7 +167,7 @@ class Damage {
         if (at + 4 <= bytes.size()) bytes.replace(at, 4, raw(kExtreme[below(kExtreme.size())]));
     }
 
-    /// Lies about how many there are.
+    /// Changes a count in the header.
     void head(MeshFile& file) {
         const bool binary_stl = file.ending == ".stl" && !file.bytes.starts_with("solid");
         if (binary_stl) return word(file.bytes, 80);
@@ -178,7 +178,7 @@ class Damage {
     std::mt19937_64 engine_;
 };
 
-/// What became of damaged files.
+/// Numbers of damaged files by outcome.
 struct Outcomes {
     int read = 0;
     int refused = 0;
@@ -187,7 +187,7 @@ struct Outcomes {
     int memory = 0;
     int output = 0;
     double slowest = 0;               ///< [s]
-    std::vector<std::string> untold;  ///< messages that lack the mesh, its place or a remedy
+    std::vector<std::string> untold;  ///< messages that do not name the mesh, its place or a remedy
 
     int all() const { return read + refused + crashed + time + memory + output; }
     void add(const Outcomes& other) {
@@ -227,7 +227,7 @@ inline void count_message(const Problem& problem, const std::string& file, Outco
     }
 }
 
-/// Reads every `stride`th damaged file from `first` to `end`, as a scene does that names it.
+/// Reads every `stride`th damaged file from `first` to `end`, as if a scene named it.
 inline Outcomes read_damaged(const std::vector<MeshFile>& whole, uint64_t first, uint64_t end,
                              uint64_t stride = 1) {
     const testing::TemporaryFolder folder;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Vertices of a box with corners at 0 and size.
+/// Vertices of a box with corners at 0 and `size`.
 std::vector<Vec3> corners(const Vec3& size) {
     std::vector<Vec3> out;
     for (int i = 0; i < 8; ++i)
@@ -38,7 +38,7 @@ TEST(Hull, OfPointsInAPlaneIsEmpty) {
 }
 
 TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
-    // a capsule, as a surface of revolution with many facets
+    // a capsule as a surface of revolution with many facets
     Shape capsule;
     capsule.kind = ShapeKind::capsule;
     capsule.radius = 0.01;
@@ -86,7 +86,7 @@ TEST(PairFriction, IsWhatTheFileSaysOfThePairOrElseTheGeometricMean) {
     EXPECT_EQ(pair_friction(scene, "block", 0, "table", 0.8), 0);
 }
 
-/// A scene with one more line or body, and the messages that reading it gives.
+/// The messages that reading a scene gives.
 std::string problems_of(const std::string& yaml) {
     const testing::TemporaryFolder folder;
     Diagnostics diagnostics;
@@ -307,7 +307,7 @@ INSTANTIATE_TEST_SUITE_P(SceneFile, MeshFormat,
                                            std::pair{"t.ply", kPly}));
 
 TEST(SceneFile, WarnsThatAConcaveMeshBecomesItsHull) {
-    // an L of two boxes, one face shared
+    // an L of two boxes that share a face
     const testing::TemporaryFolder folder;
     folder.write("l.obj",
                  "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"

@@ -1,5 +1,5 @@
-// Whatever part of the loop computes with what is no number, force is zero on all fingers in that
-// very tick, and it is said why.
+// Tests that force is zero on all fingers in the very tick in which any part of the loop computes
+// with a value that is not a number, and that the reason is reported.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,12 +13,12 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Vec3 kEast = Vec3::UnitX();
 
-/// Planted in one tick of a grasp.
+/// A change planted in one tick of a grasp.
 struct Planted {
     const char* name;
-    haptics::FaultKind kind;  ///< none: whichever is met first; what has no effect is none
-    std::function<void(PlantedGrasp&, double)> change;  ///< before the tick
-    std::function<void(Commands&, double)> order;       ///< what the director wants in it
+    haptics::FaultKind kind;  ///< none: whichever comes first, or none without an effect
+    std::function<void(PlantedGrasp&, double)> change;  ///< made before the tick
+    std::function<void(Commands&, double)> order;       ///< ordered by the director in the tick
 };
 
 void read(PlantedGrasp& grasp, const std::function<void(devices::Reading&)>& change) {
@@ -216,7 +216,7 @@ TEST(HugeNumbers, DivergeBeforeTheyOverflow) {
             EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::diverged) << x;
             EXPECT_EQ(grasp.told(), 0);
         }
-        // what is merely absurd is computed with
+        // a value that is merely absurd is computed with
         PlantedGrasp grasp(settings_of(setting));
         grasp.grasp();
         grasp.servo->world().set_velocity({kBlock}, 1e8 * kEast);

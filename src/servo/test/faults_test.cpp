@@ -1,4 +1,4 @@
-// Faults injected at random ticks of a grasp, with devices that fail as real ones do.
+// Injects faults at random ticks of a grasp, with devices that fail as real ones do.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -13,12 +13,12 @@ namespace {
 
 enum class Injected { nan, gone, jump, late };
 
-/// What makes one of a grasp's devices fail at its n-th reading.
+/// Makes one of a grasp's devices fail at its `tick`th reading.
 struct Failure {
     Injected what;
     int tick;
     size_t device;
-    bool sleeps = false;  ///< late: really, for the real clock
+    bool sleeps = false;  ///< for Injected::late: really sleeps, for the real clock
 };
 
 void inject(PlantedGrasp& grasp, const Failure& failure) {
@@ -64,7 +64,7 @@ TEST_P(FaultInjected, TakesAllForceAwayInTheSameTickForGood) {
         inject(grasp, failure);
         const testing::AllocationGuard guard;
         for (int i = 0; i < 900; ++i) {
-            // a pause is seen by the next tick's time
+            // a pause shows in the next tick's time
             const Time pause = GetParam().what == Injected::late && i > tick
                                    ? std::chrono::milliseconds(50)
                                    : std::chrono::milliseconds(0);

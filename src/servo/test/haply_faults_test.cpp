@@ -1,4 +1,4 @@
-// A grasp on two Inverse3 behind a service that fails in the middle of it, on the real clock.
+// Tests a grasp on two Inverse3 whose service fails in the middle of it, on the real clock.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using devices::haply::Mischief;
 using std::chrono::milliseconds;
 
 constexpr int kMessage = 150;  // the fingers have closed
-constexpr int kAfter = 30;     // ticks that are looked at after a fault
+constexpr int kAfter = 30;     // ticks to look at after a fault
 
 struct Case {
     Mischief what;
@@ -23,19 +23,19 @@ struct Case {
     int late_ms = 0;
 };
 
-/// What became of one run.
+/// The outcome of one run.
 struct Outcome {
-    int mischief_tick = -1;  ///< of the service; -1: the run had ended before
+    int mischief_tick = -1;  ///< tick at which the service failed; -1: the run had ended before
     std::vector<FakeService::Forces> felt;
     haptics::Fault fault;
-    int after_fault = 0;  ///< Frames from the fault on
+    int after_fault = 0;  ///< number of Frames from the fault on
     bool force_after_fault = false;
 };
 
 Outcome grasp(const Case& c) {
     const scene::Scene scene = block_on_table();
     hand::HandSpec hand = lifting_hand();
-    hand.script.front().duration = 0.1;  // the less may come between
+    hand.script.front().duration = 0.1;  // short, so that less can come between
     const auto fingers = scene::finger_names(scene);
     const hand::ScriptDriver driver(hand, fingers);
     devices::Context context;
@@ -48,7 +48,7 @@ Outcome grasp(const Case& c) {
     service.misbehave(c.what, kMessage, 1, milliseconds(c.late_ms));
 
     Settings settings;
-    settings.safety.max_pause = 1;  // the machine may be busy, and this is not about it
+    settings.safety.max_pause = 1;  // the machine may be busy, which is not tested here
     settings.safety.hand_damping = 100;
     settings.safety.soft_start = 0;
     const auto configs =
@@ -81,7 +81,7 @@ class HaplyFault : public ::testing::TestWithParam<Case> {};
 
 TEST_P(HaplyFault, LeavesNoForceOnAnyDeviceAndEndsNothingElse) {
     Outcome result;
-    // on a busy machine real pauses may come first, and end the run
+    // on a busy machine a real pause may come first and end the run
     for (int attempt = 0; attempt < 20 && result.mischief_tick < 0; ++attempt)
         result = grasp(GetParam());
     if (result.mischief_tick < 0)

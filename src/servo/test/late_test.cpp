@@ -1,5 +1,5 @@
-// Ticks that come late again and again, in the whole servo: the force on the hand while the
-// coupling is softened, and its end where nothing is held any more.
+// Tests ticks that come late again and again, in the whole servo: the force on the hand while the
+// coupling is softened, and its end when the loop can hold no useful stiffness.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kWanted = 1.5;  // on each finger, of a hand of 300 N/m through 1000 N/m [N]
-constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // of its target [m]
+constexpr double kWanted = 1.5;  // on each finger of a hand of 300 N/m through 1000 N/m [N]
+constexpr double kDepth = kWanted * (1 / 300.0 + 1 / 1000.0);  // of the target beyond contact [m]
 
 /// Thumb and index close on a block, or the thumb presses a wall, from 3 cm off within 1 s.
 struct Hold {
@@ -29,18 +29,19 @@ struct Hold {
     std::unique_ptr<hand::ScriptDriver> driver;
     std::unique_ptr<Servo> servo;
     Time now{0};
-    double most = 0;    ///< force told to any device [N]
-    double last = 0;    ///< the same in the last tick [N]
-    double before = 0;  ///< and in the last but one that was in time [N]
+    double most = 0;    ///< force sent to any device [N]
+    double last = 0;    ///< force sent to any device in the last tick [N]
+    double before = 0;  ///< force in the last tick before the late ones [N]
     uint32_t status = 0;
     double stiffness = 0;
     double softest = std::numeric_limits<double>::infinity();
 
     enum class What { wall, block };
-    /// `backend`: simulated, which passes for real unless `told` says that it tells, or a maker's.
+    /// `backend`: "real" or "simulated" for simulated devices that pass for real or for simulated
+    /// ones, or the name of a manufacturer's backend.
     explicit Hold(What what, const std::string& backend = "real", Settings settings = {}) {
         scene::Scene scene = block_on_table();
-        constexpr double kTouch = 0.0225;  // of a pad's middle
+        constexpr double kTouch = 0.0225;  // x of a pad's centre at contact
         constexpr double kOff = 0.03;
         hand.centre = {0, 0, 0.02};
         hand.aperture = 2 * (kTouch + kOff);
@@ -75,7 +76,7 @@ struct Hold {
             devices::Hand& plant = backend == "openhaptics"
                                        ? devices::openhaptics::fake_hd_as_it_is().hand
                                        : devices::forcedimension::fake_dhd_as_it_is().hand;
-            // by the servo's time, not a period each tick
+            // driven by the servo's time instead of one period each tick
             plant = [this, inner = plant](size_t i, double, const Wrench& acting) {
                 return inner(i, seconds(now), acting);
             };
@@ -95,8 +96,8 @@ struct Hold {
         stiffness = frame.stiffness;
         softest = std::min(softest, stiffness);
     }
-    /// Ticks a millisecond apart, and from `from` on so far, until `end`, as the devices call for
-    /// them; `each` is called after each.
+    /// Ticks until `end`, a millisecond apart up to `from` and `apart` from then on, called by the
+    /// devices if they pace; `each` is called after each tick.
     void run(Time from, Time apart, Time end, const std::function<void()>& each = {}) {
         const auto next = [&] {
             if (now < from) before = last;
@@ -117,8 +118,8 @@ struct Hold {
 struct Case {
     const char* backend;
     Hold::What what;
-    int late;  ///< each tick, by so many ms
-    int from;  ///< on [ms]
+    int late;  ///< lateness of each tick [ms]
+    int from;  ///< when the late ticks begin [ms]
 };
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.backend << (c.what == Hold::What::wall ? " wall " : " block ") << c.late
@@ -156,7 +157,7 @@ TEST_P(KeepsLate, NeverPushesHarderThanWantedAndEndsWhereNothingIsHeld) {
     if (held < 1000) {
         EXPECT_NE(hold.status & kSoftened, 0u);
     }
-    // what is left of the grip: the same target through a softer spring
+    // the grip that remains: the same target through a softer spring
     const double k = hold.stiffness;
     EXPECT_NEAR(hold.last, kDepth * 300 * k / (300 + k), 0.03);
 }
@@ -166,7 +167,7 @@ std::vector<Case> cases() {
     for (const char* backend : {"real", "openhaptics", "forcedimension"}) {
         for (const Hold::What what : {Hold::What::wall, Hold::What::block}) {
             for (const int late : {2, 5, 10, 20, 38}) {
-                // while it is held, in the middle of closing, and from the beginning
+                // late while the block is held, in the middle of closing, and from the beginning
                 for (const int from : {2000, 750, 0}) out.push_back({backend, what, late, from});
             }
         }
@@ -176,10 +177,10 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(Servo, KeepsLate, ::testing::ValuesIn(cases()));
 
 using What = Hold::What;
-constexpr Time kHeld = milliseconds(2000);  // the hand has come to rest long since
+constexpr Time kHeld = milliseconds(2000);  // the hand came to rest long before
 
 TEST(Late, NoneChangesABit) {
-    // as far apart as they are meant to be, and the same on devices that pass for simulated ones
+    // ticks exactly one period apart, on devices that pass for real and for simulated ones
     Hold real(What::block);
     Hold simulated(What::block, "simulated");
     for (int i = 0; i < 2000; ++i, real.now += milliseconds(1), simulated.now += milliseconds(1)) {
@@ -226,7 +227,7 @@ TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
 }
 
 TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
-    // as long as its ticks come at the same times
+    // provided that its ticks come at the same times
     Settings settings;
     settings.coupling.damping = 2;
     Hold hold(What::block, "real", settings);
@@ -234,7 +235,7 @@ TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
     double softest = 1000;
     Time now{0};
     for (int i = 0; i < 2500; ++i) {
-        // in time, late in turn with ticks in time, all late, and in time again
+        // in time, alternately late and in time, all late, and in time again
         now += milliseconds(i < 500 ? 1 : i < 900 ? 1 + 12 * (i % 2) : i < 1200 ? 13 : 1);
         const Frame& frame = hold.servo->tick(now, {});
         const haptics::Tuning in_force{haptics::CouplingKind::implicit, frame.stiffness,
@@ -269,7 +270,7 @@ TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
     EXPECT_EQ(hold.softest, 1000);
     EXPECT_NE(hold.status & kLate, 0u);
     EXPECT_EQ(hold.status & (kForceOff | kSoftened), 0u);
-    // and below max_pause
+    // late below max_pause is no fault either
     Settings settings;
     settings.safety.hand_damping = 1;
     Hold often(What::wall, "simulated", settings);
@@ -285,7 +286,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     settings.safety.max_late = 3e-3;
     Hold hold(What::wall, "real", settings);
     hold.run(kHeld, milliseconds(1), kHeld);
-    hold.now += milliseconds(3);  // and 1 ms that run() had added
+    hold.now += milliseconds(3);  // in addition to the 1 ms that run() has added
     hold.tick();
     EXPECT_FALSE(hold.servo->fault());
     EXPECT_GT(hold.last, 1);
@@ -295,7 +296,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     EXPECT_EQ(hold.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_NEAR(hold.servo->fault().value, 4e-3, 1e-9);
     EXPECT_EQ(hold.servo->fault().limit, 3e-3);
-    // a wake-up that was late, of a tick that has the time at which it was due
+    // a late wake-up of a tick whose time is the one at which it was due
     Hold woken(What::wall, "real", settings);
     woken.run(kHeld, milliseconds(1), kHeld);
     woken.servo->note_timing(2.9e-3, 1e-5, false);

@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Ticks of a millisecond, some of them late.
+/// A loop with a period of one millisecond, some of whose ticks are late.
 struct Loop {
     Lateness late{milliseconds(1)};
     Time now{0};
@@ -39,7 +39,7 @@ TEST(Lateness, ForgivesASinglePause) {
     for (int i = 0; i < 2000; ++i) {
         EXPECT_EQ(loop.late.sustained(), 0);
         loop.tick(milliseconds(1));
-        // it is forgotten after a fifth of a second
+        // the late tick is forgotten after a fifth of a second
         EXPECT_EQ(loop.late.expected() > 0, i < 216) << i;
     }
 }
@@ -54,7 +54,7 @@ TEST(Lateness, OfTicksThatAreAllLateIsTheirsWithinASecondAndAHalf) {
             EXPECT_LE(last, loop.late.sustained() * (1 + 1e-9));
             last = loop.late.sustained();
         }
-        // late by more than half a period; all but one tick of the window
+        // all ticks are late by more than half a period; all but one in the window count
         EXPECT_NEAR(last, by * 1e-3, 0.05e-3 * by) << by;
         loop.tick(milliseconds(1), 3000);
         EXPECT_EQ(loop.late.sustained(), 0) << by;
@@ -128,7 +128,7 @@ TEST(Suspension, IsTheTimeThatOnlyOneOfTheClocksCounted) {
 }
 
 TEST(Suspension, IsNotWhatAThreadHadToWaitBetweenTwoReadings) {
-    // at first, later, and on either side of the clock between
+    // clock readings at first, later, and with a wait before and after the middle reading
     Suspension suspension({seconds(100), seconds(501), seconds(101)});
     EXPECT_EQ(suspension.since({seconds(102), seconds(502), seconds(102)}), Time(0));
     EXPECT_EQ(suspension.since({seconds(103), seconds(508), seconds(108)}), Time(0));

@@ -1,4 +1,4 @@
-// What the servo's tests grasp with: two fingers that close on a block on a table, and lift it.
+// The grasp that the servo's tests use: two fingers that close on a block on a table, and lift it.
 #pragma once
 
 #include "devices/device_group.h"
@@ -25,7 +25,7 @@ inline scene::Scene block_on_table() {
     return out;
 }
 
-/// It has closed after 0.3 s and lifts for 0.5 s.
+/// A hand that closes within 0.3 s and then lifts for 0.5 s.
 inline hand::HandSpec lifting_hand() {
     hand::HandSpec out;
     out.centre = {0, 0, 0.02};

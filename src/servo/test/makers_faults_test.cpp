@@ -1,5 +1,5 @@
-// Faults of real devices in the whole servo, on fakes of their makers' libraries: no force on any
-// device in the tick that learns of it, and what the person is told.
+// Tests faults of real devices in the whole servo, on fakes of their manufacturers' libraries: no
+// force on any device in the tick that learns of the fault, and what the person is told.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -17,9 +17,9 @@ using devices::forcedimension::FakeDhd;
 using devices::openhaptics::FakeHd;
 using std::chrono::milliseconds;
 
-constexpr int kTick = 500;  // of the fault: the block is being lifted
+constexpr int kTick = 500;  // tick of the fault, in which the block is being lifted
 
-/// Two fingers that have closed on a block after 0.3 s and lift it, by a maker's library.
+/// Two fingers that close on a block within 0.3 s and lift it, through a manufacturer's library.
 struct Grasp {
     hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -44,7 +44,7 @@ struct Grasp {
                                         rig::poses(rig::simulated_rig(fingers), fingers));
         servo->activate();
     }
-    /// What pushes a finger now [N].
+    /// The force that pushes a finger now [N].
     double acting(size_t device) const {
         return hd != nullptr ? hd->devices[device].acting.norm()
                              : dhd->devices[device].acting.norm();
@@ -77,7 +77,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
     run_virtual(
         *grasp.servo,
         [&](const Frame& last, std::span<const haptics::Handle>, Commands&) {
-            // as the forces of the last tick act
+            // while the forces of the last tick act
             if (last.sequence == kTick - 1) {
                 EXPECT_GT(grasp.acting(0), 0.5);
                 EXPECT_GT(grasp.acting(1), 0.5);
@@ -85,7 +85,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             }
             if (last.sequence <= kTick) return;
             EXPECT_EQ(grasp.acting(0), 0) << last.sequence;
-            // a device that hears nothing has only its own watchdog
+            // a device that receives nothing is stopped only by its own watchdog
             const bool deaf = grasp.dhd != nullptr && grasp.dhd->devices[1].silent;
             if (deaf && last.sequence < kTick + 32) return;
             EXPECT_EQ(grasp.acting(1), 0) << last.sequence;
@@ -95,7 +95,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
                 ASSERT_TRUE(finger.p_WH.allFinite());
                 ASSERT_TRUE(finger.f_sent_W.allFinite());
             }
-            // it happens between a reading and its force: the next reading finds it
+            // the fault happens between a reading and its force: the next reading finds it
             if (frame.sequence <= kTick) return;
             ++after;
             EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
@@ -106,7 +106,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             }
         },
         std::chrono::seconds(5), stop);
-    EXPECT_NEAR(after, 1000, 2);  // the grace
+    EXPECT_NEAR(after, 1000, 2);  // kGrace
     EXPECT_EQ(grasp.servo->fault().kind, GetParam().kind);
     EXPECT_NE(grasp.told().find(GetParam().told), std::string::npos) << grasp.told();
 }
@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DHD broken", "forcedimension", [](Grasp& g) { g.dhd->devices[0].broken = true; },
              FaultKind::device_fault, kDeviceFault, "reports a fault of its own. Let it cool"}));
 
-/// A device that cuts its own force: the others wait with it, and all come on again softly.
+/// Tests a device that cuts its own force: the others wait for it, and all come back softly.
 class ForceCut : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
@@ -164,7 +164,7 @@ TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
                 status = frame.status;
                 EXPECT_EQ(most, 0);
             }
-            // 5 % of the force after 5 % of the soft start's 0.5 s
+            // 5 % of the force at 5 % of the soft start of 0.5 s
             if (frame.sequence > kTick + 1 && frame.sequence < kTick + 25)
                 highest_soon = std::max(highest_soon, most);
             if (frame.sequence == kTick + 800) later = most;
@@ -178,10 +178,10 @@ TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
 }
 INSTANTIATE_TEST_SUITE_P(Servo, ForceCut, ::testing::Values("openhaptics", "forcedimension"));
 
-/// Real time: a call blocks in the middle of a tick.
+/// Tests in real time a call that blocks in the middle of a tick.
 class Late : public ::testing::TestWithParam<const char*> {
   protected:
-    /// Runs for 0.7 s; the second device's call blocks for so long.
+    /// Runs for 0.7 s; a call of the second device blocks for `pause`.
     Timing run(Grasp& grasp, Time pause, const FrameSink& sink) {
         auto frames = std::make_shared<int>(0);
         const auto block = [this, pause, frames](size_t device) {
@@ -206,7 +206,7 @@ class Late : public ::testing::TestWithParam<const char*> {
 
 TEST_P(Late, By5MsIsAnOverrun) {
     Settings settings;
-    settings.safety.max_pause = 1;  // a busy machine is another test's
+    settings.safety.max_pause = 1;  // real pauses on a busy machine are not tested here
     settings.safety.hand_damping = 100;
     Grasp grasp(GetParam(), settings);
     double force = 0;
@@ -262,7 +262,7 @@ class LateStopped : public Late {};
 TEST_P(LateStopped, ACallThatBlocksIsNotWaitedFor) {
     Grasp grasp(GetParam());
     double force = 1;
-    // still in the call that blocks
+    // while the call still blocks
     blocked = [&] { force = grasp.acting(0) + grasp.acting(1); };
     const Timing timing = run(grasp, milliseconds(200), {});
     EXPECT_EQ(force, 0);

@@ -1,5 +1,5 @@
-// Torque of a tool that is stopped, by fakes of the makers' libraries with the simulated hand
-// behind them: the same as of simulated devices.
+// Tests the torque of a tool that is stopped, through fakes of the manufacturers' libraries with
+// the simulated hand behind them: it equals that of simulated devices.
 #include <gtest/gtest.h>
 
 #include "devices/test/fakes.h"
@@ -11,11 +11,11 @@ namespace {
 
 struct Turned {
     Frame last;                    ///< after 1.5 s
-    Vec3 acting_D = Vec3::Zero();  ///< what the fake's device turned the hand with then [N*m]
-    double peak = 0;               ///< that the device states [N*m]
+    Vec3 acting_D = Vec3::Zero();  ///< torque of the fake's device on the hand at that time [N*m]
+    double peak = 0;               ///< peak torque that the device states [N*m]
 };
 
-/// `backend`: its device turns the bar; simulated or a maker's.
+/// Turns the bar with a device of `backend`: simulated or a manufacturer's.
 Turned turn_the_bar(const std::string& backend, const Pose& X_WD) {
     const hand::HandSpec hand = turning_hand(0.2);
     const hand::ScriptDriver driver(hand, {"hand"});

@@ -1,4 +1,4 @@
-// Devices that measure orientation and render torque: what the tick makes of them, and that every
+// Tests devices that measure orientation and render torque: how the tick uses them, and that every
 // rule of safety holds for torque as it does for force.
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace dihaptic::servo::orientation_test {
 namespace {
 
-/// turning_bar() by simulated devices.
+/// A session with turning_bar() and simulated devices.
 struct Session {
     std::unique_ptr<hand::ScriptDriver> driver;
     PlantedGroup* device = nullptr;
@@ -58,7 +58,7 @@ TEST(Orientation, AToolThatIsStoppedIsFeltAsATorqueWhereverTheDeviceStands) {
         EXPECT_EQ(guard.count(), 0u);
         EXPECT_EQ(frame.status, 0u);
         const TurnFrame& turn = frame.turns.at(0);
-        // 1 N*m/rad of the hand and as much of the coupling share 0.2 rad
+        // 1 N*m/rad of the hand and as much of the coupling, in series, over 0.2 rad
         EXPECT_NEAR(turn.t_sent_W.y(), -0.1, 1e-4);
         EXPECT_EQ(turn.t_sent_W, turn.t_asked_W);
         EXPECT_LT((rotation_vector(turn.R_WH) - Vec3(0, 0.1, 0)).norm(), 1e-4);
@@ -188,7 +188,7 @@ TEST(Orientation, TheOperatorEndsTorqueToo) {
 }
 
 TEST(Orientation, IsWatchedByTheEnergyGuard) {
-    // a coupling that adds to the hand's swing instead of damping it, against one that is sound
+    // a coupling that feeds the hand's swing instead of damping it, against a sound one
     Settings settings;
     Session sound(0.3, settings);
     uint32_t status = 0;

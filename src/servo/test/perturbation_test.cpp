@@ -1,4 +1,4 @@
-// Perturbations against closed forms, as a director orders them.
+// Tests perturbations that a director orders against closed forms.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kMass = 0.2;
 constexpr double kTick = 1e-3;
 
-/// A finger far from a block that floats, lies on a plane, or both.
+/// A finger far from a block that floats, or lies on a plane.
 struct Desk {
     scene::Scene scene;
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -108,14 +108,14 @@ TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
         EXPECT_LT((frame.bodies[1].v_WB - v).norm(), 1e-12);
         EXPECT_LT(frame.bodies[1].w_WB.norm(), 1e-12);
     }
-    // the scene's again, without anybody saying so
+    // without an order the properties are the scene's again
     const Vec3 before = desk.servo->world().state({1}).v_WB;
     const Vec3 after = desk.tick().bodies[1].v_WB;
     EXPECT_LT((after - before - kTick * desk.scene.gravity).norm(), 1e-12);
 }
 
 TEST_P(AnySolver, SlidesABlockOfDirectionalMassUnderItsTrueWeight) {
-    // a = (F - mu m g) / (s m) along x; friction follows the weight, which stays
+    // a = (F - mu m g) / (s m) along x; friction follows the weight, which is not scaled
     Desk desk(true, 0.5, Vec3::Zero(), settings());
     const double mu = 0.5;
     const double force = 2;
@@ -279,7 +279,7 @@ TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
     Desk desk(true, 0.5, Vec3::Zero(), settings());
     for (int i = 0; i < 700; ++i) desk.tick();
     ASSERT_EQ(desk.tick().bodies[1].awake, 0u);
-    // 0.7 of its friction holds 0.6 N, and 0.2 of it does not
+    // at a friction scale of 0.7 the block withstands 0.6 N, at 0.2 it does not
     const auto pulled = [&](double scale) {
         return desk.tick([&](const Frame&, Commands& c) {
             c.friction_scale = scale;
@@ -300,7 +300,7 @@ TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
             Settings settings;
             if (point) settings.proxy.kind = haptics::ProxyKind::point;
             settings.proxy.friction = friction;
-            // down into the plane, and along it
+            // the target goes down into the plane, and along it
             Desk desk(true, 0.5, {0.2, 0, -0.115}, settings);
             const double mu = scene::pair_friction(desk.scene, "plane", 0.5, "index",
                                                    desk.scene.fingers[0].friction);

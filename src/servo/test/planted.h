@@ -1,4 +1,4 @@
-// A grasp by devices that read what a test plants in them (planted_group.h).
+// A grasp by devices whose readings a test can plant (planted_group.h).
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace dihaptic::servo {
 
-/// Two fingers that have closed on a block after 0.3 s, and lift it.
+/// Two fingers that close on a block within 0.3 s, and lift it.
 struct PlantedGrasp {
     hand::HandSpec hand = lifting_hand();
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -41,7 +41,7 @@ struct PlantedGrasp {
         now += servo->period();
         return frame;
     }
-    /// Until it has the block.
+    /// Ticks until the fingers hold the block.
     void grasp() {
         while (now < std::chrono::milliseconds(400)) tick();
     }

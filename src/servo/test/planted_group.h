@@ -1,4 +1,4 @@
-// Devices of another group that read what a test plants in them, and tell what they were told.
+// Wraps another group of devices so that a test can plant readings and see the forces sent.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,18 @@ namespace dihaptic::servo {
 
 class PlantedGroup : public devices::DeviceGroup {
   public:
-    /// Of devices that pass for simulated ones, or for real ones, to which a pause of the loop is a
-    /// fault.
+    /// `simulated`: whether the devices pass for simulated ones; for real ones a pause of the loop
+    /// is a fault.
     PlantedGroup(std::unique_ptr<devices::DeviceGroup> inner, bool simulated)
         : DeviceGroup(infos(*inner, simulated)),
           told(static_cast<size_t>(inner->size())),
           inner_(std::move(inner)) {}
 
-    std::function<void(std::span<devices::Reading>)> plant;  ///< may change what they read
-    std::vector<Wrench> told;                                ///< last, in each device's D
-    bool fails = false;                                      ///< the next activation is refused
+    std::function<void(std::span<devices::Reading>)> plant;  ///< may change the readings
+    std::vector<Wrench> told;  ///< last wrenches sent, in each device's D
+    bool fails = false;        ///< whether the next activation fails
 
-    /// Force [N]; no number when any is none.
+    /// Largest force sent [N]; NaN if any is not a number.
     double largest_told() const {
         double out = 0;
         for (const Wrench& wrench : told) {

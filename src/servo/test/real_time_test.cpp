@@ -18,7 +18,7 @@ TEST(Pace, KeepsPhaseAndLeavesOutWhatALateTickMissed) {
     pace.end_tick(Time(5400));
     EXPECT_EQ(pace.due, Time(6000));
     EXPECT_FALSE(pace.late);
-    pace.end_tick(Time(7000));  // on the next deadline: not late yet
+    pace.end_tick(Time(7000));  // exactly at the next deadline: not late yet
     EXPECT_EQ(pace.due, Time(7000));
     EXPECT_EQ(pace.overruns, 0);
     pace.end_tick(Time(8001));
@@ -60,7 +60,7 @@ std::string told_without_permission() {
         const rlimit none{0, 0};
         setrlimit(RLIMIT_RTPRIO, &none);
         setrlimit(RLIMIT_MEMLOCK, &none);
-        // root may all the same, until it is somebody else
+        // root is granted everything all the same, so give it up
         if (geteuid() == 0 && setuid(65534) != 0) _exit(1);
         const std::string told = describe(try_real_time(80), 80);
         const auto written = write(ends[1], told.data(), told.size());
@@ -88,7 +88,7 @@ TEST(RealTime, RunsWithoutPermissionAndTellsInOneLine) {
     EXPECT_EQ(told.find('\n'), std::string::npos);
 }
 
-/// [kB], of this process.
+/// Locked memory of this process [kB].
 int64_t locked_memory() {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {

@@ -1,4 +1,4 @@
-// After a pause, and after a fault, force begins at zero, whatever was felt before.
+// Tests that force begins at zero after a pause and after a fault, whatever was felt before.
 #include <gtest/gtest.h>
 
 #include "planted.h"
@@ -7,7 +7,7 @@
 namespace dihaptic::servo::resume_test {
 namespace {
 
-/// What ends force, and what is planted for it.
+/// A cause that ends force, and what is planted to bring it about.
 struct Cause {
     const char* name;
     haptics::FaultKind kind;
@@ -35,7 +35,7 @@ void expect_soft_beginning(PlantedGrasp& grasp) {
             ASSERT_EQ(grasp.told(), 0);
         }
         if (grasp.told() == 0) continue;
-        // a share of what is asked, and no step: a hundredth of 8.5 N is more than any tick adds
+        // a share of what is asked, without a step: a hundredth of 8.5 N is more than any tick adds
         const double share = std::min(1.0, i * 1e-3 / soft_start);
         const double asked =
             std::max(frame.fingers[0].f_asked_W.norm(), frame.fingers[1].f_asked_W.norm());
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](PlantedGrasp& g) {
                   g.tick([](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
                       LoadFrame load;
-                      load.body = 2;  // the first finger's proxy: a field
+                      load.body = 2;  // the first finger's proxy, so the load is a force field
                       load.force_W.x() = kUnmeasured;
                       commands.task.loads.push_back(load);
                   });

@@ -1,4 +1,4 @@
-// A rig whose workspace is scaled: what a wall of the scene is under the hand, and in the world.
+// Tests a rig whose workspace is scaled: a wall of the scene under the hand, and in the world.
 #include <gtest/gtest.h>
 
 #include "lift.h"
@@ -8,9 +8,9 @@
 namespace dihaptic::servo::scaled_test {
 namespace {
 
-constexpr double kStiffness = 800;  // of the coupling, and so of a wall [N/m]
+constexpr double kStiffness = 800;  // of the coupling, and so of the wall [N/m]
 
-/// A finger that presses on a table with a target below it.
+/// A finger that presses on a table with its target below it.
 class PressDriver final : public hand::Driver {
   public:
     explicit PressDriver(double depth) : depth_(depth) {}
@@ -31,8 +31,8 @@ class PressDriver final : public hand::Driver {
 struct Rest {
     double world_depth = 0;  // of the handle below the proxy, in the world [m]
     double world_force = 0;  // [N]
-    double hand_depth = 0;   // the same of the hand's own movement [m]
-    double hand_force = 0;   // what the hand's spring pushes back with [N]
+    double hand_depth = 0;   // depth of the hand's own movement [m]
+    double hand_force = 0;   // with which the hand's spring pushes back [N]
     uint32_t status = 0;
 };
 
@@ -47,7 +47,7 @@ Rest press(double scale, const Settings& given = {}) {
     rig.devices[0].scale = scale;
     rig.devices[0].position = {0.05, -0.1, 0.15};
     rig.devices[0].rotation = {0.5, 0.2, 1.1};
-    // as seen in the world, where the hand's movement is scaled: the finger touches 10 mm above 0
+    // in the world, where the hand's movement is scaled; the finger touches at z = 10 mm
     const PressDriver driver(0.02 * scale - 0.01);
     devices::Context context;
     context.driver = &driver;
@@ -66,7 +66,7 @@ Rest press(double scale, const Settings& given = {}) {
     out.status = status;
     out.world_force = f.f_sent_W.z();
     out.world_depth = f.p_WP.z() - f.p_WH.z();
-    // the hand itself, whose place the readings have s times as far from D's origin
+    // positions of the hand itself: the readings are s times as far from D's origin
     const Vec3 origin = rig.devices[0].position;
     const Vec3 hand = origin + (f.p_WH - origin) / scale;
     const Vec3 surface = origin + (f.p_WP - origin) / scale;

@@ -55,7 +55,7 @@ struct Grasp {
     }
 };
 
-/// The fingers sag by half the weight over 300 and 1000 N/m in series.
+/// The fingers sag by half the weight through 300 and 1000 N/m in series.
 constexpr double kLiftedHeight = 0.07 - 0.1 * 9.81 / 2 / (300.0 * 1000 / 1300);
 
 class TwoPoints : public ::testing::TestWithParam<haptics::PointFriction> {
@@ -77,7 +77,8 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     double momentum = 0;
     Vec3 impulse = Vec3::Zero();
     const Frame& frame = grasp.run(0, 1.1, [&](const Frame& f) {
-        // what hands are told, the block gets, apart in the next step; on either side alike
+        // the block gets the force that the hands get, for apart points in the next step; alike
+        // from either side
         momentum = f.bodies[1].v_WB.x() * 0.1;
         if (apart()) {
             EXPECT_NEAR(impulse.x(), momentum, 1e-6);
@@ -92,7 +93,7 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     });
     EXPECT_EQ(frame.status, 0u);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
-    // without the pads' thickness, targets are 5 mm beyond contact
+    // without the pads' thickness, the targets are 5 mm beyond contact
     EXPECT_NEAR(frame.grip_force / (0.005 * 300 * 1000 / 1300), 1, 0.01);
     EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
     ASSERT_EQ(frame.contacts.size(), 2u);
@@ -120,7 +121,7 @@ TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
     EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
     EXPECT_NEAR(-frame.fingers[0].f_sent_W.z() - frame.fingers[1].f_sent_W.z(), 0.1 * 9.81, 0.01);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.grip_force, 1e-2);
-    EXPECT_EQ(frame.contacts.size(), 2u);  // a finger each: the block has left the table
+    EXPECT_EQ(frame.contacts.size(), 2u);  // one for each finger: the block has left the table
     EXPECT_EQ(frame.contacts[0].points, 4);
 }
 
@@ -138,7 +139,7 @@ TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
 
 TEST(Servo, IsTheSameWhereverTheDevicesStand) {
     Grasp here;
-    Grasp there;  // the second device of both is turned; compare the fingers with each other
+    Grasp there;  // the second device of both is turned: compare the fingers with each other
     const Frame& frame = here.run(0, 1.1);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.fingers[1].f_sent_W.x(), 1e-6);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.z(), frame.fingers[1].f_sent_W.z(), 1e-6);
@@ -241,7 +242,7 @@ TEST(Servo, LoadsOfTheDirectorActOnBodies) {
     EXPECT_NEAR(frame.bodies[1].v_WB.z(), 9.81 * 0.101, 1e-6);
 }
 
-/// A finger that presses down on a block with a force, and comes back up; the proxy may change.
+/// Settings with proxies that may change between rigid bodies and points.
 class Changeable : public ::testing::TestWithParam<haptics::PointFriction> {
   protected:
     Settings settings;
@@ -257,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(Servo, Changeable,
 
 TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    // which kind, and whether it was changed to
+    // the kind of proxy, and whether it was changed to that kind
     const auto lift = [&](haptics::ProxyKind kind, bool changed) {
         Settings own = settings;
         const auto other = kind == haptics::ProxyKind::rigid ? haptics::ProxyKind::point
@@ -298,7 +299,7 @@ TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndF
             most = std::max(most, finger.f_sent_W.norm());
             EXPECT_LT((finger.p_WP - finger.p_WH).norm(), 1e-3);
         }
-        EXPECT_TRUE(frame.contacts.size() <= 8);  // the block's own
+        EXPECT_TRUE(frame.contacts.size() <= 8);  // at most the block's own
     }
     EXPECT_LT(most, 0.1);
 }
@@ -320,8 +321,7 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
 }
 
 TEST(Servo, HoldsTheSameGraspAtEveryRate) {
-    // what the hand feels is statics, whatever the rate: the block's weight, and the two springs in
-    // series
+    // the hand feels statics only, at any rate: the block's weight, and the two springs in series
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
         Settings settings;
         settings.rate = rate;
@@ -343,7 +343,7 @@ TEST(Servo, HoldsTheSameGraspAtEveryRate) {
 }
 
 TEST(Servo, FreeFallIsTheSameAtEveryRate) {
-    // semi-implicit steps of h fall g t (t + h) / 2: exactly, at each rate
+    // in semi-implicit steps h a body falls exactly g t (t + h) / 2
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
         Settings settings;
         settings.rate = rate;
@@ -386,7 +386,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     EXPECT_GE(seen[51].frame.time - seen[50].frame.time, std::chrono::milliseconds(21));
     EXPECT_TRUE(seen[51].frame.status & kOverrun);
     int64_t recorded = 0;
-    // time was zero at this moment or, by what the quickest tick took, before
+    // time was zero at this moment, or earlier by as much as the quickest tick took
     auto zero = seen.front().ended - seen.front().frame.time;
     for (const Seen& s : seen) zero = std::min(zero, s.ended - s.frame.time);
     for (size_t i = 0; i < seen.size(); ++i) {
@@ -399,7 +399,8 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
         EXPECT_EQ((frame.status & kOverrun) != 0,
                   frame.time - seen[i - 1].frame.time > grasp.servo->period());
     }
-    EXPECT_LE(timing.overruns - recorded, 1);  // that of the last tick has no frame to be in
+    // the overrun of the last tick has no frame to be recorded in
+    EXPECT_LE(timing.overruns - recorded, 1);
     EXPECT_EQ(timing.ticks.count(), seen.size());
     EXPECT_EQ(timing.lateness.count(), seen.size());
     EXPECT_NE(describe(timing).find("at worst"), std::string::npos);
@@ -411,14 +412,14 @@ TEST(Run, RealTimeAllocatesNothing) {
     const std::atomic<bool> stop{false};
     Timing timing;
     timing.reserve(1000);
-    std::optional<testing::AllocationGuard> guard;  // counts in the thread that it is made in
+    std::optional<testing::AllocationGuard> guard;  // counts only in the thread that makes it
     size_t count = 1;
     run_real(
         *grasp.servo, {},
         [&](const Frame& frame) {
             if (frame.sequence == 0) guard.emplace();
             if (frame.sequence == 20)
-                std::this_thread::sleep_for(std::chrono::milliseconds(3));  // overruns included
+                std::this_thread::sleep_for(std::chrono::milliseconds(3));  // includes overruns
             if (frame.sequence == 100) {
                 count = guard->count();
                 guard.reset();

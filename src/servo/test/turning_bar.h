@@ -6,7 +6,7 @@
 
 namespace dihaptic::servo {
 
-/// The bar is the finger "hand".
+/// The scene; the bar is the shape of the finger "hand".
 inline scene::Scene turning_bar() {
     scene::Scene out = haptics::stops();
     scene::Finger bar;
@@ -16,7 +16,7 @@ inline scene::Scene turning_bar() {
     return out;
 }
 
-/// By `turn` [rad] in 0.4 s.
+/// A hand that turns by `turn` [rad] in 0.4 s.
 inline hand::HandSpec turning_hand(double turn) {
     hand::HandSpec spec;
     hand::ScriptStep step;

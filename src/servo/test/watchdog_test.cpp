@@ -37,7 +37,7 @@ TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
     std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
 }
 
-/// As after SIGSTOP and SIGCONT, when both of its deadlines are long past.
+/// As after SIGSTOP and SIGCONT, when both deadlines are long past.
 TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     std::promise<void> stopped;
     std::atomic<bool> stuck{false};
@@ -52,8 +52,8 @@ TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     EXPECT_FALSE(stuck);
 }
 
-/// A servo that spins, on the only processor that it and its watchdog may use: with its priority
-/// alone, the watchdog would wait for ever.
+/// A servo that spins on the only processor that it and its watchdog may use. With no more than its
+/// priority, the watchdog would wait for ever.
 TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     std::atomic<bool> stopped{false};
     int refused = 0;
@@ -86,7 +86,7 @@ TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     EXPECT_LT(took, 0.4);
 }
 
-/// A device whose write blocks at the n-th tick, until somebody stops it or lets it go.
+/// A device whose write blocks at the `tick`th tick, until it is stopped or let go.
 class BlockingGroup final : public devices::DeviceGroup {
   public:
     BlockingGroup(int tick, bool can_stop, bool simulated)
@@ -158,13 +158,13 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
     EXPECT_TRUE(blocked.timing.stall->stopped);
     EXPECT_NE(describe(*blocked.timing.stall).find("the watchdog switched the devices' force off"),
               std::string::npos);
-    // the tick after the one that blocked knows by its own clock, which a replay has too
+    // the tick after the one that blocked is late by its own clock, as in a replay
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_GT(blocked.servo->fault().value, Settings{}.safety.max_pause);
-    EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // a second after the fault
+    EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // one second after the fault
 }
 
-/// There is no fault then that would say so: the tick was the last before a pause.
+/// No fault reports the stop in this case: the tick was the last before a pause.
 TEST(Watchdog, WhatItStoppedBeginsAnewAfterAPause) {
     Blocked blocked(true);
     blocked.servo->resume();
@@ -203,7 +203,7 @@ TEST(WatchdogInRealTime, SaysWhenTheLoopIsStuckForGood) {
         EXPECT_FALSE(stall.stopped);
         EXPECT_NE(describe(stall).find("could not switch the devices' force off"),
                   std::string::npos);
-        blocked.devices->let_go();  // a program would end here
+        blocked.devices->let_go();  // the program would end here
     });
     EXPECT_EQ(told, 1);
     EXPECT_EQ(blocked.devices->stops, 0);

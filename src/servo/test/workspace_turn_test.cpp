@@ -1,4 +1,4 @@
-// Workspaces that turn about the vertical: what is read and told turns with them, and nothing
+// Tests workspaces that turn about the vertical: readings and forces turn with them, and nothing
 // steps.
 #include "servo/workspace_turn.h"
 
@@ -20,7 +20,7 @@ double rate(const Frame& last, double goal) {
     return WorkspaceTurn::rate_toward(goal, last.workspace_turn + kTick * last.workspace_rate);
 }
 
-/// Devices that say what the test wants, and keep what they are told.
+/// Devices that read what the test sets, and keep the wrenches they are sent.
 class Desk final : public devices::DeviceGroup {
   public:
     Desk(const std::vector<std::string>& fingers, bool orientation)
@@ -50,7 +50,7 @@ class Desk final : public devices::DeviceGroup {
     }
 };
 
-/// Two fingers in the air, with devices that stand askew.
+/// Two fingers in the air, with devices that are set up at an angle.
 struct Air {
     scene::Scene scene;
     std::vector<Pose> X_WD;
@@ -82,7 +82,7 @@ struct Air {
                 add(commands.task.loads, {servo->world().scene_size(), force_W, Vec3::Zero()});
             });
     }
-    /// Middle of the devices' origins.
+    /// Mean of the devices' origins.
     Vec3 axis() const { return (X_WD[0].p + X_WD[1].p) / 2; }
 };
 
@@ -104,7 +104,7 @@ TEST(WorkspaceTurn, StartsAndEndsWithoutAStepAndKeepsItsBounds) {
             most = std::max(most, turn.angle());
         }
         EXPECT_LE(fastest, 1);
-        // the short way around, and not beyond
+        // the short way around, without overshoot
         const double way = goal > kPi ? goal - 2 * kPi : goal;
         EXPECT_NEAR(turn.angle(), way, 2e-6);
         EXPECT_LT(most - least, std::abs(way) * 1.005);
@@ -121,7 +121,7 @@ TEST(WorkspaceTurn, IsBoundedWhoeverOrdersIt) {
 }
 
 TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
-    // the rate that led to a frame is that of the frame before
+    // the rate that leads to a frame is recorded in the frame before
     Air turning(true);
     double led = 0;
     std::vector<Vec3> before(2);
@@ -147,7 +147,7 @@ TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
             ASSERT_LT((finger.v_WH - v).norm(), 1e-12);
             const Quat R = T * X_WD.R * reading.R_DH * X_WD.R.conjugate();
             ASSERT_LT(angle_between(frame.turns[d].R_WH, R), 1e-9);
-            // and both velocities are those of what is seen to move
+            // both velocities are those of the movement seen
             if (i > 0) {
                 ASSERT_LT(((finger.p_WH - before[d]) / kTick - finger.v_WH).norm(), 1.5e-3) << i;
                 const Vec3 turned =
@@ -183,7 +183,7 @@ TEST(WorkspaceTurn, ForcesTurnBackAndGiveTheSamePowerInBothAxes) {
         }
         led = frame.workspace_rate;
     }
-    // and once it stands, of the whole velocity
+    // once the turn has stopped, the power is that of the whole velocity
     EXPECT_EQ(led, 0);
     const FingerFrame& finger = air.tick(kPi / 2, force).fingers[0];
     EXPECT_NEAR(finger.f_sent_W.dot(finger.v_WH), air.desk->told[0].force.dot(finger.v_DH), 1e-12);
@@ -197,7 +197,7 @@ TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
     for (int i = 0; i < 4000; ++i) {
         const Frame& frame = air.tick(2.5);
         if (i > 10) {
-            // a handle at rest, however the world turns around it
+            // as for a handle at rest, however the world turns around it
             EXPECT_LT((air.desk->told[0].force - Vec3(-1, 0, 0)).norm(), 1e-9) << i;
         }
         EXPECT_EQ(frame.fingers[0].status & kTooFast, 0u);
@@ -217,7 +217,7 @@ TEST(WorkspaceTurn, ProxiesFollowInTheAirAndTurnWithoutALagOrAStep) {
             const Frame& frame = air.tick(kPi / 2);
             const FingerFrame& finger = frame.fingers[0];
             if (i > 0) {
-                // as far as the handle goes in a step, and what a dual spring lags
+                // within what the handle moves in a step, and the lag of a dual spring
                 const double lag = kind == haptics::CouplingKind::dual_spring ? 2e-3 : 0.3e-3;
                 ASSERT_LT((finger.p_WP - finger.p_WH).norm(), lag) << enum_name(kind) << i;
                 ASSERT_LT((finger.v_WP - before).norm(), 2e-3) << enum_name(kind) << i;
@@ -233,7 +233,7 @@ TEST(WorkspaceTurn, ProxiesFollowInTheAirAndTurnWithoutALagOrAStep) {
     }
 }
 
-/// Two fingers hold a block in the air.
+/// Two fingers that hold a block in the air.
 struct Held {
     scene::Scene scene = block_on_table();
     std::unique_ptr<hand::ScriptDriver> driver;
@@ -285,7 +285,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     Settings settings;
     settings.proxy.kind = GetParam().proxy;
     settings.coupling.kind = GetParam().coupling;
-    // stiffer, it shakes blocks loose whether it turns or not
+    // stiffer, it shakes blocks loose with or without a turn
     if (settings.coupling.kind == haptics::CouplingKind::dual_spring)
         settings.coupling.stiffness = 300;
     Held held(settings);
@@ -311,7 +311,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     EXPECT_EQ(guard.count(), 0u);
     EXPECT_NEAR(frame->workspace_turn, kPi / 2, 1e-5);
     EXPECT_EQ(status & ~uint32_t{kEnergyGenerated}, 0u);
-    // the slew limit permits 3 N
+    // the slew limit would permit 3 N
     EXPECT_LT(most, 2e-3);
     RecordProperty("most_change_N", std::to_string(most));
     const Pose after = frame->bodies[1].X_WB;

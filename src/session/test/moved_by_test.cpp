@@ -1,4 +1,4 @@
-// What a simulation left is told from what a person left, by each file alone.
+// Tests that each file alone tells whether its data come from a simulation or a person.
 #include "recording/moved_by.h"
 
 #include <filesystem>
@@ -18,7 +18,7 @@ size_t count(const std::string& text, const std::string& what) {
     return out;
 }
 
-/// Every row of every table that tells of trials and people says it in its last columns.
+/// Expects that each row of these tables says who moved the hand, in its last columns.
 void expect_tables_say(const std::string& folder, const recording::MovedBy& by,
                        const std::vector<std::string>& names) {
     for (const std::string& name : names) {

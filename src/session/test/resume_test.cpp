@@ -1,4 +1,4 @@
-// A session goes on with what moved its hand before, or not at all.
+// Tests that a session is resumed with what moved its hand before, or not at all.
 #include "session/resume.h"
 
 #include "session/test/sessions.h"
@@ -8,7 +8,7 @@ namespace {
 
 using experiment::Seat;
 
-/// What refuses to go on says.
+/// Error message when the session cannot be resumed.
 std::string refusal(const std::string& session, Seat seat) {
     try {
         rest_of(session, seat, {});
@@ -18,7 +18,7 @@ std::string refusal(const std::string& session, Seat seat) {
     }
 }
 
-/// The session as an earlier program left it.
+/// Makes the session look like one of an earlier version, which did not record the mover.
 void forget_mover(const std::string& session) {
     const auto folder = recording::SessionFolder::open(session);
     recording::SessionInfo info = folder.read_info();
@@ -48,7 +48,7 @@ TEST(Rest, OfASimulatedPersonIsDoneByTheSamePerson) {
     const Rest rest = rest_of(cut, Seat::terminal, {});
     EXPECT_EQ(rest.plan.moved_by.mover, Mover::simulated_person);
     EXPECT_EQ(rest.plan.person, testing::read_file(cut + "/person.yaml"));
-    // earlier programs wrote no more of it than that file
+    // earlier versions recorded a simulated person by that file alone
     forget_mover(cut);
     EXPECT_EQ(rest_of(cut, Seat::terminal, {}).plan.moved_by.mover, Mover::simulated_person);
     std::filesystem::remove(cut + "/person.yaml");

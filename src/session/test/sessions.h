@@ -1,4 +1,4 @@
-// Short sessions of the same trials, moved by each of those that can move a simulated hand.
+// Makes short sessions of the same trials, moved by each kind of mover of a simulated hand.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,8 +26,8 @@ struct Sessions {
         }
         return plan;
     }
-    /// Ends by itself, or soon: `cut` is after the first of its trials. A mouse that nobody moves
-    /// never ends one.
+    /// Makes a session, which ends by itself or, with `cut`, after the first of its trials. A
+    /// session moved by mouse is stopped, since nobody moves the mouse.
     std::string make(Mover mover, bool cut = false, const std::string& participant = "S07") {
         experiment::RunOptions options;
         options.out = files.folder.file("sessions");
@@ -36,7 +36,7 @@ struct Sessions {
         const auto look = [&](double share) {
             stop = stop || mover == Mover::mouse || (cut && share > 0.1);
         };
-        // on the real clock it is cut where it is to be
+        // on the real clock the session is cut at the right place
         if (cut) options.clock = experiment::Clock::real;
         const auto result = experiment::run_session(plan(mover, participant), options, stop, look);
         analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});

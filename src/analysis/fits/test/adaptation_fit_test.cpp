@@ -70,7 +70,7 @@ TEST(TwoRateFit, OfPeopleIsNoWorseThanTheTruthAndPredictsIt) {
         const auto fit = fit_two_rate(measured, trials);
         EXPECT_LE(fit.mean_square, mean_square(measured, exact)) << i;
         EXPECT_NEAR(fit.residual_sd, noise, 0.2 * noise);
-        // p parameters leave sd sqrt(p / n) = 0.78 degrees in the curve
+        // p parameters leave an error of SD sqrt(p / n) = 0.78 degrees in the curve
         EXPECT_LT(std::sqrt(mean_square(exact, fit.predicted)), 2.0) << i;
         curve_error += mean_square(exact, fit.predicted) / people;
         held[0] += holds(fit.retention_fast, truth.fast.retention) ? 1 : 0;

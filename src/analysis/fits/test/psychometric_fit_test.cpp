@@ -14,7 +14,7 @@ namespace {
 using model::Psychometric;
 using model::Sigmoid;
 
-/// The 2AFC example of psignifit's manual: 13 levels of 90 trials.
+/// The 2AFC example of psignifit's manual: 13 levels with 90 trials each.
 const std::vector<LevelCount> kExample = {
     {0.0010, 45, 90}, {0.0015, 50, 90}, {0.0020, 44, 90}, {0.0025, 44, 90}, {0.0030, 52, 90},
     {0.0035, 53, 90}, {0.0040, 62, 90}, {0.0045, 64, 90}, {0.0050, 76, 90}, {0.0060, 79, 90},
@@ -68,7 +68,7 @@ TEST(PsychometricFit, DevianceIsTwiceTheLogLikelihoodRatio) {
     EXPECT_NEAR(fit.deviance, deviance, 1e-8);
 }
 
-/// Answers at nine levels, `trials` at each.
+/// Random answers at nine levels, `trials` at each.
 std::vector<LevelCount> answers(const Psychometric& f, int trials, Random& random) {
     std::vector<LevelCount> counts;
     for (double z = -2; z <= 2.01; z += 0.5) {
@@ -106,7 +106,7 @@ TEST(PsychometricFit, RecoversWhatWasPutIn) {
     }
 }
 
-/// A short staircase, whose answers leave likelihoods with many hills.
+/// Answers of a short staircase, whose likelihood has many local maxima.
 std::vector<LevelCount> short_staircase(double guess, Random& random) {
     const Psychometric truth{Sigmoid::normal, random.uniform(0.2, 0.6), random.uniform(0.05, 0.3),
                              guess, 0.02};
@@ -197,7 +197,7 @@ TEST(Bootstrap, DevianceTellsGoodFitsFromBad) {
     const auto good = answers({Sigmoid::normal, 0, 1, 0, 0.01}, 100, random);
     EXPECT_GT(bootstrap(good, fit_psychometric(good, settings), settings, 200, 1).deviance_share,
               0.05);
-    // someone who answers the other way at a level of the middle
+    // an observer who answers the other way at one level in the middle
     auto bad = good;
     bad[2].yes = bad[2].trials - bad[2].yes;
     EXPECT_LT(bootstrap(bad, fit_psychometric(bad, settings), settings, 200, 1).deviance_share,

@@ -1,5 +1,5 @@
-// The nearest two-rate model of all: no worse than the truth, than what any start leads to, and
-// than what was published of 32 people.
+// Tests that the two-rate fit is the best of all: no worse than the true parameters, than the
+// result from any start, and than published fits of 32 people.
 #include "analysis/fits/two_rate_fit.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +21,13 @@ TEST(TwoRateFit, OfAForgottenNothingAndALearnedNothing) {
     const std::vector<model::AdaptationTrial> trials(40, {30});
     const TwoRateFit still = fit_two_rate(std::vector<double>(40, 0.0), trials);
     EXPECT_NEAR(still.mean_square, 0, 1e-12);
-    // at once, and for ever
+    // learned at once, and never forgotten
     std::vector<double> step(40, 30.0);
     step[0] = 0;
     EXPECT_NEAR(fit_two_rate(step, trials).mean_square, 0, 1e-12);
 }
 
-/// Active reaches of 32 people, and the fits that were published of them (github.com,
+/// Active reaches of 32 people, and the published fits of them (github.com,
 /// JennR1990/TwoRateProprioception: Published-data/active_reaches.csv and
 /// ana/AICs/Two Rate Parameters for Active Reaches.csv).
 TEST(TwoRateFit, ReproducesOrBettersThePublishedFitsOf32People) {

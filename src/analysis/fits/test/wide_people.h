@@ -1,5 +1,5 @@
-// Synthetic people with two-rate parameters from all over their range, and how their fits compare
-// with the truth and with what random starts lead to.
+// Compares two-rate fits of synthetic people, with parameters from all over their range, with the
+// true parameters and with the results from random starts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,14 +16,14 @@
 namespace dihaptic::analysis {
 
 struct WideResult {
-    int above_truth = 0;      ///< people whose fit is worse than the parameters that made them
-    double worst_start = 0;   ///< by how much a start led lower than the fit, relative to it
-    double milliseconds = 0;  ///< of the processor for a fit, with its intervals
+    int above_truth = 0;      ///< number of people whose fit is worse than their true parameters
+    double worst_start = 0;   ///< largest amount by which a start led below the fit, relative to it
+    double milliseconds = 0;  ///< processor time of a fit with its intervals [ms]
 };
 
-/// Half of the people as they were published, and wider; half from anywhere where what is learned
-/// does not grow without end, from overshoot to overshoot. Residuals with a
-/// standard deviation of 0.5 to 12 degrees. `starts`: of the search from random places.
+/// Half of the people are spread somewhat wider than published ones; the other half come from
+/// anywhere where learning does not diverge by growing overshoots. Residuals have a standard
+/// deviation of 0.5 to 12 degrees. `starts`: number of searches from random places.
 inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
     using model::TwoRate;
     Random random(seed, "wide people");
@@ -72,7 +72,7 @@ inline WideResult fit_wide_people(int people, int starts, uint64_t seed) {
     return out;
 }
 
-/// No fit is worse than the truth, nor than what any start leads to.
+/// Expects that no fit is worse than the true parameters, nor than the result from any start.
 inline void expect_least_of_all(int people, int starts, uint64_t seed) {
     const WideResult result = fit_wide_people(people, starts, seed);
     EXPECT_EQ(result.above_truth, 0);

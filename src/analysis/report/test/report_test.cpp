@@ -1,5 +1,4 @@
-// What a report says, on tables whose figures are known. test/report_test.py opens pages in a
-// browser.
+// Tests reports on tables whose figures are known. test/report_test.py opens pages in a browser.
 #include "analysis/report/report.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ TEST(Statistics, OfAKnownSample) {
     EXPECT_TRUE(std::isnan(sample({}).mean));
 }
 
-/// The trials of somebody who adapts as a two-rate model says.
+/// Trials of a person who adapts by a two-rate model.
 struct Learner {
     struct Kind {
         std::string block;
@@ -49,10 +48,10 @@ struct Learner {
             kinds.push_back({block, kind});
         }
     }
-    /// As trials.csv has them.
+    /// Text of trials.csv.
     std::string trials(const model::TwoRate& rates, double bias, size_t unreached = 1000) {
         std::string out = "trial_num,block,kind,round,hand_angle_deg,shown_angle_deg\n";
-        // nothing was reached, and nothing seen
+        // in a trial without a reach no error is seen
         if (unreached < schedule.size()) schedule[unreached].clamp = true;
         const auto x = model::compensation(rates, schedule);
         for (size_t i = 0; i < x.size(); ++i) {
@@ -93,7 +92,7 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_NEAR(at.baseline.mean, bias, 1e-5);
     EXPECT_LT(at.late.mean, at.early.mean);
     EXPECT_NEAR(at.catch_trials.mean, curve.trials[46].compensation, 1e-12);
-    double washout = 0;  // its first eight, as that of every window
+    double washout = 0;  // mean of the first eight trials
     for (size_t i = 96; i < 104; ++i) washout += curve.trials[i].compensation / 8;
     EXPECT_NEAR(at.washout_first.mean, washout, 1e-12);
     const auto fits = fit_adaptation(curve);
@@ -157,7 +156,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
                   std::to_string(-compensation) + "\n";
     };
     for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
-    add("error_clamp", 45, 20);  // before training: no probe
+    add("error_clamp", 45, 20);  // before training, so it is no probe
     for (int i = 0; i < 10; ++i) add("perturbed", 0, 3.0 * i);
     for (int i = 0; i < 2; ++i) {
         add("error_clamp", 0, 21);
@@ -175,7 +174,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         EXPECT_NEAR(found[i].compensation, 20 * shares[i], 1e-6);
         EXPECT_NEAR(found[i].share, shares[i], 1e-6);
     }
-    // one direction, probed itself: there is nothing to tell
+    // probes in the trained direction alone show no generalisation
     const std::string one =
         "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
         "2,error_clamp,a,z,-3\n";
@@ -208,7 +207,7 @@ TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
     EXPECT_NEAR(effect->effect, 0.5, 4 * effect->error);
     EXPECT_LT(effect->error, 0.02);
     EXPECT_NEAR(effect->share, 0.25, 0.02);
-    // nothing to tell by
+    // weights do not vary
     text = "lift,static_load_N,peak_load_rate_N_s\n";
     for (int i = 0; i < 60; ++i) text += "complete,2,7\n";
     EXPECT_FALSE(previous_weight(CsvFile(folder.write("same.csv", text))));
@@ -273,7 +272,7 @@ TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     const ThresholdFit none = fit_threshold(track);  // a level of 0
     EXPECT_FALSE(none.fit);
     EXPECT_NE(none.note.find("Weibull"), std::string::npos) << none.note;
-    // hardly ever yes: where half would be lies beyond what was shown
+    // hardly any answer is yes: the threshold lies beyond the levels shown
     track.model.sigmoid = model::Sigmoid::normal;
     track.model.guess = 0;
     track.answers.clear();
@@ -309,7 +308,7 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     testing::TemporaryFolder folder;
     Learner learner;
     learner.add(10, "before", "baseline", 0);
-    learner.add(2, "before", "error_clamp", 0);  // put in
+    learner.add(2, "before", "error_clamp", 0);  // inserted
     learner.add(60, "first", "perturbed", 30);
     learner.add(3, "first", "error_clamp", 0);
     learner.add(20, "reversal", "perturbed", -30);
@@ -324,8 +323,8 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     };
     const auto at = curve.windows();
     EXPECT_NEAR(at.early.mean, mean(12, 8), 1e-9);
-    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // not of the reversal
-    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // not those that were put in
+    EXPECT_NEAR(at.late.mean, mean(64, 8), 1e-9);         // not the reversal's
+    EXPECT_NEAR(at.clamp_first.mean, mean(95, 8), 1e-9);  // not the inserted clamps
     EXPECT_NEAR(at.clamp_last.mean, mean(107, 8), 1e-9);
     EXPECT_NEAR(at.washout_first.mean, mean(115, 8), 1e-9);
     EXPECT_EQ(at.early.trials, 8);
@@ -373,7 +372,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_TRUE(std::isnan(at.early.mean));
     EXPECT_TRUE(std::isnan(at.late.mean));
     EXPECT_TRUE(std::isnan(at.clamp_first.mean));
-    EXPECT_NEAR(at.washout_first.mean, 5, 1e-9);  // an angle, whatever was learned
+    EXPECT_NEAR(at.washout_first.mean, 5, 1e-9);  // measured, whatever was learned
     EXPECT_NEAR(at.baseline.mean, -1, 1e-9);
     EXPECT_TRUE(std::isnan(curve.trials[12].perturbation));
     EXPECT_FALSE(fit_adaptation(curve));

@@ -1,5 +1,5 @@
-// Procedures and fits on two hundred simulated observers: no bias, and intervals that hold the
-// truth as often as they say.
+// Tests procedures and fits on two hundred simulated observers: estimates have no bias, and
+// intervals hold the truth as often as they claim.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ struct Judge {
     }
 };
 
-/// Two-alternative choices, of observers who lapse now and then.
+/// A random observer of two-alternative choices, who sometimes lapses.
 model::Psychometric observer(Random& random) {
     return {model::Sigmoid::normal, random.uniform(1, 3), random.uniform(0.7, 1.4), 0.5, 0.02};
 }
@@ -111,7 +111,7 @@ TEST(Observers, Quest) {
     Random random(3, "observers");
     Judge threshold{"quest"};
     for (int i = 0; i < kObservers; ++i) {
-        // a Weibull of the slope that QUEST takes for granted, with its threshold at 82 %
+        // a Weibull function of the slope that QUEST assumes, with its threshold at 82 %
         model::Psychometric truth{model::Sigmoid::weibull_log10, random.uniform(-1.5, -0.5), 3.5,
                                   0.5, 0.005};
         Procedure procedure(Quest({.prior_mean = -1, .prior_sd = 1, .trials = 60}));

@@ -1,4 +1,4 @@
-// What every procedure owes, whatever its kind.
+// Tests what all kinds of procedures have in common.
 #include "experiment/procedures/procedure.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ struct Trial {
     bool yes;
 };
 
-/// Until it is done, answered by the observer.
+/// Runs a procedure until it is done, with an observer's answers.
 std::vector<Trial> run(Procedure& procedure, uint64_t seed) {
     Random random(seed, "observer");
     std::vector<Trial> trials;

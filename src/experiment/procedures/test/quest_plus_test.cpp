@@ -17,7 +17,7 @@ std::vector<double> range(double first, double last, double step = 1) {
     return values;
 }
 
-/// Gives the answers ('C': correct), and checks that each trial is where the paper has it.
+/// Gives the answers ('C': correct), and checks that each trial is at the paper's level.
 void expect_run(QuestPlus& quest, const std::vector<double>& placements,
                 const std::string& answers) {
     ASSERT_EQ(placements.size(), answers.size());
@@ -27,7 +27,7 @@ void expect_run(QuestPlus& quest, const std::vector<double>& placements,
     }
 }
 
-/// Contrast in dB, as in the paper. Its slopes are for levels / 20, ours for levels.
+/// Settings for contrast in dB, as in the paper, whose slopes are for levels / 20; ours for levels.
 QuestPlusSettings contrast(std::vector<double> slopes_per_20_db, std::vector<double> lapses) {
     for (double& s : slopes_per_20_db) s /= 20;
     return {.levels = range(-40, 0),
@@ -37,7 +37,7 @@ QuestPlusSettings contrast(std::vector<double> slopes_per_20_db, std::vector<dou
             .trials = 200};
 }
 
-// Watson 2017: the runs of his examples, placement by placement, and the modes they end in.
+// Watson (2017): the runs of the paper's examples, trial by trial, and the modes at their ends.
 
 TEST(QuestPlus, RepeatsWatsonsRunForThreshold) {
     QuestPlus quest(contrast({3.5}, {0.02}));
@@ -108,7 +108,7 @@ TEST(QuestPlus, ExpectedEntropyIsThatOfThePosteriorsOfBothAnswers) {
             double expected = 0;
             for (const bool yes : {true, false}) {
                 QuestPlus after = quest;
-                // the share of this answer, from its definition: sum of prior times likelihood
+                // probability of this answer, by its definition: sum of prior times likelihood
                 double share = 0;
                 size_t cell = 0;
                 for (const double t : quest.settings().thresholds)

@@ -11,7 +11,7 @@
 namespace dihaptic::experiment::staircase_test {
 namespace {
 
-/// Levels of the trials that these answers ('1' for "yes") lead to, and the one after them.
+/// Levels of the trials with these answers ('1' for "yes"), and the level after them.
 std::vector<double> levels(Staircase& staircase, const std::string& answers) {
     std::vector<double> out = {staircase.level()};
     for (const char answer : answers) {
@@ -65,7 +65,7 @@ TEST(Staircase, EstimatesFromAnEvenNumberOfReversals) {
     EXPECT_TRUE(std::isnan(staircase.estimate().threshold));
     levels(staircase, "0110");  // reversals 8, 10, 8
     EXPECT_EQ(staircase.estimate().threshold, 9);
-    levels(staircase, "001");  // 11: the first of those that count is left out
+    levels(staircase, "001");  // 11: of an odd number that count, the first is left out
     EXPECT_EQ(staircase.reversals(), (std::vector<double>{8, 10, 8, 11}));
     EXPECT_EQ(staircase.estimate().threshold, 9.5);
     EXPECT_TRUE(std::isnan(staircase.estimate().low));
