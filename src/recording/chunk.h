@@ -1,17 +1,16 @@
-// What raw.log is made of, byte for byte: the file's first line, then chunks.
+// The format of raw.log, byte for byte: a first line, then chunks.
 //
 //   "DIHAPTIC LOG 3\n"
 //   chunk   u32 kind, u32 bytes of payload, u64 session, u32 number, u32 CRC-32, payload
 //
 // The kind is spelt out (HEAD, PACK, DATA, DONE). `session` is the FNV-1a hash of the head's
-// payload, and chunks are numbered from 0, the head: so a chunk that is another session's, or not
-// in its place, is told from one that is. The CRC-32 is of all before it and of the payload.
+// payload, and chunks are numbered from the head, 0: this is how a chunk of another session, or one
+// that is out of place, is recognised. The CRC-32 covers the header before it and the payload.
 //
 // Version 2 had no packed chunks. Version 1 had neither session nor number: u32 kind, u32 bytes of
 // payload, u32 CRC-32, payload.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,10 +26,9 @@ constexpr uint32_t kHead = 0x44414548;    // "HEAD"
 constexpr uint32_t kData = 0x41544144;    // "DATA"
 constexpr uint32_t kPacked = 0x4B434150;  // "PACK"
 constexpr uint32_t kDone = 0x454E4F44;    // "DONE"
-constexpr std::array kKinds{kHead, kData, kPacked, kDone};
-/// Bytes of a payload, at most: what claims more is no chunk.
+/// Largest payload [bytes]: what claims more is not a chunk.
 constexpr uint32_t kMostPayload = 1u << 28;
-/// The same of a head, which is text.
+/// Largest payload of a head, which is text [bytes].
 constexpr uint32_t kMostHead = 1u << 24;
 
 struct ChunkHeader {
@@ -42,7 +40,7 @@ struct ChunkHeader {
 };
 static_assert(sizeof(ChunkHeader) == 24);
 
-/// The same in version 1.
+/// The header in version 1.
 struct ChunkHeader1 {
     uint32_t kind = 0;
     uint32_t size = 0;
@@ -50,9 +48,9 @@ struct ChunkHeader1 {
 };
 static_assert(sizeof(ChunkHeader1) == 12);
 
-/// What all chunks of the log with this head carry.
+/// The session that all chunks of the log with this head carry.
 uint64_t session_of(std::span<const std::byte> head) noexcept;
-/// Of all of a header but its checksum, and of its payload.
+/// The checksum of a header, without its checksum, and of its payload.
 uint32_t checksum(const ChunkHeader& header, std::span<const std::byte> payload) noexcept;
 uint32_t checksum(const ChunkHeader1& header, std::span<const std::byte> payload) noexcept;
 

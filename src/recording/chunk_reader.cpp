@@ -10,11 +10,12 @@
 namespace dihaptic::recording {
 namespace {
 
-/// What looks like a chunk and is none may be read at each of its bytes anew. Beyond so much of
-/// that a file is made to keep its reader busy.
-/// Kinds are sought in pieces of so many bytes.
+/// The file is searched for kinds in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
+/// Bytes that look like a chunk and are not one may have to be read again from each of their bytes.
+/// A file that takes more than this was made to keep its reader busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
+constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
 }  // namespace
 
@@ -51,7 +52,7 @@ int64_t ChunkReader::header_size() const {
     return version_ == 1 ? sizeof(ChunkHeader1) : sizeof(ChunkHeader);
 }
 
-/// What stands there as a header.
+/// Reads the bytes at a place as a header.
 bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     if (version_ > 1)
         return file_.read(at, std::as_writable_bytes(std::span(&out, 1))) == sizeof(out);
@@ -62,7 +63,7 @@ bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     return true;
 }
 
-/// Reads the chunk that begins there; false when it is none, or damaged.
+/// Reads the chunk at a place; false if there is none, or if it is damaged.
 bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     if (!header_at(at, out)) return false;
     if (out.size > kMostPayload || out.size > file_.size() - at - header_size()) return false;
@@ -77,11 +78,11 @@ bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     return false;
 }
 
-/// The first whole chunk from there on.
+/// Finds the first whole chunk at or after a place.
 bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
     for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
         if (!read_at(at, header)) {
-            wasted_ += kBlock;  // is read again from there
+            wasted_ += kBlock;  // it is read again from there
             continue;
         }
         found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};
@@ -92,7 +93,7 @@ bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
 }
 
 int64_t ChunkReader::find_kind(int64_t from) const {
-    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may lie across two blocks
+    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may span two blocks
     if (wasted_ > kMostWasted) return -1;
     std::string block;
     for (; from + kOverlap < file_.size(); from += kBlock - kOverlap) {
@@ -122,8 +123,8 @@ const Chunk* ChunkReader::next() {
     return give(header, found);
 }
 
-/// What the rest of the file has, by number. Where a number is there twice, the first counts; what
-/// is foreign stays behind what it stood behind.
+/// Finds all chunks in the rest of the file, and sorts them by number. Of chunks with one number
+/// the first counts; foreign chunks stay behind the chunk that they follow in the file.
 void ChunkReader::look_through(const Found& first, const ChunkHeader& header) {
     looked_ = true;
     auto last = static_cast<uint32_t>(due_ - 1);

@@ -1,9 +1,9 @@
-// The chunks of a log in the order in which they were written, whatever became of the file since:
-// it may have damaged bytes, and chunks that are another session's, doubled, gone, or elsewhere.
+// Reads the chunks of a log in the order in which they were written, whatever has become of the
+// file since: it may have damaged bytes, and chunks that are foreign, duplicated, gone or moved.
 //
 // The file is read from its beginning as long as each chunk is the one that is due. At the first
-// that is not, all that follows is looked through once, and read on by the chunks' numbers. Logs of
-// version 1, whose chunks have none, are read as they stand.
+// chunk that is not, the rest of the file is searched once, and read on in the order of the chunks'
+// numbers. Logs of version 1, whose chunks have no numbers, are read as they stand.
 #pragma once
 
 #include <cstdint>
@@ -19,34 +19,34 @@ namespace dihaptic::recording {
 struct Chunk {
     enum class Place {
         own,        ///< the next that there is
-        moved,      ///< the same, but it stands behind later ones
-        doubled,    ///< it was read before
-        foreign,    ///< another session's
-        after_end,  ///< behind the end mark
+        moved,      ///< the next that there is, but it stands behind later ones
+        doubled,    ///< a chunk with its number was read before
+        foreign,    ///< it belongs to another session
+        after_end,  ///< it stands behind the end mark
     };
     uint32_t kind = 0;
     Place place = Place::own;
-    int64_t bytes = 0;    ///< with its header
-    int64_t damaged = 0;  ///< bytes before it, in the file, that are in no whole chunk
-    int64_t missing = 0;  ///< chunks that were written between the one before and this
+    int64_t bytes = 0;    ///< including its header
+    int64_t damaged = 0;  ///< bytes before it in the file that belong to no whole chunk
+    int64_t missing = 0;  ///< number of chunks that are gone between the one before and this one
     std::vector<std::byte> payload;
 };
 
 class ChunkReader {
   public:
-    /// Throws Error when the file is no log, or its head cannot be read.
+    /// Throws Error if the file is not a log, or if its head cannot be read.
     explicit ChunkReader(const std::string& file);
 
     const std::vector<std::byte>& head() const { return head_; }
-    /// The next chunk, valid until the next call; null at the end.
+    /// Returns the next chunk, valid until the next call; null at the end.
     const Chunk* next();
-    /// Share of the file that was read.
+    /// Share of the file that has been read, from 0 to 1.
     double share() const;
 
-    /// At the end: bytes behind the last whole chunk.
+    /// After the end: number of bytes behind the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
-    /// At the end: whether these begin a chunk that was not written out; and the bytes it was to
-    /// have, 0 when that is not known.
+    /// After the end: whether these bytes begin a chunk that was not written completely; `bytes` is
+    /// the size that it was to have, 0 if that is not known.
     bool tail_is_unfinished(int64_t& bytes) const;
 
   private:
@@ -54,7 +54,7 @@ class ChunkReader {
         int64_t at = 0;
         int64_t end = 0;
         int64_t damaged = 0;
-        uint32_t number = 0;  ///< of a foreign chunk: of the own one before it
+        uint32_t number = 0;  ///< of a foreign chunk: the number of the own chunk before it
         Chunk::Place place = Chunk::Place::own;
     };
     bool header_at(int64_t at, ChunkHeader& out) const;
@@ -71,9 +71,9 @@ class ChunkReader {
     int version_ = 3;
     uint64_t session_ = 0;
     std::vector<std::byte> head_;
-    int64_t end_ = 0;     // of the last whole chunk in the file so far
-    int64_t wasted_ = 0;  // bytes that were read for chunks that are none
-    uint64_t due_ = 0;    // number of the next chunk
+    int64_t end_ = 0;     // end of the last whole chunk in the file so far
+    int64_t wasted_ = 0;  // bytes that were read in vain
+    uint64_t due_ = 0;    // number of the chunk that comes next
     bool done_ = false;   // the end mark was read
     bool looked_ = false;
     std::vector<Found> found_;

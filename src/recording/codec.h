@@ -1,5 +1,5 @@
-// Frames as bytes, field by field in the order of Frame::visit(), little-endian. Bodies are written
-// when they changed: decoding onto the frame before fills in those that did not (decoder.h).
+// Encodes frames as bytes, field by field in the order of Frame::visit(), little-endian. A body is
+// written only when it has changed: decoding over the frame before keeps the others (decoder.h).
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,20 @@
 
 namespace dihaptic::recording {
 
-/// How many of each there are: fixed for a session.
+/// How many of each a frame has; fixed for a session.
 struct Layout {
     size_t fingers = 0;
     size_t bodies = 0;
     size_t turns = 0;  ///< fingers whose devices measure orientation
 };
 
-/// Bytes of the largest frame with so many contacts.
+/// Size of the largest frame with this many contacts [bytes].
 size_t most_bytes(const Layout& layout, size_t contacts);
 
-/// Which bodies an encoded frame has: all of them make it readable without the frames before.
+/// Which bodies an encoded frame has. A frame with all bodies is readable without those before it.
 enum class Bodies { changed, all };
 
-/// Writes the frame into `out` and returns how many bytes it took, or 0 when it does not fit.
+/// Encodes the frame into `out`, and returns the number of bytes, or 0 if it does not fit.
 /// Allocates nothing.
 size_t encode(const servo::Frame& frame, std::span<std::byte> out,
               Bodies bodies = Bodies::changed) noexcept;

@@ -14,7 +14,7 @@ namespace {
 
 using servo::Frame;
 
-/// Bytes of a type as a schema names it, "float64[3]"; nothing when that is none.
+/// Size of a type that a schema names, such as "float64[3]"; nullopt if it is not a type.
 std::optional<size_t> bytes_of(std::string_view type) {
     const size_t digits = std::min(type.find_first_of("0123456789"), type.size());
     const std::string_view kind = type.substr(0, digits);
@@ -40,11 +40,11 @@ std::string first_word(const std::string& line) {
 /// A field of a Frame, or of an item of one of its lists.
 struct Member {
     std::string line;  ///< of the schema
-    size_t at = 0;     ///< from the first byte of what has it
+    size_t at = 0;     ///< offset in the Frame or the item
     bool recorded = false;
 };
 
-/// The one with this line, which the log has.
+/// Finds the member with this line of the schema, and marks it as recorded; null if there is none.
 template <class Members>
 auto* recorded(Members& members, const std::string& line) {
     const auto found = std::find_if(members.begin(), members.end(),
@@ -56,7 +56,7 @@ auto* recorded(Members& members, const std::string& line) {
 
 }  // namespace
 
-/// All that a Frame has, by the lines of the schema, and where it is in memory.
+/// Lists the fields of a Frame: their lines of the schema, and their offsets in memory.
 class FrameDecoder::Members {
   public:
     struct OfList {
@@ -116,16 +116,16 @@ class FrameDecoder::Members {
     }
 
     const Frame frame_;
-    const std::byte* begin_ = bytes(frame_);  // of what is visited
+    const std::byte* begin_ = bytes(frame_);  // of the Frame or the item that is being visited
     std::vector<Member>* into_ = &fields;
 };
 
-/// The bytes of a frame, taken from the front.
+/// The bytes of an encoded frame, which are taken from the front.
 class FrameDecoder::Source {
   public:
     explicit Source(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-    /// False when there are fewer.
+    /// Copies the next bytes to where they belong; false if there are too few.
     bool take(const std::vector<Piece>& pieces, std::byte* to) {
         for (const Piece& piece : pieces) {
             if (rest_.size() < piece.size) return false;
@@ -147,7 +147,7 @@ class FrameDecoder::Source {
     std::span<const std::byte> rest_;
 };
 
-/// Goes through a schema, line by line, and notes what of it a Frame has.
+/// Reads a schema line by line, and notes which of its fields a Frame has.
 class FrameDecoder::Builder {
   public:
     Builder(FrameDecoder& out, const std::string& file) : out_(out), file_(file) {
@@ -169,12 +169,12 @@ class FrameDecoder::Builder {
         }
     }
 
-    /// What the schema did not have.
+    /// Notes which fields of a Frame the schema did not have.
     void finish() {
         for (const Member& field : members_.fields) {
             if (field.recorded) continue;
             out_.missing_.push_back(first_word(field.line));
-            // without these no frame can be told from another
+            // Without these, frames cannot be told apart.
             if (field.line.starts_with("sequence ") || field.line.starts_with("time "))
                 throw unreadable();
         }
@@ -231,7 +231,8 @@ class FrameDecoder::Builder {
     FrameDecoder& out_;
     std::string file_;
     Members members_;
-    Members::OfList* list_ = nullptr;  // whose items' fields follow; null: a Frame has none such
+    Members::OfList* list_ =
+        nullptr;  // the list whose items follow; null if a Frame does not have it
     std::string list_name_;
 };
 
@@ -253,7 +254,7 @@ bool FrameDecoder::read_list(const List& list, Source& source, std::byte* frame)
     return true;
 }
 
-/// Items that did not change stay as they are.
+/// Reads the items that changed; the others stay as they are.
 bool FrameDecoder::read_changed(const List& list, Source& source, std::byte* frame) {
     uint16_t count = 0;
     if (!source.take(count)) return false;

@@ -1,6 +1,6 @@
 // Reads frames by the schema that their log carries, so that recordings outlive the program that
-// made them. What a log has and a Frame has not is passed over; what a Frame has and the log has
-// not keeps its default.
+// made them. A field that only the log has is skipped; a field that only a Frame has keeps its
+// default.
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@ namespace dihaptic::recording {
 
 class FrameDecoder {
   public:
-    /// Throws Error about `file`, the log, when that is no schema of frames.
+    /// Throws Error, which names `file`, if the text is not a schema of frames.
     FrameDecoder(const std::string& schema, const std::string& file);
 
-    /// Reads a frame onto the one before it; false when the bytes are no frame of this layout.
+    /// Decodes a frame over the frame before it; false if the bytes are not a frame of this layout.
     bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame) const;
 
-    /// Fields of a Frame that the log does not have: "solver_route", "force_sent of fingers".
+    /// Fields of a Frame that the log does not have, such as "force_sent of fingers".
     const std::vector<std::string>& missing() const { return missing_; }
     /// Fields of the log that a Frame does not have.
     const std::vector<std::string>& unknown() const { return unknown_; }
@@ -31,24 +31,24 @@ class FrameDecoder {
     /// lists.
     struct Piece {
         size_t size = 0;
-        std::optional<size_t> to;  ///< from the Frame's, or the item's, first byte; unset: nowhere
+        std::optional<size_t> to;  ///< offset in the Frame or the item; unset: skipped
     };
-    /// A list of the Frame, whatever its items are.
+    /// A list of a Frame, whatever the type of its items.
     struct Target {
-        size_t at = 0;     ///< the list, from the Frame's first byte
-        size_t which = 0;  ///< the same of the indices of items that changed, of lists of these
-        size_t stride = 0;
+        size_t at = 0;      ///< offset of the list in the Frame
+        size_t which = 0;   ///< offset of the list of changed indices, of lists that have one
+        size_t stride = 0;  ///< bytes from one item to the next
         size_t (*size)(const std::byte* list) = nullptr;
-        /// Gives it so many items; the first one.
+        /// Resizes the list, and returns its first item.
         std::byte* (*resize)(std::byte* list, size_t count) = nullptr;
     };
     struct List {
-        bool changed = false;  ///< the log has those items that changed, with their indices
+        bool changed = false;  ///< the log has only the items that changed, with their indices
         size_t item_bytes = 0;
         std::vector<Piece> pieces;
-        std::optional<Target> target;  ///< unset: nowhere
+        std::optional<Target> target;  ///< unset: skipped
     };
-    /// Fields of the Frame itself, then a list if one follows them.
+    /// Fields of the Frame itself, followed by at most one list.
     struct Step {
         std::vector<Piece> pieces;
         std::optional<List> list;

@@ -59,7 +59,11 @@ Id write_dataset(hid_t parent, const std::string& name, double value);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<double>& values);
 Id write_dataset(hid_t parent, const std::string& name, const std::vector<int64_t>& values);
 
-enum class Numbers { real, whole };  ///< of 32 bits, or integers of 64
+enum class Numbers {
+    real,   ///< 32-bit floating point
+    exact,  ///< 64-bit floating point
+    whole,  ///< 64-bit integers
+};
 
 /// A compressed dataset that grows as rows are added. With one column it is one-dimensional.
 class Rows {

@@ -79,9 +79,11 @@ class Series {
             write_attribute(start, "rate", static_cast<float>(1 / tick));
             write_attribute(start, "unit", "seconds");
         } else {
-            const Id stamps = write_dataset(group_, "timestamps", *times);
-            write_attribute(stamps, "interval", int32_t{1});
-            write_attribute(stamps, "unit", "seconds");
+            hdf5::Rows stamps(group_, "timestamps", 1, hdf5::Numbers::exact);
+            for (const double time : *times) stamps.add(&time);
+            stamps.flush();
+            write_attribute(stamps.dataset(), "interval", int32_t{1});
+            write_attribute(stamps.dataset(), "unit", "seconds");
         }
     }
 

@@ -1,8 +1,9 @@
-// Records of a log, packed: those of one length that follow each other are turned, so that the
-// first bytes of all stand together, then the second ones, and so on; then zstd compresses them.
-// From tick to tick most bytes of a frame stay: turned, a chunk takes a fifth of its length.
+// Packs the records of a log's chunk. Records of one length that follow each other are transposed:
+// the first bytes of all of them stand together, then the second bytes, and so on. Then zstd
+// compresses the result. Most bytes of a frame stay the same from tick to tick, so that a packed
+// chunk has about a fourth of its length.
 //
-//   packed   one zstd frame of blocks: u32 records, u32 bytes of each, the bytes turned
+//   packed   one zstd frame of blocks: u32 number of records, u32 bytes of each, transposed bytes
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@ struct ZSTD_DCtx_s;
 
 namespace dihaptic::recording {
 
-/// Bytes that packed records have at most: what claims to unpack to more is none.
+/// Largest size of the unpacked records [bytes]: data that claims more is not a pack.
 constexpr size_t kMostUnpacked = 64u << 20;
 
 class Packer {
@@ -28,10 +29,10 @@ class Packer {
     Packer& operator=(const Packer&) = delete;
 
     void add(std::span<const std::byte> record);
-    /// Bytes of all records that were added, unpacked.
+    /// Number of bytes that were added since the last pack().
     size_t size() const { return records_.size(); }
-    /// What was added since the last call, packed; valid until the next. Allocates only while
-    /// chunks grow.
+    /// Packs the records that were added since the last call. The result is valid until the next
+    /// call.
     std::span<const std::byte> pack();
 
   private:
@@ -41,7 +42,7 @@ class Packer {
     };
     std::vector<std::byte> records_;
     std::vector<Block> blocks_;
-    std::vector<std::byte> turned_;
+    std::vector<std::byte> transposed_;
     std::vector<std::byte> packed_;
     std::unique_ptr<ZSTD_CCtx_s, void (*)(ZSTD_CCtx_s*)> context_;
 };
@@ -50,14 +51,14 @@ class Unpacker {
   public:
     Unpacker();
 
-    /// The records, each u32 length and its bytes, valid until the next call; nothing when that is
-    /// no whole pack.
+    /// Returns the records, each as its length (u32) and its bytes, valid until the next call;
+    /// nullopt if the bytes are not a whole pack.
     std::optional<std::span<const std::byte>> unpack(std::span<const std::byte> packed);
 
   private:
-    bool turn_back(std::span<const std::byte> blocks);
+    bool restore(std::span<const std::byte> blocks);
 
-    std::vector<std::byte> turned_;
+    std::vector<std::byte> transposed_;
     std::vector<std::byte> records_;
     std::unique_ptr<ZSTD_DCtx_s, void (*)(ZSTD_DCtx_s*)> context_;
 };

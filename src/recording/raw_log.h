@@ -1,17 +1,17 @@
-// raw.log: what is written while a session runs. Append-only, in chunks that each carry a checksum,
-// their session and their number (chunk.h), so that whatever was written before a crash can be read
-// after it, and nothing else is taken for it.
+// Writes and reads raw.log, the record of a session while it runs. It is append-only, in chunks
+// with a checksum, their session and their number (chunk.h), so that whatever was written before a
+// crash can be read after it, and nothing else is taken for it.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
-//           pack: the same, packed (pack.h); what is written today
+//           pack: such records, packed (pack.h); this is what is written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
 // A damaged chunk is left out: the reader goes on at the next one. The first frame of a chunk that
 // was written in place has all bodies; what is not known of a body after a gap is NaN.
 //
-// It holds nothing but what the session computed, so that the same session gives the same file. On
-// the real clock no two are the same, and the head's identity is random.
+// The log holds nothing but what the session computed, so that the same session gives the same
+// file. On the real clock no two sessions are the same, and the head's identity is random.
 #pragma once
 
 #include <algorithm>
@@ -29,11 +29,11 @@
 
 namespace dihaptic::recording {
 
-/// What a log is about.
+/// What the head of a log says about its session.
 struct LogHead : Setup {
     double tick = 1e-3;  ///< [s]
     std::vector<std::string> fingers;
-    std::vector<std::string> bodies;  ///< of the scene
+    std::vector<std::string> bodies;  ///< bodies of the scene
 
     /// Fingers whose devices measure orientation, in order.
     std::vector<std::string> turning_fingers() const {
@@ -59,20 +59,21 @@ struct LogHead : Setup {
 
 class RawLogWriter {
   public:
-    /// Creates the file. Throws Error when it exists or cannot be written.
+    /// Creates the file. Throws Error if it exists or cannot be written.
     RawLogWriter(const std::string& file, const LogHead& head);
     ~RawLogWriter();
     RawLogWriter(const RawLogWriter&) = delete;
     RawLogWriter& operator=(const RawLogWriter&) = delete;
 
-    /// Adds an encoded frame to the chunk that is being filled. Throws Error when the disk is full.
+    /// Adds an encoded frame to the chunk that is being filled. Throws Error if the disk is full.
     void add(std::span<const std::byte> frame);
-    /// Hands the chunk to the operating system: from here on it survives the end of this program.
+    /// Packs the chunk and hands it to the operating system: now it survives the end of this
+    /// program.
     void flush();
-    /// Puts what was handed over on the disk: from there on it survives a loss of power. From any
-    /// thread until finish(). Throws Error when the disk fails.
+    /// Puts what was handed over on the disk: now it survives a loss of power. May be called from
+    /// any thread until finish(). Throws Error if the disk fails.
     void sync() const;
-    /// Writes the mark of a session that ended, and synchronises.
+    /// Writes the end mark, and synchronises.
     void finish();
 
     int64_t frames() const { return frames_; }
@@ -90,17 +91,17 @@ class RawLogWriter {
 
 class RawLogReader {
   public:
-    /// Throws Error when the file is no log, or does not say what its frames are made of.
+    /// Throws Error if the file is not a log, or does not say what its frames are made of.
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
-    /// The next frame, valid until the next call; null at the end of what can be read.
+    /// Returns the next frame, valid until the next call; null at the end of what can be read.
     const servo::Frame* next();
-    /// What was found so far; the end is known after next() gave null.
+    /// What was found so far; what is said of the end holds once next() has returned null.
     const LogHealth& health() const { return health_; }
-    /// Reads what is left, for what it tells of the log.
+    /// Reads the rest of the log, and returns what was found.
     const LogHealth& read_to_end();
-    /// Share of the file that was read.
+    /// Share of the file that has been read, from 0 to 1.
     double share() const { return chunks_.share(); }
 
   private:
@@ -120,7 +121,7 @@ class RawLogReader {
     Layout layout_;
     std::optional<FrameDecoder> decoder_;
     Unpacker unpacker_;
-    std::span<const std::byte> rest_;  // of the chunk's records
+    std::span<const std::byte> rest_;  // the records of the chunk that are left
     bool ended_ = false;
     servo::Frame frame_;
     LogHealth health_;

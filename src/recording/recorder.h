@@ -1,5 +1,5 @@
-// From the servo's frames to raw.log. On the real clock the servo pushes into a ring and a thread
-// of the recorder's writes; on the virtual clock frames are written where they arise.
+// Records the servo's frames in raw.log. On the real clock the servo pushes frames into a ring, and
+// a thread of the recorder packs and writes them; on the virtual clock they are written in place.
 #pragma once
 
 #include <atomic>
@@ -26,18 +26,18 @@ constexpr Time kDrainEvery = std::chrono::milliseconds(5);
 
 class Recorder {
   public:
-    /// `sync`: how often what was written is synchronised to the disk, in a thread of its own,
-    /// which a slow disk may keep waiting [s]; 0: at the end alone.
+    /// `sync` is how often the log is synchronised to the disk [s], in a thread of its own, since a
+    /// slow disk may take long; 0: only at the end.
     Recorder(const std::string& file, const LogHead& head, Writing writing, double sync = 0);
     ~Recorder();
 
-    /// Records a frame; one with more contacts than there is room for is dropped and counted. In a
-    /// thread: neither waits nor allocates; a frame that finds the ring full is dropped and counted
-    /// too. In place: throws Error when the disk is full.
+    /// Records a frame. A frame with more contacts than there is room for is dropped and counted.
+    /// With a thread, record() neither waits nor allocates, and a frame that finds the ring full is
+    /// dropped and counted too; in place, it throws Error when the disk is full.
     void record(const servo::Frame& frame);
-    /// True once writing has failed: stop the session, then finish() says why.
+    /// True once writing has failed: stop the session; finish() then throws the reason.
     bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
-    /// Writes what is left, and the end mark. Throws what the thread met.
+    /// Writes the rest, and the end mark. Throws the error that the thread met, if any.
     void finish();
 
     int64_t frames() const { return log_.frames(); }

@@ -1,5 +1,5 @@
-// The schema of a log: a line for each field of its frames, in the order of their bytes, with name,
-// type and unit. A log carries it in its head, and is read by it (decoder.h).
+// The schema of a log has a line for each field of its frames, in the order of their bytes: name,
+// type and unit. The head of each log has the log's schema, and decoder.h reads the log by it.
 //
 //   grip_force float64 N
 //   fingers uint16 count, then each:
@@ -16,7 +16,7 @@
 
 namespace dihaptic::recording {
 
-/// How the items of a list are announced.
+/// What follows the name of a list.
 constexpr const char* kEachFollows = "uint16 count, then each:";
 constexpr const char* kChangedFollow =
     "uint16 count, then uint16 index and item of each that changed:";
@@ -42,7 +42,7 @@ inline std::string schema_line(const char* list, bool changed) {
     return std::string(list) + " " + (changed ? kChangedFollow : kEachFollows);
 }
 
-/// Of the frames that this program writes.
+/// The schema of the frames that this program writes.
 std::string schema();
 
 }  // namespace dihaptic::recording

@@ -270,7 +270,7 @@ TEST(RawLog, ADamagedByteCostsItsChunkAloneAndIsNeverTakenForData) {
     const testing::TemporaryFolder folder;
     const std::string whole = log_of_300(folder);
     std::set<size_t> lost_chunks;
-    for (size_t at = whole.find("DATA"); at < whole.size() - 20; at += 499) {
+    for (size_t at = whole.find("PACK"); at < whole.size() - 20; at += 37) {
         SCOPED_TRACE(at);
         std::string damaged = whole;
         damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
@@ -306,11 +306,11 @@ TEST(RawLog, ADamagedByteCostsItsChunkAloneAndIsNeverTakenForData) {
 TEST(RawLog, GoesOnAfterBytesThatAreNoChunk) {
     const testing::TemporaryFolder folder;
     const std::string whole = log_of_300(folder);
-    const size_t second = whole.find("DATA", whole.find("DATA") + 4);
+    const size_t second = whole.find("PACK", whole.find("PACK") + 4);
     // bytes in between, some of which look like a chunk's beginning, and across the reader's blocks
     for (const size_t length : {1u, 3u, 5u, 65535u, 65536u, 140000u}) {
         std::string junk(length, 'D');
-        if (length > 4) junk.replace(length - 5, 4, "DATA");
+        if (length > 4) junk.replace(length - 5, 4, "PACK");
         RawLogReader reader(
             folder.write("junk.log", whole.substr(0, second) + junk + whole.substr(second)));
         EXPECT_EQ(count(reader), 300) << length;
@@ -343,12 +343,12 @@ TEST(RawLog, TellsAnUnfinishedChunkFromADamagedOneAndHowMuchItHeld) {
     const testing::TemporaryFolder folder;
     const std::string whole = log_of_300(folder);
     size_t last = 0;
-    for (size_t at = whole.find("DATA"); at != std::string::npos; at = whole.find("DATA", at + 1))
+    for (size_t at = whole.find("PACK"); at != std::string::npos; at = whole.find("PACK", at + 1))
         last = at;
-    RawLogReader cut(folder.write("cut.log", whole.substr(0, last + 1000)));
+    RawLogReader cut(folder.write("cut.log", whole.substr(0, last + 300)));
     EXPECT_EQ(count(cut), 250);
     EXPECT_TRUE(cut.health().unfinished);
-    EXPECT_EQ(cut.health().tail_bytes, 1000);
+    EXPECT_EQ(cut.health().tail_bytes, 300);
     EXPECT_NEAR(static_cast<double>(cut.health().tail_ticks), 50, 5);
     std::string damaged = whole;
     damaged.resize(damaged.size() - 20);
