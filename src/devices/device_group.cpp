@@ -5,7 +5,7 @@
 namespace dihaptic::devices {
 namespace {
 
-/// Of the limit: what rounding alone takes a limited force beyond it is left as it is.
+/// Share of the limit by which a force that was limited already may exceed it through rounding.
 constexpr double kRounding = 1e-9;
 
 /// Returns whether `v` had to be made smaller.

@@ -1,8 +1,8 @@
-// The seam to devices: all devices of one backend, read together and written together.
+// The interface to haptic devices: all devices of one backend, read together and written together.
 //
 // Making a group configures it, which may allocate and throw an Error that names the remedy. Then
-// activate(), any number of read() and write() pairs, a pair a tick, and deactivate(). The pair
-// neither allocates nor throws; trouble shows in each reading's status.
+// come activate(), any number of pairs of read() and write(), one pair a tick, and deactivate().
+// The pair neither allocates nor throws; trouble shows in each reading's status.
 #pragma once
 
 #include <cassert>
@@ -24,15 +24,16 @@
 
 namespace dihaptic::devices {
 
-/// What can be the matter with a device in one tick.
+/// What can be wrong with a device in one tick, and the remedy: bits of Reading::status.
 enum DeviceStatus : uint32_t {
-    kOutsideWorkspace =
-        1u << 0,  ///< beyond what the device can reach: move the hand, or the rig's device
+    /// The endpoint is outside the device's workspace: move the hand, or the device in the rig.
+    kOutsideWorkspace = 1u << 0,
     kForceClamped = 1u << 1,  ///< asked for more than its peak force: soften the coupling
-    kNoMoreData = 1u << 2,    ///< a recording has ended
+    kNoMoreData = 1u << 2,    ///< the recording has ended
     kNotAnswering = 1u << 3,  ///< no state came: the rest of the reading means nothing
-    /// It took its force away by itself, for a force, a speed or a heat beyond what it bears, and
-    /// can have it back: soften the coupling, move more slowly, let its motors cool.
+    /// The device switched its force off by itself, because of a force, speed or heat beyond its
+    /// limits, and force can be switched on again: soften the coupling, move more slowly, let its
+    /// motors cool.
     kForceDropped = 1u << 4,
     kNeedsCalibration = 1u << 5,  ///< its positions mean nothing until it is calibrated again
     kDeviceFault = 1u << 6,       ///< something in it is broken: explain() may say what
@@ -44,66 +45,67 @@ struct Reading {
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
     uint32_t status = 0;  ///< DeviceStatus
-    /// Turn of the endpoint from the device's neutral orientation, and its angular velocity
-    /// [rad/s], of devices that measure orientation.
+    /// Rotation of the endpoint from the device's neutral orientation, and its angular velocity
+    /// [rad/s]; for devices that measure orientation.
     Quat R_DH = Quat::Identity();
     Vec3 w_DH = Vec3::Zero();
-    /// Angles of the arm's joints, of devices that have one in their info [rad].
+    /// Angles of the arm's joints [rad]; for devices with a DeviceInfo::arm.
     Vec3 joints = Vec3::Zero();
 };
 
 /// What a device can do.
 struct DeviceInfo {
     std::string model;
-    std::string serial;  ///< "" if it tells none
-    bool simulated =
-        false;  ///< it holds no person's hand: that it waits for its force harms nobody
+    std::string serial;  ///< "" if the device does not report one
+    /// The device does not move a person's hand: a late force harms nobody.
+    bool simulated = false;
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
-    double continuous_force =
-        std::numeric_limits<double>::infinity();  ///< that it can hold for long [N]
-    double damping = 0;  ///< of handle and hand together, for what stiffness the loop holds [N*s/m]
-    double mass = 0;     ///< of handle and hand together; 0: not known [kg]
-    double delay = 0;    ///< from write to force [s]
+    /// Force that the device can hold for long [N].
+    double continuous_force = std::numeric_limits<double>::infinity();
+    /// Damping of handle and hand together, which limits the stable stiffness [N*s/m].
+    double damping = 0;
+    double mass = 0;                ///< of handle and hand together; 0: not known [kg]
+    double delay = 0;               ///< from write to force [s]
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
-    /// By which its readings are larger than the hand's movement, and the forces above than those
-    /// in the hand.
+    /// Factor by which readings exceed the hand's movement, and the forces here those in the hand.
     double scale = 1;
-    /// What the maker says it renders calmly, if he does: what shares of its maximum are taken of
-    /// [N/m], [N*s/m].
+    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its maker
+    /// states them: settings given as shares of a maximum refer to these.
     std::optional<double> max_stiffness;
     std::optional<double> max_damping;
 
-    /// Of a Premium that tells the angles of its joints: p_DH is where they put the endpoint.
+    /// Links of a Premium that reports its joint angles: p_DH is where the angles put the endpoint.
     std::optional<model::PhantomLinks> arm;
 
     bool measures_orientation = false;
-    double peak_torque = 0;  ///< 0: it renders none [N*m]
-    double continuous_torque =
-        std::numeric_limits<double>::infinity();  ///< that it can hold for long [N*m]
+    double peak_torque = 0;  ///< 0: the device renders no torque [N*m]
+    /// Torque that the device can hold for long [N*m].
+    double continuous_torque = std::numeric_limits<double>::infinity();
     double turn_damping = 0;  ///< of handle and hand together, against turning [N*m*s/rad]
-    double inertia = 0;       ///< the same; 0: not known [kg*m^2]
+    double inertia = 0;       ///< of handle and hand together; 0: not known [kg*m^2]
 };
 
-/// One device, as the rig file has it.
+/// One device, as the rig file describes it.
 struct DeviceConfig {
     std::string finger;
     Pose X_WD;
-    Node options;  ///< the backend's own
+    Node options;  ///< read by the backend
     Place place{};
-    double scale = 1;  ///< of the world over the hand's movement, about D's origin
+    double scale = 1;  ///< movement in the world over the hand's movement, about D's origin
 };
 
-/// What some backends need of the rest of the program.
+/// What some backends need from the rest of the program.
 struct Context {
     double tick = 1e-3;                    ///< [s]
     const hand::Driver* driver = nullptr;  ///< moves the simulated fingers; outlives the group
     hand::Impedance impedance;
     hand::TremorSpec tremor;
     uint64_t seed = 0;
-    /// Recorded readings of a tick, for replay; false after the last.
+    /// Gives the recorded readings of a tick, for replay; false after the last.
     std::function<bool(Time, std::span<Reading>)> recording;
 };
 
+/// All devices of one backend.
 class DeviceGroup {
   public:
     virtual ~DeviceGroup() = default;
@@ -122,7 +124,7 @@ class DeviceGroup {
         if (active_) do_deactivate();
         active_ = false;
     }
-    /// States at time `now`, one for each device.
+    /// Reads the states at time `now`, one for each device.
     void read(Time now, std::span<Reading> readings) noexcept {
         assert(active_ && readings.size() == infos_.size());
         do_read(now, readings);
@@ -130,27 +132,28 @@ class DeviceGroup {
             if (outputs_[i].clamped) readings[i].status |= kForceClamped;
         }
     }
-    /// Forces and torques on the endpoints, in the axes of D, to hold until the next write; one for
-    /// each device. Torques are zero for devices that render none. No device is ever told more than
-    /// its peak, or limit(): what is larger is scaled down to it, which shows in the next reading,
-    /// and what is no number is zero.
+    /// Commands forces and torques on the endpoints, in the axes of D, one wrench for each device,
+    /// to hold until the next write. Torques are zero for devices that render none. No device is
+    /// ever told more than its peak or limit(): a larger vector is scaled down to it, which shows
+    /// in the next reading, and one that is not finite becomes zero.
     void write(std::span<const Wrench> wrenches_D) noexcept;
-    /// What a device may be told from now on, if its peak is not less [N], [N*m].
+    /// Limits what a device is told from now on [N], [N*m]; its peaks hold all the same.
     void limit(int device, double force, double torque) noexcept;
-    /// What the maker's library last said of a device, in words; "" if nothing. Not in the cycle.
+    /// What the maker's library last reported about a device, in words; "" if nothing. Not to be
+    /// called in the cycle.
     virtual std::string explain(int /*device*/) const { return ""; }
     /// Whether the devices say when a tick is due; then pace() is called.
     virtual bool paces() const { return false; }
-    /// Calls `tick`, which does one read() and one write(), whenever the devices are ready for one,
-    /// until it returns false; from this thread or one of the vendor's, but never two at a time.
+    /// Calls `tick`, which does one read() and one write(), whenever the devices are ready, until
+    /// it returns false; from this thread or one of the vendor's, but never two at a time.
     void pace(const std::function<bool()>& tick) {
         assert(active_ && paces());
         do_pace(tick);
     }
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
-    /// Force off at once on all devices, whatever is written, until they are activated again.
-    /// Returns whether it is known to be.
+    /// Switches force off at once on all devices, whatever is written, until they are activated
+    /// again. Returns whether force is known to be off.
     bool stop() noexcept {
         assert(can_stop());
         return do_stop();
@@ -166,7 +169,7 @@ class DeviceGroup {
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_pace(const std::function<bool()>&) {}
     virtual bool do_stop() noexcept { return false; }
-    /// Of a group with another one behind it, in whose measure the limit holds too.
+    /// For a group that wraps another one: passes the limit on, in that one's measure.
     virtual void do_limit(int /*device*/, double /*force*/, double /*torque*/) noexcept {}
 
     struct Output {
@@ -181,7 +184,7 @@ class DeviceGroup {
     bool active_ = false;
 };
 
-/// What a backend finds on this machine, for `dihaptic devices`.
+/// What a backend finds on this machine; shown by `dihaptic devices`.
 struct Survey {
     struct Device {
         std::string serial;
@@ -189,20 +192,20 @@ struct Survey {
         std::string state;  ///< in words, with a remedy when it cannot be used as it is
     };
     std::vector<Device> devices;
-    std::string missing;  ///< what keeps the backend from working, and what mends it; "" if nothing
+    std::string missing;  ///< what keeps the backend from working, and the remedy; "" if nothing
 };
 
-/// What is wrong and what mends it, without a place in a file: for Survey::missing.
+/// The first problem of an error and its remedy, without the place in a file: for Survey::missing.
 std::string in_words(const Error& error);
 
-/// An entry of the device table, one for each subfolder of this room.
+/// An entry of the table of backends, one for each subfolder of this folder.
 struct Backend {
     const char* name;
     /// Checks the options of a device, without touching hardware.
     void (*check)(const DeviceConfig& config, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
                                          const Context& context);
-    /// Whether its devices are real: they move a person's hand, in real time alone.
+    /// Whether its devices are real: they move a person's hand, and run only in real time.
     bool real = false;
     /// Looks for devices without moving them; null for a backend that is always there.
     Survey (*survey)() = nullptr;
@@ -210,7 +213,7 @@ struct Backend {
 
 /// All backends.
 std::span<const Backend> backends();
-/// The one of that name, or null.
+/// The backend of that name; null if there is none.
 const Backend* find_backend(const std::string& name);
 
 }  // namespace dihaptic::devices

@@ -1,5 +1,6 @@
-// Devices cut their own force when too much is asked of them, and give it back. Once is an event;
-// again and again is a fault, and a person who is told nothing would take the world for broken.
+// Tells a single cut of a device's force from a fault. Devices cut their own force when too much is
+// asked of them, and give it back. Once is an event; again and again is a fault: a person who is
+// told nothing would think that the world is broken.
 #pragma once
 
 #include <optional>
@@ -11,9 +12,9 @@ namespace dihaptic::devices {
 class ForceDrops {
   public:
     static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart are single
-    static constexpr Time kLongest = std::chrono::seconds(2);  ///< of a row of them
+    static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 
-    /// The status of a tick at `now` in which force was cut, or not.
+    /// The DeviceStatus of a tick at `now`; `dropped`: whether force was cut in it.
     uint32_t status(Time now, bool dropped) noexcept {
         if (!dropped) return 0;
         if (!first_ || now - last_ > kApart) first_ = now;

@@ -1,4 +1,4 @@
-// What a sensor said before: for a velocity from positions.
+// Past values of a sensor, from which a velocity is computed.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::devices {
 
-/// The last so many values of one sensor, for a velocity from its steps.
+/// The last values of one sensor, up to kMostWindow.
 template <class T>
 class Past {
   public:
@@ -20,8 +20,8 @@ class Past {
         Time time{0};
         T value;
     };
-    /// Keeps a value, and returns the one that was `window` ticks before, or the oldest; none for
-    /// the first.
+    /// Stores a value, and returns the one of `window` calls before, or the oldest if there are
+    /// fewer; null at the first call.
     const Sample* exchange(Time now, const T& value) noexcept {
         const auto size = static_cast<int>(past_.size());
         past_[static_cast<size_t>(count_ % size)] = {now, value};

@@ -36,7 +36,7 @@ void on_error(int signal) {
 }  // namespace
 
 void take_force_away_at_death() {
-    // an overflow of the main thread's stack leaves none to run on
+    // the handler needs its own stack: an overflow of the main thread's leaves none to run on
     static std::array<char, 65536> stack;
     stack_t own{};
     own.ss_sp = stack.data();

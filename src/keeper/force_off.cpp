@@ -6,7 +6,7 @@
 namespace dihaptic::keeper {
 namespace {
 
-/// A program has one group of devices, rarely two.
+/// The pages of active devices: a program has one group of them, rarely two.
 std::array<std::atomic<SharedPage*>, 4> pages{};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Takes the force of all kept devices away when this program is about to die.
+// Takes force away from all kept devices when this program is about to die.
 #pragma once
 
 #include <array>
@@ -14,16 +14,17 @@ inline constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIG
 /// How long a dying program waits to hear that force is off.
 constexpr Time kLastWait = std::chrono::milliseconds(2);
 
-/// Tells every keeper of this program to take force away, and waits until they say that they have,
-/// for kLastWait at most. False when one has not said so: then its devices' own guards are what is
-/// left. True when there is none. Async-signal-safe, from any thread.
+/// Tells every keeper of this program to take force away, and waits for kLastWait at most until
+/// they report that they have. Returns false if one has not: only its devices' own guards are left
+/// then. Returns true if there is no keeper. Async-signal-safe, from any thread.
 bool force_off_now() noexcept;
 
-/// Whether a keeper that was told by end_force() at `since` (of monotonic()) says that force is
-/// off; waits for kLastWait at most. Async-signal-safe.
+/// Whether a keeper that was told by end_force() at `since` (of monotonic()) reports that force is
+/// off; waits until kLastWait after `since` at most. Async-signal-safe.
 bool await_off(const SharedPage& page, int64_t since) noexcept;
 
-/// From when devices are active until they are not.
+/// Adds a keeper's page to those that force_off_now() tells, and removes it: while devices are
+/// active.
 void watch_over(SharedPage* page) noexcept;
 void forget(SharedPage* page) noexcept;
 

@@ -24,18 +24,18 @@ json fail(const std::string& what) {
 
 std::atomic<Server*> at_stake{nullptr};
 
-/// The maker's library failed, most likely: its devices' own guards are what is left, unless it can
-/// still be asked to stop them.
+/// Most likely the maker's library failed. Unless it can still be asked to stop the devices, only
+/// their own guards are left.
 void on_own_error(int signal) {
     constexpr itimerval kLastWait{{0, 0}, {0, 20'000}};
     std::signal(SIGALRM, SIG_DFL);
-    setitimer(ITIMER_REAL, &kLastWait, nullptr);  // it may hold a lock
+    setitimer(ITIMER_REAL, &kLastWait, nullptr);  // the library may hold a lock, and never return
     if (Server* const server = at_stake.exchange(nullptr)) server->stop_at_death();
     std::signal(signal, SIG_DFL);
     raise(signal);
 }
 
-/// What the program asks outside of the cycle.
+/// Answers what the program asks outside the cycle.
 class Control {
   public:
     Control(SharedPage& page, const InRealTime& in_real_time)
@@ -79,7 +79,7 @@ int keep(const InRealTime& in_real_time) {
         mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, kMemory, 0);
     if (at == MAP_FAILED) return EXIT_FAILURE;
     auto& page = *static_cast<SharedPage*>(at);
-    // its end is the program's, or that of the machine
+    // the keeper ends with the program, or with the machine, and not by the terminal's keys
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
     for (const int signal : kErrors) std::signal(signal, on_own_error);
@@ -87,7 +87,8 @@ int keep(const InRealTime& in_real_time) {
     while (const std::optional<json> message = receive(kSocket))
         send(kSocket, control.answer(*message));
 
-    // the program is gone: force first, and in order if the maker's library allows it
+    // the program is gone: force goes first, then the devices end in order, unless the maker's
+    // library takes longer than kOrderly
     end_force(page);
     std::thread([] {
         constexpr auto kOrderly = std::chrono::seconds(1);

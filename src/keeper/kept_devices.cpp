@@ -22,17 +22,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Beyond the silence that the keeper bears: a keeper that is silent itself is given up.
+/// A keeper is given up when it is silent for this much longer than it bears of the program.
 constexpr Time kPatience = std::chrono::milliseconds(20);
-/// Devices that are opened, or calibrate themselves, take their time.
+/// Limit for making and activating devices: opening and calibrating them takes long.
 constexpr Time kSetUp = std::chrono::seconds(60);
-/// After that they are left to themselves.
+/// Limit for deactivating devices and ending their keeper.
 constexpr Time kSetDown = std::chrono::seconds(2);
-/// What paces may take its time to begin.
+/// Limit for the first tick of devices that pace.
 constexpr Time kBeginning = std::chrono::seconds(3);
-/// Between the turns that pacing devices offer, whose own clock may rest for a while.
+/// Least limit for each later tick of devices that pace, whose own clock may pause.
 constexpr Time kSilence = std::chrono::milliseconds(200);
-/// An answer comes within that, mostly: to sleep and to be woken takes longer.
+/// Time for which an answer is awaited without sleeping: most come sooner than a wake-up would.
 constexpr Time kHope = std::chrono::microseconds(20);
 
 /// A keeper's process, its socket and the page that is shared with it.
@@ -62,18 +62,18 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// False, for good, once it did not.
+    /// False for good once an answer did not come.
     bool answers() const { return answers_; }
 
-    /// Says it and waits for the answer. Throws Error with what the keeper says is wrong, or when
-    /// it does not answer.
+    /// Sends a message and waits for the answer. Throws Error with the problems that the keeper
+    /// reports, or when it does not answer.
     json ask(const json& message, Time most) {
         std::optional<json> answer;
         if (answers_) {
             send(socket_, message);
             answer = receive(socket_, most);
         }
-        // what it says too late would be taken for the next answer
+        // an answer that comes too late would be taken for the next one
         answers_ = answer.has_value();
         if (!answers_) {
             throw Error("the program that keeps the devices does not answer",
@@ -98,7 +98,7 @@ class Process {
         posix_spawn_file_actions_addclosefrom_np(&files, kMemory + 1);
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
-        // the terminal's keys, and what is blocked or ignored here, are not meant for it
+        // the keeper gets neither the terminal's keys nor the signals blocked or ignored here
         sigset_t none;
         sigset_t all;
         sigemptyset(&none);
@@ -120,7 +120,7 @@ class Process {
     }
 
     void end() {
-        if (socket_ >= 0) close(socket_);  // by which it ends
+        if (socket_ >= 0) close(socket_);  // this ends the keeper
         socket_ = -1;
         if (pid_ > 0) {
             const int64_t begin = monotonic();
@@ -165,7 +165,7 @@ class KeptDevices final : public devices::DeviceGroup {
   private:
     void do_activate() override {
         if (process_ == nullptr || !process_->answers()) {
-            // one whose devices cannot be made yet is no keeper: the next try asks another
+            // kept only once its devices are made: otherwise the next try starts another keeper
             process_.reset();
             auto fresh = std::make_unique<Process>(order_.keeping.program);
             fresh->ask(to_json(order_), kSetUp);
@@ -187,11 +187,12 @@ class KeptDevices final : public devices::DeviceGroup {
         } catch (const Error&) {
             lost_ = true;
         }
-        // another one may do better
+        // the next activation starts another keeper
         if (lost_) process_.reset();
     }
 
-    /// False, for good, when the keeper does not answer for so long.
+    /// Waits until the keeper has answered all requests. False for good when it takes longer than
+    /// `most`.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
         const uint32_t wanted = page.asked.load();
@@ -204,7 +205,7 @@ class KeptDevices final : public devices::DeviceGroup {
         return !lost_;
     }
 
-    /// Once the last request was answered, `fill` may change what the page holds of this one.
+    /// Sends a request. `fill` writes its data into the page, once the last request was answered.
     template <class Fill>
     bool ask(Request request, const Fill& fill) noexcept {
         if (lost_ || !await_answer(limit_)) return false;
@@ -249,11 +250,13 @@ class KeptDevices final : public devices::DeviceGroup {
             if (ask(Request::pace, [](SharedPage&) {}) && !take_turns(before, tick)) return;
         }
         lost_ = true;
-        // an orderly end: the servo sees that nothing answers, and what it records goes on
+        // for an orderly end the servo goes on ticking and recording until it ends the session,
+        // and sees that no device answers
         while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
     }
 
-    /// Until `tick` wants no more; true when the keeper falls silent first.
+    /// Calls `tick` for each turn that the keeper offers, until `tick` returns false; returns true
+    /// when the keeper falls silent first.
     bool take_turns(uint32_t seen, const std::function<bool()>& tick) {
         SharedPage& page = process_->page();
         Time most = kBeginning;
@@ -281,8 +284,8 @@ class KeptDevices final : public devices::DeviceGroup {
     Order order_;
     bool paces_;
     Time limit_;
-    std::unique_ptr<Process> process_;  // none: it was given up
-    bool in_turn_ = false;              // the keeper offered one, and waits for its forces
+    std::unique_ptr<Process> process_;  // null: it was given up
+    bool in_turn_ = false;              // the keeper offered a turn, and waits for its forces
     bool lost_ = false;                 // the keeper does not answer any more
 };
 

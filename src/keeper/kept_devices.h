@@ -1,8 +1,8 @@
-// Real devices that another process owns: what the program sees of them.
+// The program's side of real devices that another process, the keeper, owns.
 //
-// The keeper (keeper.h) is a small program that nothing else runs in. It takes force away when this
-// program dies, stops or hangs, whatever kills it. README.md says what passes between the two, and
-// how long it takes.
+// The keeper (keeper.h) is a small program in which nothing else runs. It takes force away when
+// this program dies, stops or hangs, whatever the cause. README.md says what passes between the
+// two, and how long it takes.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace dihaptic::keeper {
 /// Path of the keeper's program, which lies beside this one. Throws Error when it is not there.
 std::string program();
 
-/// The devices of `order`, made by a keeper of their own. Throws Error with what the backend says.
+/// Starts a keeper that makes the devices of `order`. Throws Error with what their backend says.
 std::unique_ptr<devices::DeviceGroup> keep_devices(const Order& order);
 
 }  // namespace dihaptic::keeper

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// JSON has no infinity: null stands for it.
+/// JSON has no infinity: null stands for an infinite limit.
 json limit(double value) {
     return std::isfinite(value) ? json(value) : json();
 }
@@ -43,7 +43,7 @@ Place place_of(const json& at) {
     return {at.at(0).get<std::string>(), at.at(1).get<int>()};
 }
 
-/// With the place of each value, for messages about it.
+/// The node with the place of each value in its file, for messages about it.
 json tree(const Node& node) {
     json out{{"at", place(node.place)}};
     if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;
@@ -196,7 +196,7 @@ Error error_of(const json& in) {
 }
 
 void send(int socket, const json& message) {
-    // what a library says may be in any encoding
+    // a maker's library may report errors in any encoding
     const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
     ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
 }

@@ -1,5 +1,5 @@
-// What the program and the keeper say to each other outside of the cycle, as JSON: which devices,
-// what they are, and what went wrong.
+// The messages between the program and the keeper outside the cycle, as JSON: which devices to
+// make, what they are, and what went wrong.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,16 +12,16 @@ namespace dihaptic::keeper {
 
 nlohmann::json to_json(const Order& order);
 Order order_of(const nlohmann::json& json);
-/// What the devices are, and whether they pace.
+/// The DeviceInfo of each device, and whether the devices pace.
 nlohmann::json to_json(const devices::DeviceGroup& devices);
 std::vector<devices::DeviceInfo> infos_of(const nlohmann::json& json);
 nlohmann::json to_json(const Error& error);
 Error error_of(const nlohmann::json& json);
 
-/// A socket that keeps messages apart (SOCK_SEQPACKET).
+/// `socket`: one that keeps messages apart (SOCK_SEQPACKET).
 void send(int socket, const nlohmann::json& message);
-/// The next message; nothing when the other side is gone or said nothing for `most` (0: waits for
-/// ever).
+/// Receives the next message. Returns nullopt when the other side is gone, has sent nothing for
+/// `most` (0: waits for ever), or has sent something that is not JSON.
 std::optional<nlohmann::json> receive(int socket, Time most = Time(0));
 
 }  // namespace dihaptic::keeper

@@ -1,4 +1,4 @@
-// What a keeper has to know: which devices it is to make, and how it is to keep them.
+// What the program orders from a keeper: which devices to make, and how to keep them.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace dihaptic::keeper {
 
-/// How a keeper is to work.
+/// How a keeper works.
 struct Keeping {
-    std::string program;            ///< kept_devices.h finds it
-    double longest_silence = 0.04;  ///< of the program, after which force goes [s]
-    int priority = 80;              ///< SCHED_FIFO's, of what serves the ticks
+    std::string program;            ///< the keeper's path: program() of kept_devices.h
+    double longest_silence = 0.04;  ///< of the program; then force is set to zero [s]
+    int priority = 80;              ///< SCHED_FIFO's, of the thread that serves the ticks
 };
 
-/// Which devices it is to make.
+/// Which devices to make.
 struct Order {
     std::string backend;
     std::vector<devices::DeviceConfig> configs;

@@ -6,11 +6,11 @@
 namespace dihaptic::keeper {
 namespace {
 
-/// How often the watcher looks when nobody wakes it.
+/// Time between the watcher's looks when nothing wakes it.
 constexpr Time kLook = std::chrono::milliseconds(5);
-/// For the thread that serves to take force away by itself, before the watcher does.
+/// Time that the serving thread has to take force away itself, before the watcher does.
 constexpr Time kOwnWay = std::chrono::milliseconds(1);
-/// An idle thread wakes up now and then all the same.
+/// An idle serving thread wakes up this often all the same.
 constexpr Time kIdle = std::chrono::seconds(1);
 
 }  // namespace
@@ -44,7 +44,7 @@ void Server::activate() {
     busy_since_.store(0);
     page_.answered.store(page_.asked.load());
     watching_.store(true);
-    // to get real time takes longer than a tick
+    // setting up real time takes longer than a tick: activation waits for both threads
     std::latch ready(3);
     const auto begin = [&](int priority, void (Server::*work)() noexcept) {
         return std::thread([this, priority, work, &ready] {
@@ -82,7 +82,7 @@ void Server::serve_all() noexcept {
         const uint32_t bell = page_.bell.load(std::memory_order_acquire);
         if (ended()) take_force_away();
         if (page_.asked.load(std::memory_order_acquire) == served) {
-            // what is held is held for so long, and no longer
+            // a force is held no longer than longest_silence_ after the last request
             const Time left = longest_silence_ - Time(monotonic() - heard);
             if (holding_ && left <= Time(0)) write_zero();
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
@@ -110,7 +110,7 @@ void Server::serve(Request request) noexcept {
     }
 }
 
-/// As long as it is there, the watcher looks at how long the call to the devices lasts.
+/// A call to the devices: while this exists, the watcher checks how long the call takes.
 class Server::Call {
   public:
     explicit Call(Server& server) : server_(server) { server_.busy_since_.store(monotonic()); }
@@ -133,7 +133,7 @@ void Server::write() noexcept {
     std::copy_n(page_.wrenches, wrenches_.size(), wrenches_.begin());
     const bool some = std::any_of(wrenches_.begin(), wrenches_.end(),
                                   [](const Wrench& wrench) { return !wrench.is_zero(); });
-    holding_ = holding_ || some;  // also while the call lasts
+    holding_ = holding_ || some;  // during the call, either the old force or the new may act
     const Call call(*this);
     devices_->write(wrenches_);
     holding_ = some;
@@ -157,9 +157,9 @@ void Server::switch_off() noexcept {
     if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
 
-/// Whether the program has its forces ready, in time.
+/// Waits for the program's forces; returns whether they came in time.
 bool Server::await_reply() noexcept {
-    // who missed a turn gets no whole silence for each of the next
+    // after a missed turn the program gets one tick for each turn, not the whole longest silence
     const Time most = behind_ ? tick_ : longest_silence_;
     const int64_t begin = monotonic();
     while (!ended() && page_.closing.load() == 0) {
@@ -189,7 +189,8 @@ bool Server::take_turn() noexcept {
     return page_.closing.load() == 0;
 }
 
-/// A call to the maker's library that hangs keeps the other thread from everything.
+/// Stops the devices when the program ended force, or when a call to the maker's library hangs and
+/// so blocks the serving thread.
 void Server::watch() noexcept {
     bool stopped = false;
     while (watching_.load()) {

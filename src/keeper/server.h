@@ -1,7 +1,8 @@
-// Serves the ticks of the devices that the keeper owns, and takes their force away.
+// The keeper's server: it serves the ticks of the keeper's devices, and takes their force away.
 //
-// Two threads: one does what the program asks in the cycle, as the only one that calls a device
-// then; the other watches it, and stops the devices when a call to the maker's library hangs.
+// It has two threads. One does what the program asks in the cycle; only it reads and writes the
+// devices then. The other watches the first, and stops the devices when a call to the maker's
+// library hangs.
 #pragma once
 
 #include <atomic>
@@ -25,11 +26,11 @@ class Server {
     const devices::DeviceGroup& devices() const { return *devices_; }
     /// Switches the devices on and begins to serve. Throws Error when they refuse.
     void activate();
-    /// Zero force, devices off.
+    /// Ends the threads and switches the devices off, force first.
     void deactivate();
     std::string explain(int device) const { return devices_->explain(device); }
-    /// The keeper itself is about to die: what a maker's library bears to be called from a signal
-    /// handler nobody knows, and nothing else is left.
+    /// Stops the devices when the keeper itself is about to die. Whether a maker's library can be
+    /// called from a signal handler is unknown, but nothing else is left.
     void stop_at_death() noexcept {
         if (devices_->active() && devices_->can_stop()) devices_->stop();
     }
@@ -57,11 +58,11 @@ class Server {
     std::unique_ptr<devices::DeviceGroup> devices_;
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> wrenches_;
-    std::atomic<bool> holding_{false};    // the devices were told some force
-    uint32_t replied_ = 0;                // of the page, when it was last looked at
-    bool behind_ = false;                 // the program missed a turn
-    Time turn_time_{0};                   // of the devices' own clock
-    std::atomic<int64_t> busy_since_{0};  // in a call to the devices, on monotonic(); 0: in none
+    std::atomic<bool> holding_{false};    // the devices may hold a force that is not zero
+    uint32_t replied_ = 0;                // SharedPage::replied at the beginning of this turn
+    bool behind_ = false;                 // the program missed the last turn
+    Time turn_time_{0};                   // time of this turn, counted in ticks
+    std::atomic<int64_t> busy_since_{0};  // begin of a call to the devices, monotonic(); 0: no call
     std::atomic<bool> watching_{false};
     std::thread serving_;
     std::thread watcher_;

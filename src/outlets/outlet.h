@@ -1,7 +1,8 @@
-// The seam to what else a lab records with: where event codes go, and where triggers come from.
+// The interface to a lab's other recording equipment: outlets, to which event codes go and from
+// which triggers come.
 //
-// An outlet is made before a session begins, which may allocate and throw an Error that names the
-// remedy. Then it is called from the Station's thread alone, never from the servo's.
+// An outlet is made before a session begins; making it may allocate, and throw an Error that names
+// the remedy. After that only the Station's thread calls it, never the servo's.
 #pragma once
 
 #include <chrono>
@@ -17,10 +18,10 @@ namespace dihaptic::outlets {
 
 using Clock = std::chrono::steady_clock;
 
-/// An outlet, as the rig file has it.
+/// An outlet, as the rig file describes it.
 struct OutletConfig {
     std::string kind;
-    Node options;  ///< the kind's own
+    Node options;  ///< read by the kind
     Place place;
 
     template <class Visitor>
@@ -37,9 +38,9 @@ struct Channel {
     std::string unit;
 };
 
-/// What outlets know of the session.
+/// What outlets know about the session.
 struct About {
-    std::string session;  ///< its folder's name
+    std::string session;  ///< name of its folder
     double rate = 0;      ///< of samples [Hz]
     std::vector<Channel> channels;
 };
@@ -48,30 +49,30 @@ class Outlet {
   public:
     virtual ~Outlet() = default;
 
-    /// An event code, 1 to 255, of the tick at `at`. Throws Error when it cannot be sent.
+    /// Sends an event code, 1 to 255, of the tick at `at`. Throws Error when it cannot be sent.
     virtual void mark(int code, Clock::time_point at) = 0;
-    /// A value for each of About::channels. Throws Error when they cannot be sent.
+    /// Sends a value for each of About::channels. Throws Error when they cannot be sent.
     virtual void sample(std::span<const float>, Clock::time_point) {}
     /// Called about every millisecond. Returns the trigger that came in since, 1 to 255; 0: none.
-    /// Throws Error when none can come in any more.
+    /// Throws Error when no trigger can come in any more.
     virtual int tend(Clock::time_point) { return 0; }
 };
 
-/// An entry of the table of kinds, one for each subfolder of this room.
+/// An entry of the table of kinds, one for each subfolder of this folder.
 struct Kind {
     const char* name;
     /// Checks the options, without opening anything.
     void (*check)(const OutletConfig& config, Diagnostics& diagnostics);
     std::unique_ptr<Outlet> (*make)(const OutletConfig& config, const About& about);
-    bool samples;   ///< whether it wants them
-    bool triggers;  ///< whether they can come from it
+    bool samples;   ///< whether it takes samples
+    bool triggers;  ///< whether triggers can come from it
 };
 
 std::span<const Kind> kinds();
-/// The one of that name, or null.
+/// The kind of that name; null if there is none.
 const Kind* find_kind(const std::string& name);
 
-/// Everything that is wrong with a rig's outlets goes to `diagnostics`.
+/// Checks a rig's outlets; every problem goes to `diagnostics`.
 void check(const std::vector<OutletConfig>& outlets, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::outlets

@@ -8,14 +8,14 @@
 namespace dihaptic::outlets {
 namespace {
 
-/// What is in front of a tick's values.
+/// What precedes a tick's values in the ring.
 struct Head {
     Clock::rep at;
     int32_t code;
 };
 
 constexpr auto kTend = std::chrono::milliseconds(1);
-/// Some seconds of ticks, for an outlet that hangs.
+/// Capacity of the ring [ticks]: some seconds, for an outlet that hangs.
 constexpr size_t kTicks = 8192;
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Hands what a tick has to say to the outlets, from a thread of its own: the servo's pushes into a
-// ring and goes on. A code is on its way within a millisecond, and carries its tick's time to
-// outlets that take one.
+// The station passes event codes and samples from the servo to the outlets: the servo's thread
+// pushes them into a ring and goes on, the station's own thread calls the outlets. A code is on its
+// way within a millisecond, and outlets that take a time get that of its tick.
 #pragma once
 
 #include <atomic>
@@ -14,27 +14,28 @@ namespace dihaptic::outlets {
 
 class Station {
   public:
-    /// Opens all outlets. Throws Error when one cannot be.
+    /// Opens all outlets. Throws Error when one cannot be opened.
     Station(const std::vector<OutletConfig>& outlets, const About& about);
     ~Station();
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    /// In the tick: its event code (0: none), and a value for each channel. Neither waits nor
-    /// allocates.
+    /// Called in the tick: sends its event code (0: none) and a value for each channel. Neither
+    /// waits nor allocates.
     void send(int code, std::span<const float> values) noexcept;
-    /// In the tick: the trigger that came in since the last call, 1 to 255; 0: none.
+    /// Called in the tick: the trigger that came in since the last call, 1 to 255; 0: none.
     int take_trigger() noexcept { return trigger_.exchange(0, std::memory_order_relaxed); }
-    /// Whether any outlet wants samples: without, `values` may be empty.
+    /// Whether any outlet takes samples; if not, `values` may be empty.
     bool wants_samples() const { return samples_; }
 
-    /// Sends what is left. Returns what went wrong, in words, for each outlet that gave up.
+    /// Sends what is left, and closes the outlets. Returns what went wrong, in words: an entry for
+    /// each outlet that failed, and one if ticks were lost.
     std::vector<std::string> finish();
 
   private:
     struct Line {
         std::string kind;
-        std::unique_ptr<Outlet> outlet;  // null once it gave up
+        std::unique_ptr<Outlet> outlet;  // null once it has failed
         bool samples;
     };
     void run();

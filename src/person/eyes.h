@@ -1,4 +1,4 @@
-// What a person sees: where hands and targets are shown, some time ago.
+// A simulated person's sight: where hand and targets were shown, a visual delay ago.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@ namespace dihaptic::person {
 struct Sight {
     int trial = 0;
     int attempt = 0;
-    int phase = 0;             ///< which of the task's states it is: its targets, its message
-    Vec3 hand = Vec3::Zero();  ///< shown: middle of the fingers [m]
-    uint32_t shown = 0;        ///< regions, a bit each
-    std::array<Vec3, servo::TaskFrame::kMostTargets> target{};  ///< by region; where shown [m]
+    int phase = 0;             ///< the task's state, which is seen by its targets and message
+    Vec3 hand = Vec3::Zero();  ///< middle of the fingers, as displayed [m]
+    uint32_t shown = 0;        ///< regions that are shown as targets, one bit each
+    std::array<Vec3, servo::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
 };
 
 class Eyes {
@@ -40,7 +40,7 @@ class Eyes {
         }
         past_.add(sight);
     }
-    /// What is seen now; not before the first Frame.
+    /// What is seen now. Not to be called before the first Frame.
     const Sight& sight() const noexcept { return past_.before(delay_); }
 
   private:
@@ -48,7 +48,7 @@ class Eyes {
     Past<Sight> past_;
 };
 
-/// A position as somebody judges it who looks once [m].
+/// A position as a person judges it by one look; `noise`: SD per axis [m].
 inline Vec3 look(const Vec3& p, double noise, Random& random) noexcept {
     const Vec3 error(random.normal(), random.normal(), random.normal());
     return p + noise * error;

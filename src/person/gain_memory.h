@@ -2,11 +2,11 @@
 // model (model/adaptation.h). A person expects a movement in direction d (unit) to be shown longer
 // by the factor exp(g(d)),
 //
-//     g(d) = sum over k of d_k^2 g_k                        along the world's axes
+//     g(d) = sum over k of d_k^2 g_k                        k: the world's axes
 //
-// which is the logarithm of |S d| for a scaling S = diag(exp(g_k)) that is small. A movement that
-// was shown to go too far by the error e (a logarithm) teaches the axes that it went along, so that
-// in the same direction g changes by B e:
+// which for small g_k is the logarithm of |S d| for a scaling S = diag(exp(g_k)). A movement that
+// was shown to go too far by the error e (a logarithm) changes the gains of the axes that it went
+// along, so that in the same direction g changes by B e:
 //
 //     g_k <- A g_k + B e d_k^2 / sum over j of d_j^4
 #pragma once
@@ -24,7 +24,7 @@ class GainMemory {
 
     /// g(d).
     double expected(const Vec3& d) const noexcept { return d.cwiseAbs2().dot(gain_); }
-    /// The movement is over. `error`: ln(length shown / length wanted).
+    /// Learns from a movement that is over. `error`: ln(length shown / length wanted).
     void learn(const Vec3& d, double error) noexcept {
         const Vec3 share = d.cwiseAbs2() / d.cwiseAbs2().squaredNorm();
         gain_ = rate_.retention * gain_ + rate_.learning * error * share;

@@ -9,26 +9,26 @@ namespace {
 
 constexpr double kLongestLatency = 0.3;  // [s]
 constexpr double kMuscle = 0.02;         // time constant of grip force [s]
-constexpr double kAimedAbove = 1.1;      // load that is aimed at, over the weight expected
-constexpr double kRise = 1.5e-3;         // of fingertips that carry: it has come off [m/s]
-constexpr double kProbe = 0.1;           // from one more push to the next [s]
-constexpr double kProbeShare = 0.35;     // of the weight expected ...
-constexpr double kLeastProbe = 0.3;      // ... or so much [N]
-constexpr double kStrongest = 40;        // that anybody tries with [N]
-constexpr double kPeakTime = 0.1;        // of peak grip, from lift-off ...
-constexpr double kPeakDecay = 0.25;      // ... and its decay [s]
-constexpr double kUnload = 0.25;         // [s]
+constexpr double kAimedAbove = 1.1;      // load force aimed at, over the weight expected
+constexpr double kRise = 1.5e-3;         // fingertips this fast upward: the object came off [m/s]
+constexpr double kProbe = 0.1;           // time between increases of the load force [s]
+constexpr double kProbeShare = 0.35;     // an increase, as a share of the weight expected ...
+constexpr double kLeastProbe = 0.3;      // ... but at least this [N]
+constexpr double kStrongest = 40;        // a load force aimed at is increased no further [N]
+constexpr double kPeakTime = 0.1;        // duration of peak grip, from lift-off [s]
+constexpr double kPeakDecay = 0.25;      // time constant of its decay [s]
+constexpr double kUnload = 0.25;         // duration of the unload phase [s]
 constexpr double kWeighing = 0.3;        // time constant of the weight felt [s]
-constexpr double kCorrection = 0.15;     // of the load, once the weight is felt [s]
-constexpr double kWeighed = 0.3;         // held so long, a weight is remembered [s]
-constexpr double kSurprise = 1.15;       // load felt over load expected that is answered
-constexpr double kReplaced = 0.7;        // of the weight is felt: something else carries it
-constexpr double kTrust = 0.1;           // share of a doubt that a lift takes away
-constexpr double kReflex = 1.15;         // of grip, after a slip ...
-constexpr double kStrongestReflex = 2;   // ... all in all in a hold ...
-constexpr double kReflexTime = 0.15;     // ... and before the next is felt apart from it [s]
-constexpr double kDoubt = 0.6;           // of the friction expected: one slip tells no less
-constexpr double kMovement = 0.1;        // sum of squared accelerations by time that tells a mass
+constexpr double kCorrection = 0.15;     // time to correct the load force to the weight felt [s]
+constexpr double kWeighed = 0.3;         // time of holding after which a weight is remembered [s]
+constexpr double kSurprise = 1.15;       // grip for the load felt over planned grip, to be answered
+constexpr double kReplaced = 0.7;       // below this share of the weight, something else carries it
+constexpr double kTrust = 0.1;          // share of a doubt that a lift takes away
+constexpr double kReflex = 1.15;        // factor on grip after a slip ...
+constexpr double kStrongestReflex = 2;  // ... and the largest in a hold
+constexpr double kReflexTime = 0.15;    // time before the next slip is a separate one [s]
+constexpr double kDoubt = 0.6;          // least friction that one slip tells, over that expected
+constexpr double kMovement = 0.1;       // least integral of a^2 that tells a mass [m^2/s^3]
 
 Vec3 up() {
     return Vec3::UnitZ();
@@ -62,7 +62,8 @@ void Grip::end() noexcept {
     inertial_ = along_ = Vec3::Zero();
 }
 
-/// What the lift told, once it was long enough. A surface that gave no slip is trusted a bit more.
+/// Remembers the weight felt, if the hold was long enough. A lift also takes away some of the doubt
+/// about the surface's friction.
 void Grip::remember() noexcept {
     if (!weighed_) return;
     weighed_ = false;
@@ -105,8 +106,8 @@ void Grip::carried() noexcept {
     along_ = Vec3::Zero();
 }
 
-/// Grip that a force on the object takes, with the margin: a force along the axis takes from one of
-/// the fingers.
+/// Grip force that a force on the object needs, with the safety margin. A force along the grasp
+/// axis unloads one of the fingers.
 double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
     const double along = force_W.dot(axis);
     const double across = (force_W - along * axis).norm();
@@ -119,7 +120,8 @@ bool Grip::lost(double now) const noexcept {
 }
 
 void Grip::feel_skin(double now, const Feeling& newest) noexcept {
-    // of now: the skin's own time is its delay
+    // the newest sample, not felt(): skin_time is the skin's own delay, and touched_ was late by
+    // latency_
     if (traits_.skin_time > 0 && newest.body == body_ &&
         now - touched_ + latency_ > traits_.skin_time)
         memory().friction = misfelt_ * newest.friction;
@@ -134,8 +136,8 @@ void Grip::answer_slip(double now) noexcept {
     reflex_ = now + kReflexTime;
 }
 
-/// Whether the object has come off, or else takes more force; and whether it rests on something
-/// again.
+/// Watches whether the object has come off, needs more load force to come off, or rests on
+/// something again.
 void Grip::watch_lift(double now, Strokes& aim) noexcept {
     const double carried = felt().force_W.dot(up());
     if (phase_ == GripPhase::load && felt().rise > kRise) {
@@ -162,7 +164,7 @@ void Grip::weigh(double now, Strokes& aim) noexcept {
     aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
 }
 
-/// What tells a mass, while the object is carried.
+/// Sums up what tells the object's mass while it is carried.
 void Grip::feel_mass(const Feeling& newest) noexcept {
     if (along_ == Vec3::Zero()) return;
     const double a = newest.acceleration_W.dot(along_);
@@ -170,14 +172,14 @@ void Grip::feel_mass(const Feeling& newest) noexcept {
     moved_ += a * a;
 }
 
-/// Of each finger, for what the plan expects to need at this load, and for what is felt to be more
-/// [N].
+/// Grip force wanted of each finger, for what the plan expects to need at this load force, or for
+/// what is felt, if that needs clearly more [N].
 double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
     Vec3 expected = load * up();
     double peak = 1;
     if (phase_ == GripPhase::load) {
         peak = traits_.peak_grip;
-        expected /= kAimedAbove;  // it is not expected to weigh more
+        expected /= kAimedAbove;  // the load aims above the weight that is expected
     }
     if (phase_ == GripPhase::lifted) {
         expected += inertial_;

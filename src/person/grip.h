@@ -1,6 +1,6 @@
-// Gripping and lifting in the phases of Johansson and Westling (1984), by a plan that expects a
-// weight and a friction, and by touch, which corrects it a reflex latency later. README.md has the
-// equations.
+// A simulated person's grip and lift in the phases of Johansson and Westling (1984): grip force
+// follows a plan that expects a weight and a friction, and touch corrects it a reflex latency
+// later. README.md has the equations.
 #pragma once
 
 #include <vector>
@@ -14,45 +14,45 @@ namespace dihaptic::person {
 
 enum class GripPhase {
     open,     ///< fingers go where they are led
-    preload,  ///< both touch: they press, and the load has not begun
+    preload,  ///< fingers touch and press; load force has not begun
     ready,    ///< gripped, not lifted
-    load,     ///< grip and load rise together, until the object is felt to come off
-    lifted,   ///< with a peak at first, then static
-    unload,   ///< grip and load fall together
+    load,     ///< grip and load force rise together, until the object is felt to come off
+    lifted,   ///< grip force has a peak at first, then is static
+    unload,   ///< grip and load force fall together
 };
 
 class Grip {
   public:
-    /// `memory`: of each body of the scene, as it looks.
+    /// `memory`: for each body of the scene, what its look tells.
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
-    /// Of this trial: the reflexes' latency [s]; how strongly the hand grips, 1 as it should; by
-    /// what factor its skin errs about friction.
+    /// Sets this trial's `latency` of reflexes [s]; `strength`: grip force over what it should be;
+    /// `misfelt`: felt over true friction, for the skin.
     void set(double latency, double strength, double misfelt) noexcept;
 
     GripPhase phase() const { return phase_; }
     bool holds() const { return phase_ != GripPhase::open; }
-    /// Just felt both fingers touch; `grip`: how hard the hand presses now [N].
+    /// Both fingers were just felt to touch; `grip`: force of the hand now [N].
     void close(double now, double grip) noexcept;
-    /// Begins the load phase; `aim` takes its force.
+    /// Begins the load phase, and adds its force to `aim`.
     void lift(double now, Strokes& aim) noexcept;
     /// Begins to let go.
     void release(double now, Strokes& aim) noexcept;
-    /// A carried object is led along u from now on, until carried().
+    /// From now on, until carried(), a held object is moved along `u`.
     void carry(const Vec3& u) noexcept;
-    /// ... and this has ended: what was felt is learned.
+    /// The movement along `u` has ended: the mass that was felt in it is learned.
     void carried() noexcept;
 
-    /// One tick. `axis`: unit, from finger to finger.
+    /// One tick. `axis`: unit vector from finger to finger.
     void tick(double now, const Feeling& felt, const Vec3& axis, Strokes& aim) noexcept;
 
-    /// How hard each finger is to press inward [N].
+    /// Force with which each finger is to press inward [N].
     double squeeze() const { return squeeze_; }
     /// Force on the object that the plan expects to need, beyond the aim's load [N].
     const Vec3& inertial() const { return inertial_; }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
-    /// Of this tick's senses, a reflex latency ago.
+    /// What is felt in this tick: the senses a reflex latency ago.
     const Feeling& felt() const { return past_.before(latency_); }
 
   private:
@@ -82,18 +82,18 @@ class Grip {
 
     GripPhase phase_ = GripPhase::open;
     int body_ = 0;
-    double touched_ = 0;    // when both fingers felt it [s]
+    double touched_ = 0;    // when both fingers were felt to touch [s]
     double since_ = 0;      // when the phase began [s]
-    double probe_ = 0;      // when more force is added to a load phase that has lifted nothing [s]
-    double reflex_ = 0;     // until when a slip is the one that was answered [s]
-    double hold_ = 0;       // squeeze before the load [N]
+    double probe_ = 0;      // when force is added if a load phase has lifted nothing [s]
+    double reflex_ = 0;     // until then a slip counts as the one that was answered [s]
+    double hold_ = 0;       // squeeze before the load force [N]
     double squeeze_ = 0;    // [N]
     double weight_ = 0;     // felt in this hold [N]
-    bool weighed_ = false;  // long enough to be remembered
+    bool weighed_ = false;  // held long enough for the weight to be remembered
     Vec3 inertial_ = Vec3::Zero();
-    Vec3 along_ = Vec3::Zero();  // that it is carried; zero: it is not
-    double push_ = 0;            // sums of force times acceleration along it, and ...
-    double moved_ = 0;           // ... of acceleration squared
+    Vec3 along_ = Vec3::Zero();  // direction in which it is carried; zero: it is not
+    double push_ = 0;            // sum of force times acceleration along it
+    double moved_ = 0;           // sum of squared acceleration along it
 };
 
 }  // namespace dihaptic::person

@@ -1,4 +1,4 @@
-// What a person knows of objects, from seeing them and from the lifts before.
+// What a simulated person knows of an object, from seeing it and from earlier lifts.
 #pragma once
 
 #include "base/geometry.h"
@@ -11,19 +11,19 @@ namespace dihaptic::person {
 using model::kGravity;
 
 struct GripMemory {
-    double weight = 1;      ///< that is expected [N]
-    double friction = 0.5;  ///< of fingers on it, that is expected
-    /// Mass beyond the weight's, by world axis: learned from carrying it along that axis [kg].
+    double weight = 1;      ///< expected [N]
+    double friction = 0.5;  ///< expected, of fingers on the object
+    /// Mass beyond the weight's, by world axis, learned from carrying the object along it [kg].
     Vec3 more_mass = Vec3::Zero();
 
-    /// Force that moving it takes, beyond carrying its weight [N].
+    /// Force that moving the object takes, beyond carrying its weight [N].
     Vec3 inertial(const Vec3& acceleration_W) const noexcept {
         return (Vec3::Constant(weight / kGravity) + more_mass).cwiseProduct(acceleration_W);
     }
-    /// After a lift that felt so heavy [N].
+    /// Learns from a lift in which the weight `felt` was felt [N].
     void lifted(double felt, double learning) noexcept { weight += learning * (felt - weight); }
-    /// After carrying it along `u`, a unit vector, when that took `felt` kg: e is what was felt
-    /// beyond what was expected, and each axis learns its part of it.
+    /// Learns from carrying the object along the unit vector `u`, in which the mass `felt` was felt
+    /// [kg]: each axis learns its part of the error, which is felt minus expected mass.
     void carried(const Vec3& u, double felt, const model::SingleRate& rate) noexcept {
         const Vec3 part = u.cwiseProduct(u);
         const double error = felt - weight / kGravity - part.dot(more_mass);

@@ -1,4 +1,4 @@
-// What was a while ago: senses tell of it, not of now.
+// Past samples of a sense: a simulated person's senses are delayed.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@ namespace dihaptic::person {
 template <class Sample>
 class Past {
   public:
-    /// As far back as `longest`, a sample every `tick` [s].
+    /// Reaches back as far as `longest`, with a sample every `tick` [s].
     Past(double longest, double tick)
         : tick_(tick), samples_(static_cast<size_t>(std::ceil(longest / tick)) + 2) {}
 
     void clear() noexcept { count_ = 0; }
     void add(const Sample& sample) noexcept { samples_[count_++ % samples_.size()] = sample; }
     bool empty() const noexcept { return count_ == 0; }
-    /// The sample `delay` seconds before the newest, or the oldest that there is; not of an empty
+    /// The sample `delay` seconds before the newest, or the oldest that there is. There has to be
     /// one.
     const Sample& before(double delay) const noexcept {
         const auto back = static_cast<size_t>(std::lround(delay / tick_));

@@ -15,27 +15,27 @@ namespace {
 using experiment::TaskPlan;
 using experiment::When;
 
-constexpr double kUsualDensity = 1000;  // of what one has not lifted yet [kg/m^3]
-constexpr double kReach = 0.03;         // a movement that teaches about rotations [m]
-constexpr double kGlance = 0.08;        // share of a reach after which it is mended ...
-constexpr double kJudged = 0.4;         // ... and its error taken as the one to learn from
-constexpr double kShortest = 0.2;       // stroke [s]
-constexpr double kSettled = 0.05;       // after a stroke, before its end is judged [s]
-constexpr double kGoodEnough = 4e-3;    // off the target [m]
+constexpr double kUsualDensity = 1000;  // expected of objects that were not lifted yet [kg/m^3]
+constexpr double kReach = 0.03;         // least length of a movement that teaches rotations [m]
+constexpr double kGlance = 0.08;        // share of a reach after which it is corrected ...
+constexpr double kJudged = 0.4;         // ... and after which its error is judged, to learn from
+constexpr double kShortest = 0.2;       // shortest stroke [s]
+constexpr double kSettled = 0.05;       // time after a stroke before its end is judged [s]
+constexpr double kGoodEnough = 4e-3;    // error at the target that needs no correction [m]
 constexpr int kMostCorrections = 4;
-constexpr double kYields = 0.015;   // under each finger, before it presses less [m]
-constexpr double kOver = 0.02;      // up or down: more is over what lies there [m]
-constexpr double kOverlap = 0.6;    // of a movement, for each of its parts
-constexpr double kGuided = 0.4;     // of a reach's noise, where it is led by eye from above
-constexpr double kOpening = 2e-3;   // of the aperture: more is letting go [m]
-constexpr double kUpward = 2e-3;    // of a hand that grips: more is lifting [m]
-constexpr double kIdle = 0.4;       // between trials, before the hand goes to its rest [s]
-constexpr double kRestTime = 0.6;   // [s]
-constexpr double kRetry = 3;        // in a state whose steps are done [s]
-constexpr double kGivingUp = 10;    // [s]
-constexpr double kWeak = 0.4;       // grip of a slip, over one as it should be
-constexpr double kDecision = 0.4;   // of an answer, beyond the reaction [s]
-constexpr double kFeelTime = 0.05;  // as hand/finger.h's [s]
+constexpr double kYields = 0.015;   // yielding under each finger before it presses less [m]
+constexpr double kOver = 0.02;      // rise or fall beyond which a hand moves from above [m]
+constexpr double kOverlap = 0.6;    // duration of each part of such a movement, as a share
+constexpr double kGuided = 0.4;     // noise of such a movement, which is led by eye, over a reach's
+constexpr double kOpening = 2e-3;   // increase of the aperture beyond which the hand lets go [m]
+constexpr double kUpward = 2e-3;    // rise beyond which a hand that grips lifts [m]
+constexpr double kIdle = 0.4;       // time between trials before the hand goes to its rest [s]
+constexpr double kRestTime = 0.6;   // duration of that movement [s]
+constexpr double kRetry = 3;        // time in a state before its finished steps are repeated [s]
+constexpr double kGivingUp = 10;    // delay of an attempt that is not made [s]
+constexpr double kWeak = 0.4;       // grip that is too weak, over the right one
+constexpr double kDecision = 0.4;   // time to decide on an answer, beyond the reaction [s]
+constexpr double kFeelTime = 0.05;  // kFeelTime of hand/finger.h [s]
 
 std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
     std::vector<Vec3> out;
@@ -54,7 +54,7 @@ std::vector<double> frictions_of(const scene::Scene& scene) {
     return out;
 }
 
-/// Objects as they look: of an even, usual density, with about the friction that they have.
+/// Objects as they look: of uniform, usual density, with about the friction that they have.
 std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
     std::vector<GripMemory> out;
     Random random(seed, fmt::format("looks to {}", traits.id));
@@ -69,7 +69,7 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits
     return out;
 }
 
-/// Whether the person is to press one of some keys.
+/// Whether the state waits for a key.
 bool asks(const TaskPlan::Stage& stage) noexcept {
     return std::any_of(stage.ways.begin(), stage.ways.end(),
                        [](const TaskPlan::Way& way) { return way.exit.when == When::key; });
@@ -152,10 +152,10 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
         target.v_WT += rate.aperture / 2 * place.side;
         return target;
     }
-    // the fingers press with a force, and carry with one: their springs are stretched by it
+    // fingers press and carry with given forces: targets are off the handles by force / stiffness
     const double k = stiffness();
     const auto count = static_cast<double>(places_.size());
-    // but not on through what yields
+    // what yields under the fingers is pressed less
     const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
     target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
     if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
@@ -186,7 +186,7 @@ void Person::do_see(const servo::Frame& frame) noexcept {
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
-    // an open hand goes on from where it is
+    // a hand that has opened goes on from where it is
     if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
     if (loads && grip_.phase() != GripPhase::load)
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
@@ -219,8 +219,8 @@ void Person::see_targets(const Sight& sight) noexcept {
     seen_ |= sight.shown;
 }
 
-/// A new state shows by its targets and its message. One that asks for no movement leaves the one
-/// that is made going.
+/// Follows a new state, which is seen by its targets and its message. A state that asks for no
+/// movement leaves the current movement going.
 void Person::follow_cues(const Sight& sight) noexcept {
     if (sight.trial < 1 || sight.phase == experiment::kBetween) return await_trial();
     between_ = false;
@@ -245,7 +245,8 @@ void Person::follow_cues(const Sight& sight) noexcept {
     wait_until_ = begins;
 }
 
-/// Something is to be put back, and the hand is in its way.
+/// Lets go, or takes the hand to its rest: between trials objects are put back, and it is in the
+/// way.
 void Person::rest() noexcept {
     end_reach();
     doing_ = Doing::nothing;
@@ -253,7 +254,7 @@ void Person::rest() noexcept {
         if (grip_.phase() != GripPhase::unload) grip_.release(now_, aim_);
         return;
     }
-    trial_ = 0;  // whatever comes next is new
+    trial_ = 0;  // the next state is a new attempt
     const Aim goal = aim_.goal();
     aim_.add({start_.centre - goal.centre, start_.aperture - goal.aperture, 0}, now_, kRestTime);
 }
@@ -291,7 +292,7 @@ void Person::go_on(const Sight& sight) noexcept {
     }
 }
 
-/// The trial goes on, so that what the hand did was not enough.
+/// Repeats the steps when the trial has not gone on: what the hand did was not enough.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
                         !steps().empty() && steps().front().reach >= 0;
@@ -334,7 +335,8 @@ Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexce
     if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
     if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
     const auto trial = static_cast<size_t>(std::max(1, trial_) - 1);
-    return plan_->cell(plan_->trials[trial]).p_W[region] + step.step.move;  // as it was told
+    // never seen: where the plan has it
+    return plan_->cell(plan_->trials[trial]).p_W[region] + step.step.move;
 }
 
 void Person::begin_step(const Sight& sight) noexcept {
@@ -386,7 +388,7 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
         aim_.add(way, now_, duration);
         return;
     }
-    reach_.going = false;  // such a way has no direction that could be judged
+    reach_.going = false;  // a movement in two parts has no direction that could be judged
     const double part = kOverlap * duration;
     const Aim aside{way.centre - up * Vec3::UnitZ(), way.aperture, 0};
     const Aim upward{up * Vec3::UnitZ(), 0, 0};
@@ -394,12 +396,13 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
 }
 
-/// An open hand comes to objects from above, and leaves them upward, so as not to sweep them away.
+/// Whether the hand moves in two parts: an open hand comes to objects from above, and leaves them
+/// upward, so as not to sweep them away.
 bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// What the hand has to do for it to be seen to go so.
+/// The movement that the hand has to make to be shown to go by `displacement`, as far as learned.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -422,8 +425,8 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     return noisy(1, traits_.extent_noise) * rotated(sd * noise, made_for(displacement));
 }
 
-/// Once the reach is seen to go somewhere it is mended in part, and its direction is judged before
-/// that shows.
+/// Corrects part of a reach's error once its direction is seen, and judges the direction before the
+/// correction can be seen.
 void Person::watch_reach(const Sight& sight) noexcept {
     if (!reach_.going || reach_.seen) return;
     const Vec3 shown = sight.hand - reach_.from;
@@ -442,13 +445,13 @@ void Person::watch_reach(const Sight& sight) noexcept {
     reach_.error = rotation_between(reach_.way.normalized(), arm.normalized());
 }
 
-/// Its first stroke is over, and was seen to go too far or not far enough.
+/// Judges the extent of a reach whose first stroke has ended, and learns from it.
 void Person::judge_extent(const Sight& sight) noexcept {
     if (!reach_.going || reach_.ended) return;
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least = 0.1 * reach_.way.norm();  // went astray, which tells nothing of its extent
+    const double least = 0.1 * reach_.way.norm();  // less went astray, and tells nothing of extent
     if (shown < least) return;
     gains_[reach_.state].learn(reach_.way.normalized(), std::log(shown / reach_.way.norm()));
 }
@@ -459,7 +462,8 @@ void Person::end_reach() noexcept {
     reach_.going = false;
 }
 
-/// After a reach, by what is seen of its end: whether there is another stroke, or a look, to come.
+/// Corrects the seen end of a reach by another stroke. Returns whether the reach goes on: with a
+/// stroke, or until its end is seen.
 bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
     if (step.reach < 0 || corrections_ >= kMostCorrections) return false;
@@ -472,8 +476,8 @@ bool Person::correct(const Sight& sight) noexcept {
     return true;
 }
 
-/// "More or less?", of the last movement: was it shown larger than it was felt? The first key that
-/// the state waits for says yes, the second no.
+/// Answers whether the last movement was shown larger than it was felt. The first key that the
+/// state waits for says yes, the second no.
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
     const double felt = (centre_ - felt_from_).norm();

@@ -1,6 +1,6 @@
-// A simulated person: sees what is shown, feels the handles, and moves the simulated hand. It has
-// been told what each state of the task asks (the file's hand steps), and knows nothing of trials'
-// kinds and perturbations: these it sees and feels, or not.
+// A simulated person, who sees what is shown, feels the handles, and moves the simulated hand. The
+// person has been told what each state of the task asks (the file's hand steps), and knows nothing
+// about kinds of trials and perturbations: these are seen and felt, or not.
 #pragma once
 
 #include <memory>
@@ -17,14 +17,15 @@ namespace dihaptic::person {
 
 class Person final : public experiment::SeeingDriver {
   public:
-    /// For a plan with trials. Throws Error when the plan's hand is none that a task can move.
+    /// For a plan with trials. Throws Error when a task cannot move the plan's hand.
     Person(const Traits& traits, const experiment::Plan& plan);
 
     double duration() const override { return hand::kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
     void restart() override;
 
-    /// What it expects to be turned, of targets in direction d, while in a state of the task.
+    /// Rotation vector by which the person expects reaches toward d to be shown turned, in a state
+    /// of the task [rad].
     Vec3 expected_rotation(size_t state, const Vec3& d) const {
         return rotations_[state].expected(d);
     }
@@ -73,55 +74,54 @@ class Person final : public experiment::SeeingDriver {
     double now_ = 0;  // [s]
     Eyes eyes_;
     Touch touch_;
-    double half_ = 0;             // aperture of the handles, halved [m]
-    double touched_ = 0;          // ... when both fingers touched
+    double half_ = 0;             // half the aperture of the handles [m]
+    double touched_ = 0;          // half_ when both fingers touched [m]
     Vec3 centre_ = Vec3::Zero();  // of the handles [m]
-    double felt_ = 0;             // force on a finger, as its stiffness follows it [N]
-    std::vector<Vec3> known_;     // regions, where they were seen last [m]
-    uint32_t seen_ = 0;           // which of them were
+    double felt_ = 0;             // force on a finger, smoothed as its stiffness follows it [N]
+    std::vector<Vec3> known_;     // where each region was last seen [m]
+    uint32_t seen_ = 0;           // regions that have been seen, one bit each
 
     // memory
-    // by state: what is learned in one stays there
-    std::vector<RotationMemory> rotations_;
-    std::vector<GainMemory> gains_;
+    std::vector<RotationMemory> rotations_;  // by state: what is learned in one stays there
+    std::vector<GainMemory> gains_;          // by state
     Grip grip_;
 
-    // what it does
+    // actions
     enum class Doing { nothing, waiting, moving, preloading, loading, releasing };
     Doing doing_ = Doing::nothing;
     Strokes aim_;
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = 0;
-    int acting_ = 0;  // the state whose steps are done; later ones without steps leave it as it is
-    bool between_ = true;
-    double since_ = 0;  // when this began: the state, the time between trials, or being done [s]
+    int acting_ = 0;       // the state whose steps are being done; later ones without steps keep it
+    bool between_ = true;  // between trials
+    double since_ = 0;     // when the state, the time between trials, or doing nothing began [s]
     double wait_until_ = 0;  // [s]
     size_t step_ = 0;
-    Aim pending_;              // once the object is felt to come off ...
-    double pending_time_ = 0;  // ... in so long [s]
+    Aim pending_;  // the current movement; in a lift it begins when the object comes off
+    double pending_time_ = 0;  // duration of that movement [s]
     int corrections_ = 0;
-    double delay_ = 0;  // of this trial's next movement: hesitation [s]
+    double delay_ = 0;  // hesitation before this trial's next movement [s]
     struct Reach {
         bool going = false;
-        bool mended = false;
-        bool seen = false;
-        bool ended = false;  // its first stroke, and how far it went was seen
+        bool mended = false;  // it was corrected in its course
+        bool seen = false;    // its error of direction was seen
+        bool ended = false;   // its first stroke has ended, and its extent was judged
         size_t state = 0;
-        Vec3 from = Vec3::Zero();  // where the hand was shown [m]
-        Vec3 way = Vec3::Zero();   // that it is to be shown to go [m]
-        Vec3 error = Vec3::Zero();
+        Vec3 from = Vec3::Zero();   // where the hand was shown at its begin [m]
+        Vec3 way = Vec3::Zero();    // displacement that is to be shown [m]
+        Vec3 error = Vec3::Zero();  // rotation vector from `way` to the hand's direction [rad]
     };
     Reach reach_;
 
     // answers
-    Vec3 shown_from_ = Vec3::Zero();  // of the last movement worth judging [m]
-    Vec3 felt_from_ = Vec3::Zero();
-    double answer_at_ = -1;  // [s]; negative: nothing is asked
+    Vec3 shown_from_ = Vec3::Zero();  // where the last movement long enough began, as shown [m]
+    Vec3 felt_from_ = Vec3::Zero();   // ... and as felt [m]
+    double answer_at_ = -1;           // [s]; negative: nothing is asked
     char key_ = 0;
 };
 
-/// Puts a person before the plan's task, in place of the file's hand.
+/// Puts a simulated person in place of the plan's hand.
 void sit_down(experiment::Plan& plan, const Traits& traits);
 
 }  // namespace dihaptic::person

@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFarthest = 2.5;  // SDs from the median: nobody is further off
+constexpr double kFarthest = 2.5;  // largest |z|: nobody is further from the median
 
-/// Of people who make neither noise nor mistakes.
+/// Traits that are zero in people who make neither noise nor mistakes.
 constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
                             "adapted_noise",   "extent_noise",   "reflex_noise", "friction_error",
                             "hesitation_rate", "slip_rate",      "give_up_rate"};
@@ -40,14 +40,14 @@ double drawn(const TraitSpread& row, double z) {
     return median;
 }
 
-/// Null when there is none of that name.
+/// The trait of that name; null if there is none.
 auto find(auto& traits, const std::string& name) {
     const auto found = std::find_if(traits.begin(), traits.end(),
                                     [&](const TraitSpread& t) { return t.trait == name; });
     return found == traits.end() ? nullptr : &*found;
 }
 
-/// What `change` gives replaces what `trait` has.
+/// Replaces in `trait` what `change` gives.
 void overlay(TraitSpread& trait, const TraitSpread& change) {
     if (change.law) trait.law = change.law;
     if (change.median) trait.median = change.median;
@@ -56,7 +56,7 @@ void overlay(TraitSpread& trait, const TraitSpread& change) {
     trait.place = change.place;
 }
 
-/// The traits of one group.
+/// The population's traits with the changes of one group.
 std::vector<TraitSpread> traits_of(const Population& population, const std::string& group) {
     std::vector<TraitSpread> out = population.traits;
     for (const Group& one : population.groups) {
@@ -112,7 +112,7 @@ std::string without_unit(const std::string& trait) {
     return out;
 }
 
-/// The median, and those that are furthest from it.
+/// Checks that traits are within bounds at the median, and furthest from it on both sides.
 void check_bounds(const Population& population, const std::string& group,
                   Diagnostics& diagnostics) {
     const auto rows = traits_of(population, group);
@@ -135,7 +135,7 @@ void check_group(const Population& population, const Group& group, Diagnostics& 
     check_bounds(population, group.name, diagnostics);
 }
 
-/// Of all traits, in their order.
+/// The matrix of correlations of all traits, in their order.
 Eigen::MatrixXd correlations(const Population& population) {
     const auto n = static_cast<Eigen::Index>(population.traits.size());
     Eigen::MatrixXd out = Eigen::MatrixXd::Identity(n, n);
@@ -194,7 +194,7 @@ void check(const Population& population, const std::string& file, Diagnostics& d
     check_correlations(population, file, diagnostics);
 }
 
-/// Over the file that it is based on.
+/// The population with what it leaves out taken from `base`.
 Population resolved(Population change, Population base) {
     for (const TraitSpread& trait : change.traits) {
         if (TraitSpread* there = find(base.traits, trait.trait)) {
@@ -236,7 +236,7 @@ Population read_shipped(Objects objects) {
     return checked(std::move(out), "populations", diagnostics);
 }
 
-/// The number that ends an identifier; 1 if none does.
+/// The number that ends an identifier; 1 if there is none, or it has more than nine digits.
 size_t number_of(const std::string& id) {
     const size_t last = id.find_last_not_of("0123456789");
     const std::string digits = id.substr(last == std::string::npos ? 0 : last + 1);
@@ -252,7 +252,7 @@ Traits with_names(Traits traits, const Population& population, const std::string
     return traits;
 }
 
-/// `above`: the files that are based on this one.
+/// Reads a file, and those it is based on. `above`: the files that are based on this one.
 Population read_based(std::set<fs::path> above, const std::string& file) {
     Diagnostics diagnostics;
     Population out = parse(read_yaml(file), diagnostics);

@@ -1,10 +1,10 @@
-// Populations that simulated people are drawn from, as files have them: of each trait its median,
-// its spread and where both are from, correlations between traits, and groups that differ.
+// Populations from which simulated people are drawn, and their files: the median and spread of each
+// trait with their source, correlations between traits, and groups that differ.
 //
-// A person's trait is drawn by its law from a normal number z, which is cut at 2.5. The numbers of
-// correlated traits are z = L u with u independent and R = L L^T the matrix of correlations. Each u
-// comes from a stream of its own, named for the person and the trait: who is drawn is the same
-// whoever else is.
+// A person's trait is drawn by its law from a normal number z, which is cut at 2.5. Correlated
+// traits have z = L u, with u independent and R = L L^T the matrix of correlations. Each u comes
+// from a random stream of its own, named for the person and the trait: a person is the same
+// whichever others are drawn.
 #pragma once
 
 #include <array>
@@ -18,20 +18,21 @@
 
 namespace dihaptic::person {
 
-/// How a trait is spread over people, about its median.
+/// The distribution of a trait over people, about its median.
 enum class Law {
     normal,      ///< median + spread z
     log_normal,  ///< median exp(spread z)
-    logit,       ///< logit(p) = logit(median) + spread z: stays within 0 and 1
+    logit,       ///< logit(p) = logit(median) + spread z: stays between 0 and 1
     forgetting,  ///< 1 - p is log-normal: a retention near 1
 };
 constexpr auto enum_names(Law) {
     return std::array{"normal", "log_normal", "logit", "forgetting"};
 }
 
-/// One trait; in a group, or over another file's, what it leaves out stays as it is there.
+/// The spread of one trait. What it leaves out is as in the population, for a group's trait, or as
+/// in the file that the population is based on.
 struct TraitSpread {
-    std::string trait;  ///< as person.yaml has it, with a unit where it has one
+    std::string trait;  ///< its key in person.yaml, with the unit if it has one
     std::optional<Law> law;
     std::optional<double> median;  ///< in that unit
     std::optional<double> spread;  ///< multiplies z in the law
@@ -51,7 +52,7 @@ struct TraitSpread {
 
 struct Correlation {
     std::vector<std::string> traits;  ///< two
-    double r = 0;                     ///< of their z
+    double r = 0;                     ///< correlation of their z
     Place place;
 
     template <class Visitor>
@@ -64,7 +65,7 @@ struct Correlation {
 
 struct Group {
     std::string name;
-    std::vector<TraitSpread> traits;  ///< that differ
+    std::vector<TraitSpread> traits;  ///< those that differ from the population's
     Place place;
 
     template <class Visitor>
@@ -77,12 +78,12 @@ struct Group {
 
 struct Population {
     std::string title;
-    std::string about;     ///< in words
-    std::string based_on;  ///< another file, beside this one, that this one changes; empty: none
+    std::string about;     ///< description, for a reader
+    std::string based_on;  ///< path, from this file's folder, of the file it changes; empty: none
     Objects objects = Objects::device;
     std::vector<TraitSpread> traits;
     std::vector<Correlation> correlations;
-    std::vector<Group> groups;  ///< people are of each in turn; none: all are alike
+    std::vector<Group> groups;  ///< people belong to each in turn; may be empty
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -95,26 +96,27 @@ struct Population {
         v("groups", groups);
     }
 
-    /// The group of a person, by the number that ends `id`; empty without groups.
+    /// Name of a person's group, by the number that ends `id`; empty without groups.
     std::string group_of(const std::string& id) const;
-    /// Number of a person among those of its group, from 1: by the identifier's own, orders that
-    /// are counterbalanced over people would differ from group to group.
+    /// Number of a person within the group, from 1. Counterbalanced orders go by it: by the number
+    /// in `id`, groups would have different orders.
     int number_in_group(const std::string& id) const;
 };
 
-/// Reads a population file, with the one that it is based on. Throws Error with everything that is
-/// wrong: a trait that is none, or is missing, or that 2.5 SDs lead out of its bounds; correlations
-/// that cannot be.
+/// Reads a population file, with the file that it is based on. Throws Error with everything that is
+/// wrong: a trait that is unknown or missing, or that z = 2.5 or -2.5 takes out of its bounds;
+/// correlations that contradict each other.
 Population read_population(const std::string& file);
-/// populations/adults.yaml, or adults-real-objects.yaml, as the program was built with them.
+/// The population of populations/adults.yaml, or of adults-real-objects.yaml, as built into the
+/// program.
 const Population& shipped_population(Objects objects);
 
 /// The median person of a group, who makes neither noise nor mistakes.
 Traits median_person(const Population& population, const std::string& group = "");
-/// Person `id` of the population with this seed: the same whenever, and whoever else is drawn.
+/// Draws person `id` of the population with this seed: always the same, whichever others are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);
 
-/// The same of the shipped populations.
+/// A person of a shipped population.
 Traits median_person(Objects objects);
 Traits draw_person(Objects objects, uint64_t seed, const std::string& id);
 

@@ -6,7 +6,7 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kSameDirection = 0.09;  // [rad]
+constexpr double kSameDirection = 0.09;  // nearer directions count as one [rad]
 
 double angle_between(const Vec3& a, const Vec3& b) noexcept {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -18,7 +18,8 @@ Vec3 RotationMemory::expected(const Vec3& d) const noexcept {
     Vec3 out = fast_;
     for (size_t i = 0; i < count_; ++i) {
         double a = angle_between(d, taught_[i].d) / width_;
-        if (a * width_ < kSameDirection) a = 0;  // a target that is looked at twice
+        // the same target, whose direction is judged with noise
+        if (a * width_ < kSameDirection) a = 0;
         out += std::exp(-a * a / 2) * taught_[i].slow;
     }
     return out;

@@ -1,4 +1,4 @@
-// The files of populations/, which the build puts into the program.
+// The text of the files in populations/, which the build puts into the program.
 #pragma once
 
 #include <string_view>

@@ -1,9 +1,10 @@
 // A movement as a sum of minimum-jerk strokes (Flash and Henis 1991): a correction is one more
-// stroke, added to what goes on.
+// stroke, added to those under way.
 //
 //     x(t) = x0 + sum d_i share((t - t_i) / T_i)
 //
-// with the displacements d_i, begun at t_i, lasting T_i (model/minimum_jerk.h).
+// with d_i the displacement of a stroke, t_i its begin, T_i its duration, and share() of
+// model/minimum_jerk.h.
 #pragma once
 
 #include <array>
@@ -13,9 +14,10 @@
 
 namespace dihaptic::person {
 
-/// What a hand aims at: its centre, its aperture, and the force that it carries objects with.
+/// What a hand aims at: its centre, its aperture, and the force with which it carries objects. Also
+/// used for differences and for rates of these, where it says so.
 struct Aim {
-    Vec3 centre = Vec3::Zero();  ///< [m], the same in strokes; its derivatives by time where said
+    Vec3 centre = Vec3::Zero();  ///< [m]
     double aperture = 0;         ///< [m]
     double load = 0;             ///< upward [N]
 
@@ -38,7 +40,7 @@ class Strokes {
         end_ = 0;
     }
 
-    /// A stroke more, from `delay` after `now` on; of so many that nobody makes them, the first is
+    /// Adds a stroke that begins `delay` after `now`. If there are kMost already, the first is
     /// taken as done.
     void add(const Aim& way, double now, double duration, double delay = 0) noexcept {
         size_t kept = 0;
@@ -56,7 +58,7 @@ class Strokes {
         end_ = std::max(end_, now + delay + duration);
     }
 
-    /// The aim is another by so much, at once.
+    /// Shifts the aim at once.
     void shift(const Aim& way) noexcept { base_ += way; }
 
     Aim at(double t) const noexcept {
@@ -65,7 +67,7 @@ class Strokes {
             out += strokes_[i].way * model::minimum_jerk(strokes_[i].share(t)).share;
         return out;
     }
-    /// First derivative by time.
+    /// First derivative with respect to time.
     Aim rate(double t) const noexcept {
         Aim out;
         for (size_t i = 0; i < count_; ++i) {
@@ -74,7 +76,7 @@ class Strokes {
         }
         return out;
     }
-    /// Of the centre [m/s^2].
+    /// Acceleration of the centre [m/s^2].
     Vec3 acceleration(double t) const noexcept {
         Vec3 out = Vec3::Zero();
         for (size_t i = 0; i < count_; ++i) {
@@ -84,13 +86,13 @@ class Strokes {
         }
         return out;
     }
-    /// Where all of them lead.
+    /// The aim at the end of all strokes.
     Aim goal() const noexcept {
         Aim out = base_;
         for (size_t i = 0; i < count_; ++i) out += strokes_[i].way;
         return out;
     }
-    /// When the last one ends [s].
+    /// Time at which the last stroke ends [s].
     double end() const noexcept { return end_; }
 
   private:

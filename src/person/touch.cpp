@@ -5,13 +5,13 @@
 namespace dihaptic::person {
 namespace {
 
-constexpr double kLeastForce = 0.03;        // that is felt [N]
-constexpr double kSlipSpeed = 1e-3;         // [m/s]
-constexpr double kSlipDistance = 1e-4;      // that is felt [m]
-constexpr double kPad = 0.01;               // of a fingertip [m]
-constexpr double kAccelerationTime = 0.02;  // that accelerations are smoothed over [s]
+constexpr double kLeastForce = 0.03;        // least force that is felt [N]
+constexpr double kSlipSpeed = 1e-3;         // slower sliding is none [m/s]
+constexpr double kSlipDistance = 1e-4;      // least slip that is felt [m]
+constexpr double kPad = 0.01;               // size of a fingertip's pad [m]
+constexpr double kAccelerationTime = 0.02;  // time constant by which accelerations are smoothed [s]
 
-/// The contact in which proxy `finger` presses a body of the scene hardest, or null.
+/// The contact in which proxy `finger` presses a body of the scene hardest; null if there is none.
 const servo::ContactFrame* hardest(const servo::Frame& frame, size_t finger) noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     const int proxy = bodies + static_cast<int>(finger);
@@ -69,7 +69,7 @@ Feeling Touch::feel(const servo::Frame& frame) noexcept {
             out.slips = true;
             const double normal = std::abs(contact->f_B_W.dot(n_W));
             const double across = (contact->f_B_W - contact->f_B_W.dot(n_W) * n_W).norm();
-            // what turns under the finger slips too, but does not tell how rough it is
+            // a body that turns under the finger slips too, but does not tell its friction
             const bool turns = body.w_WB.norm() * kPad > slip.norm() / 2;
             out.slip_friction = normal > 0 && !turns ? across / normal : 0;
         }

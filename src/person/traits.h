@@ -1,4 +1,4 @@
-// What one simulated person is like; population.h says how people are spread.
+// The traits of one simulated person; population.h has their spread over people.
 #pragma once
 
 #include <array>
@@ -11,60 +11,60 @@
 
 namespace dihaptic::person {
 
-/// Objects that are felt directly, or through a haptic device: there people grip harder and learn
-/// weights more slowly (EMBC 2022).
+/// Whether objects are felt directly or through a haptic device. Through a device people grip
+/// harder and learn weights more slowly (EMBC 2022).
 enum class Objects { real, device };
 constexpr auto enum_names(Objects) {
     return std::array{"real", "device"};
 }
 
-/// README.md says what each does; populations/ has the medians, the spreads and their sources.
+/// README.md says what each trait does; populations/ has medians, spreads and their sources.
 struct Traits {
     std::string id;
-    std::string population;  ///< that it was drawn from
-    std::string group;       ///< of it; empty without groups
+    std::string population;  ///< title of the population that the person was drawn from
+    std::string group;       ///< in that population; empty without groups
     Objects objects = Objects::device;
 
     double visual_delay = 0;       ///< from the screen to the movement that follows [s]
     double visual_noise = 0;       ///< SD of a position that is looked at, per axis [m]
     double reaction_time = 0;      ///< from the cue to the movement [s]
     double reaction_noise = 0;     ///< SD over trials, share of it
-    double tempo = 0;              ///< movement times over those that the file asks for
+    double tempo = 0;              ///< movement times over those in the experiment file
     double tempo_noise = 0;        ///< SD over movements, share of it
     double direction_noise = 0;    ///< SD of a reach's direction, per axis across it [rad]
-    double adapted_noise = 0;      ///< SD of a direction, share of all that was learned about it
+    double adapted_noise = 0;      ///< SD of a direction, share of what was learned about it
     double extent_noise = 0;       ///< SD of a movement's length, share of it
-    double online_correction = 0;  ///< share of a seen error that is mended within the reach
+    double online_correction = 0;  ///< share of a seen error that is corrected within the reach
 
-    double fast_retention = 0;  ///< of the two processes of adaptation to rotations, a reach
+    double fast_retention = 0;  ///< per reach; of the two processes of adaptation to rotations
     double fast_learning = 0;
     double slow_retention = 0;
     double slow_learning = 0;
-    double generalisation = 0;  ///< SD of the slow one over target directions [rad]
+    double generalisation = 0;  ///< SD of the slow process over target directions [rad]
 
-    double gain_retention = 0;  ///< of adaptation to how far movements are shown to go
+    double gain_retention = 0;  ///< per movement; of adaptation to scaled displays
     double gain_learning = 0;
 
-    double safety_margin = 0;    ///< of the static grip
-    double least_grip = 0;       ///< however light the object [N]
-    double peak_grip = 0;        ///< grip at lift-off over static grip
-    double preload_time = 0;     ///< from touch to the onset of the load [s]
-    double load_time = 0;        ///< of a load phase of no weight ... [s]
-    double load_time_rise = 0;   ///< ... and its rise with the weight expected [s/N]
+    double safety_margin = 0;    ///< of the static grip force
+    double least_grip = 0;       ///< least grip force, however light the object [N]
+    double peak_grip = 0;        ///< grip force at lift-off over static grip force
+    double preload_time = 0;     ///< from touch to the onset of load force [s]
+    double load_time = 0;        ///< duration of the load phase for an expected weight of 0 [s]
+    double load_time_rise = 0;   ///< its rise with the weight expected [s/N]
     double reflex_latency = 0;   ///< from a touch, slip, or load to the response [s]
     double reflex_noise = 0;     ///< SD over trials [s]
-    double weight_learning = 0;  ///< share of a weight's error that the next lift has learned
-    double friction_error = 0;   ///< SD of a surface's friction as it looks or feels, share of it
+    double weight_learning = 0;  ///< share of a weight's error that is learned by the next lift
+    double friction_error = 0;   ///< SD of the log of a surface's seen or felt over true friction
     double skin_time = 0;        ///< from touch until the skin tells the friction; 0: never [s]
-    double mass_retention = 0;   ///< of adaptation to a mass that the weight does not tell of
+    double mass_retention = 0;   ///< per movement; of adaptation to a mass beyond the weight's
     double mass_learning = 0;
 
-    double answer_bias = 0;   ///< log of displayed over felt movement that looks like 0
-    double answer_sd = 0;     ///< SD of its psychometric function
-    double answer_lapse = 0;  ///< share of answers that are wrong whatever is seen
+    double answer_bias = 0;   ///< log of displayed over felt movement at which the two look equal
+    double answer_sd = 0;     ///< SD of the psychometric function
+    double answer_lapse = 0;  ///< share of wrong answers, however clear the difference
 
-    double hesitation_rate = 0;  ///< share of trials begun late ...
-    double hesitation_time = 0;  ///< ... by so much, on average [s]
+    double hesitation_rate = 0;  ///< share of trials that are begun late
+    double hesitation_time = 0;  ///< mean delay of these [s]
     double slip_rate = 0;        ///< share of grips that are too weak
     double give_up_rate = 0;     ///< share of attempts that are not made
 

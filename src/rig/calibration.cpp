@@ -14,12 +14,12 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr size_t kFolds = 5;
-/// Samples are held out in stretches of time, since neighbours in time say the same.
+/// Samples are held out in stretches of time, since neighbours in time are nearly equal.
 constexpr size_t kStretches = 50;
-/// Least share of the link's directions along any axis, as the eigenvalue of the mean of d d^T: a
-/// third when it points everywhere alike.
+/// Least share of the link's directions d along any axis, as the least eigenvalue of the mean of
+/// d d^T: 1/3 if the directions are uniform.
 constexpr double kLeastTurned = 0.04;
-/// Beyond, the endpoints were not held by one link [m].
+/// With a larger spread the endpoints were not held by one link [m].
 constexpr double kMostSpread = 2e-3;
 constexpr double kMostSlips = 0.3;
 
@@ -77,7 +77,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     }
 }
 
-/// Angles that put the endpoint elsewhere than the device says are not understood.
+/// Throws Error when joint angles put a device's endpoint elsewhere than the device reports it.
 void check_joints(const CalibrationInput& input) {
     constexpr double kMostApart = 2e-3;  // rms [m]
     for (size_t i = 0; i < input.devices.size(); ++i) {
@@ -94,7 +94,7 @@ void check_joints(const CalibrationInput& input) {
         for (const auto& sample : input.jig_samples) {
             if (sample.device == i) add(sample.at);
         }
-        // a constant is where D's origin lies
+        // a constant difference is only another origin of D
         Vec3 mean = Vec3::Zero();
         for (const Vec3& d : apart) mean += d / static_cast<double>(apart.size());
         std::vector<double> off;
@@ -109,7 +109,8 @@ void check_joints(const CalibrationInput& input) {
     }
 }
 
-/// Points on a line leave open how the devices are turned about it.
+/// Throws Error when the touched points are on a line: that leaves open how the devices are turned
+/// about it.
 void check_touches(const CalibrationInput& input) {
     std::vector<Vec3> points;
     for (const CalibrationInput::JigSample& sample : input.jig_samples)
@@ -129,7 +130,7 @@ void check_link(const CalibrationSolution& solution, double slips) {
         "rotation, backend and links name these devices?");
 }
 
-/// Which samples a fold is fitted to; the others are judged by it.
+/// Which samples a fold is fitted to, 1 each; the others are held out.
 std::vector<uint8_t> without(size_t count, size_t fold, size_t stretches) {
     std::vector<uint8_t> use(count, 1);
     for (size_t k = 0; k < count; ++k) use[k] = k * stretches / count % kFolds != fold;
@@ -152,7 +153,7 @@ DeviceCalibration part_of(const CalibrationInput::Device& device, const Correcti
     return out;
 }
 
-/// Mean distance of a device's endpoint from the first one's, held together [m].
+/// Mean distance of a device's endpoint from the first device's, held together [m].
 std::optional<double> together(const CalibrationInput& input, const CalibrationSolver& solver,
                                const CalibrationSolution& solution, size_t device) {
     double sum = 0;
@@ -175,15 +176,15 @@ Vec3 middle(const CalibrationSolver& solver, const CalibrationSolution& solution
            2;
 }
 
-/// Of samples that the solution did not see.
+/// Misfits of samples that the solution did not use.
 struct HeldOut {
-    std::vector<double> along_link;  ///< misfits, slips left out [m]
-    std::vector<double> off_jig;     ///< the same [m]
-    size_t slips = 0;                ///< of the link
+    std::vector<double> along_link;  ///< along the link, without slips [m]
+    std::vector<double> off_jig;     ///< distances from the jig's points, without slips [m]
+    size_t slips = 0;                ///< number of slips among the link's samples
 };
 
-/// Solves anew without each fold, and judges its samples by that. `all`: the solution of all
-/// samples. What each sample of the link came to goes to `out`.
+/// Solves anew without each fold, and judges the fold's samples by that. `all`: the solution from
+/// all samples. The residual of each of the link's samples goes to `out`.
 HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& solver,
                        const CalibrationSolution& all, CalibrationResult& out) {
     const size_t links = input.link_samples.size();
@@ -193,7 +194,7 @@ HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& s
     for (size_t fold = 0; fold < kFolds; ++fold) {
         const auto link = without(links, fold, kStretches);
         auto jig = std::vector<uint8_t>(touches, 1);
-        // a touched point as a whole: its samples say the same
+        // a touched point is held out as a whole: its samples are nearly equal
         for (size_t k = 0; k < touches; ++k) jig[k] = input.jig_samples[k].point % kFolds != fold;
         const CalibrationSolution part = solver.solve(all, link, jig);
         for (size_t k = 0; k < links; ++k) {
@@ -281,7 +282,7 @@ double across(const std::vector<Vec3>& points) {
 }
 
 CalibrationResult calibrate(const CalibrationInput& input) {
-    check_joints(input);  // wrong links make a cloud look too small
+    check_joints(input);  // first, since wrong links make a cloud look too small
     const CalibrationSolver solver(input);
     if (input.devices.size() > 1) {
         check_movement(input, solver);
@@ -313,7 +314,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     calibration.link_length = all.length;
     calibration.link_rms = rms(held_out.along_link);
     calibration.link_worst = worst(held_out.along_link);
-    // the link points everywhere alike, and shows one of three directions at a time
+    // the link shows one of three directions at a time, and all of them equally often
     calibration.agreement_rms = std::sqrt(3.0) * calibration.link_rms;
     if (touches > 0) {
         calibration.jig_rms = rms(held_out.off_jig);

@@ -1,6 +1,6 @@
-// Calibration: from endpoints that were moved about, joined by a link of constant and unknown
-// length, and that touched the points of a jig, to the correction of each device. README.md has the
-// equations, what such a movement cannot tell, and the sources.
+// Calibration: finds the correction of each device from samples of its endpoint, taken while a link
+// of constant, unknown length joined two endpoints and while endpoints touched the points of a jig.
+// README.md has the equations, what such a movement cannot tell, and the sources.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace dihaptic::rig {
 /// One device's part of a calibration file: a Correction.
 struct DeviceCalibration {
     std::string finger;
-    std::string serial;         ///< of the device; "" where it tells none
-    Vec3 shift = Vec3::Zero();  ///< of the true D in the rig file's [m]
-    Vec3 turn = Vec3::Zero();   ///< the same, about x, then y, then z [rad]
-    std::optional<Vec3>
-        joint_offset;             ///< true less reported; unset: stretch and skew instead [rad]
+    std::string serial;         ///< of the device; "" if the device reports none
+    Vec3 shift = Vec3::Zero();  ///< of the true D in the rig file's D [m]
+    Vec3 turn = Vec3::Zero();   ///< of the true D in it, about x, then y, then z [rad]
+    /// True minus reported joint angles [rad]; unset: stretch and skew hold instead.
+    std::optional<Vec3> joint_offset;
     Vec3 stretch = Vec3::Zero();  ///< along x, y, z
     Vec3 skew = Vec3::Zero();     ///< in yz, xz, xy
-    /// How far its endpoint was from the first device's, held together; unset: that was not tried,
-    /// or it is the first one's [m].
+    /// Distance of the endpoint from the first device's when the two were held together [m]; unset
+    /// for the first device, or if they were not.
     std::optional<double> together;
 
     template <class Visitor>
@@ -36,7 +36,7 @@ struct DeviceCalibration {
         v("together", together, Field::length().within(0, 1));
     }
 
-    /// `arm`: of the device; its joints are used when `joint_offset` is set.
+    /// `arm`: the device's; its joints are used if `joint_offset` is set.
     Correction correction(const std::optional<model::PhantomLinks>& arm) const;
 };
 
@@ -44,14 +44,14 @@ struct DeviceCalibration {
 struct Calibration {
     std::string date;  ///< ISO 8601: 2026-11-21
     std::vector<DeviceCalibration> devices;
-    // of samples that the solution did not see, slips left out
-    double link_length = 0;           ///< [m]
+    double link_length = 0;  ///< [m]
+    // misfits are of held-out samples, which the solution did not use; slips are left out
     double link_rms = 0;              ///< misfit along the link [m]
     double link_worst = 0;            ///< [m]
     double agreement_rms = 0;         ///< of two endpoints held together, in space [m]
     std::optional<double> jig_rms;    ///< distance from the jig's points [m]
     std::optional<double> jig_worst;  ///< [m]
-    double slips = 0;                 ///< share of the samples that the rest speaks against
+    double slips = 0;                 ///< share of the link's samples that contradict the rest
     Place place{};
 
     template <class Visitor>
@@ -68,11 +68,11 @@ struct Calibration {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// The part of a finger's device, or null.
+    /// The part of a finger's device; null if there is none.
     const DeviceCalibration* find(const std::string& finger) const;
 };
 
-/// Whole days from an ISO 8601 date to another; nothing when one is none.
+/// Number of days from one ISO 8601 date to another. Returns nullopt when either is not a date.
 std::optional<int> days_between(const std::string& from, const std::string& to);
 
 /// What a device reported at one moment.
@@ -88,7 +88,7 @@ struct CalibrationInput {
         Pose X_WD;  ///< as the rig file has it
         std::optional<model::PhantomLinks> arm;
     };
-    /// Endpoints of two devices, joined: in the order in which they were taken.
+    /// The endpoints of two devices, joined. Samples are in the order in which they were taken.
     struct LinkSample {
         size_t a = 0, b = 1;
         CalibrationReading at_a, at_b;
@@ -106,20 +106,20 @@ struct CalibrationInput {
     std::vector<LinkSample> together_samples;  ///< endpoints held together, without the link
 };
 
-/// How far apart the calibrated distance and the link's length are, where the link's middle was.
+/// Distance of two endpoints minus the link's length.
 struct LinkResidual {
-    Vec3 p_W = Vec3::Zero();
-    double misfit = 0;  ///< [m]
+    Vec3 p_W = Vec3::Zero();  ///< middle of the link [m]
+    double misfit = 0;        ///< [m]
     bool slip = false;
 };
 
 struct CalibrationResult {
     Calibration calibration;           ///< without a date
-    std::vector<LinkResidual> before;  ///< by what the rig file has, from the median distance
-    std::vector<LinkResidual> after;   ///< of samples held out
+    std::vector<LinkResidual> before;  ///< uncorrected, with the median distance as the length
+    std::vector<LinkResidual> after;   ///< corrected, of held-out samples
 };
 
-/// Throws Error with a remedy when the movement was too short, too small, too flat, or when the
+/// Throws Error with a remedy when the movement was too short, too small or too flat, or when the
 /// link did not keep its length.
 CalibrationResult calibrate(const CalibrationInput& input);
 
@@ -127,19 +127,20 @@ CalibrationResult calibrate(const CalibrationInput& input);
 constexpr double kLeastDepth = 0.06;
 constexpr size_t kLeastSamples = 300;
 
-/// How deep a cloud of points is: extents along its principal axes but for the outermost
-/// hundredths, the smallest first [m].
+/// Extents of a cloud of points along its principal axes, without the outermost hundredth at each
+/// end, the smallest first [m].
 Vec3 cloud_extents(const std::vector<Vec3>& points);
 
-/// What was found, in lines for a person.
+/// The result in words, for a person; several lines.
 std::string describe(const CalibrationResult& result);
 
-/// Extent of points across their longest one, as twice the standard deviation [m].
+/// Extent of points along their second principal axis, as twice the standard deviation [m]: 0 for
+/// points on a line.
 double across(const std::vector<Vec3>& points);
 /// Least such extent of a jig [m].
 constexpr double kLeastJig = 0.03;
 
-/// SVG text: misfits over the workspace from above, before and after.
+/// SVG text: misfits over the workspace, seen from above, before and after.
 std::string residual_picture(const CalibrationResult& result, const std::string& title);
 
 }  // namespace dihaptic::rig

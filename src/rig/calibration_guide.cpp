@@ -11,9 +11,9 @@ namespace {
 constexpr uint64_t kSeed = 1;        // of the simulated hand's slips
 constexpr int kTouches = 25;         // samples of a point of the jig
 constexpr int kHeld = 50;            // samples of endpoints held together: a second
-constexpr double kMostMoved = 2e-3;  // by endpoints held together, in that second [m]
+constexpr double kMostMoved = 2e-3;  // change of their distance in that second [m]
 
-/// One person's way through steps, on devices that are only read.
+/// Takes a person through steps, on devices that are only read.
 class Way {
   public:
     Way(DeviceReader& reader, const Guide& guide, int steps) : reader_(reader), guide_(guide) {
@@ -30,12 +30,12 @@ class Way {
         now_.measured = measured;
         guide_.show(now_);
     }
-    /// Until the person says so.
+    /// Waits until the person says that the step is done.
     void wait() {
         reader_.repeat([&] { return !guide_.done(); });
     }
-    /// Calls `each` for every sample, until it returns false; `said`: the person has said that it
-    /// is done, since the last sample.
+    /// Calls `each` for every sample until it returns false; `said`: since the last sample the
+    /// person has said that the step is done.
     void sample(const std::function<bool(bool said)>& each) {
         bool said = false;
         int64_t ticks = 0;
@@ -141,11 +141,11 @@ class CalibrationWay {
     Way way_;
 };
 
-/// Two endpoints of which the calibration tells how far apart they are when held together.
+/// Two endpoints whose distance when held together is in the calibration.
 struct Told {
-    size_t first;  // finger
-    size_t other;
-    double before;  // [m]
+    size_t first;   // finger
+    size_t other;   // finger
+    double before;  // distance [m]
 };
 
 std::vector<Told> told_together(const Rig& rig, const std::vector<std::string>& fingers) {
@@ -172,7 +172,7 @@ CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
     return simulate_calibration(rig, kSeed, [&](double share) {
         now.share = share;
         guide.show(now);
-        guide.done();  // may give up
+        guide.done();  // throws if the person gives up
         return true;
     });
 }
@@ -198,7 +198,7 @@ std::vector<Together> check_together(const Rig& rig, const std::vector<std::stri
     std::vector<Told> told = told_together(rig, fingers);
     DeviceReader reader(devices, fingers);
     const std::vector<Pose> X_WD = poses(rig, fingers);
-    // of the hand: a scale moves endpoints apart that are together
+    // without scales, which would move endpoints apart that are together in the hand
     const auto p_W = [&](size_t k) {
         return Vec3(X_WD[k] *
                     (reader.readings()[k].p_DH / devices.info(static_cast<int>(k)).scale));

@@ -12,18 +12,18 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr double kLink = 0.05;      // length [m]
-constexpr double kCarry = 60;       // for so long [s]
+constexpr double kLink = 0.05;      // length of the link [m]
+constexpr double kCarry = 60;       // time for which the link is carried [s]
 constexpr double kRaise = 1.5;      // from rest, and back to it [s]
 constexpr double kMove = 0.6;       // from one point of the jig to the next [s]
-constexpr double kTouch = 0.4;      // on it [s]
-constexpr double kHold = 1;         // the endpoints together [s]
-constexpr double kSlipping = 0.2;   // [s]
-constexpr double kSlips = 0.05;     // share of the time
-constexpr double kSlipSize = 5e-3;  // [m]
-constexpr double kMargin = 0.01;    // from where the devices' common reach ends [m]
+constexpr double kTouch = 0.4;      // time on a point of the jig [s]
+constexpr double kHold = 1;         // time for which endpoints are held together [s]
+constexpr double kSlipping = 0.2;   // duration of a slip [s]
+constexpr double kSlips = 0.05;     // share of the time with slips
+constexpr double kSlipSize = 5e-3;  // largest displacement in a slip [m]
+constexpr double kMargin = 0.01;    // from the end of the devices' common workspace [m]
 
-/// Fingers that do not yield: what they hold is a tool.
+/// Stiff fingers: what they hold is a tool.
 hand::Impedance firm() {
     hand::Impedance out;
     out.stiffness = 1e5;
@@ -41,8 +41,8 @@ class CalibrationHand final : public hand::Driver {
     struct Stretch {
         double start = 0;
         double end = 0;
-        size_t device = 0;  // that is joined to the first, or touches
-        int point = -1;     // of the jig
+        size_t device = 0;  // joined to the first, or touching the jig
+        int point = -1;     // of the jig; -1: none
         enum { link, jig, together } what = link;
     };
 
@@ -58,9 +58,10 @@ class CalibrationHand final : public hand::Driver {
             for (size_t point = 0; point < jig.size(); ++point)
                 add(kMove + kTouch, device, static_cast<int>(point), Stretch::jig);
             if (!jig.empty())
-                add(kMove, device, static_cast<int>(jig.size()), Stretch::jig);  // and back
+                add(kMove, device, static_cast<int>(jig.size()),
+                    Stretch::jig);  // back to the middle
         }
-        // in the middle, where both fingers wait
+        // fingers are held together in the middle, where all wait
         for (size_t device = 1; device < devices; ++device)
             add(kMove + kHold, device, -1, Stretch::together);
         duration_ = t;
@@ -103,7 +104,7 @@ class CalibrationHand final : public hand::Driver {
         }
         const bool carries = now.what == Stretch::link && (device == 0 || device == now.device);
         if (!carries) return ball_.centre;
-        // from the middle, where both fingers wait, and back
+        // the link's movement starts and ends in the middle, where both fingers wait
         const double raised = model::minimum_jerk((t - now.start) / kRaise).share *
                               model::minimum_jerk((now.end - t) / kRaise).share;
         const auto wave = [&](double hertz) { return std::sin(2 * std::numbers::pi * hertz * t); };
@@ -142,7 +143,7 @@ std::unique_ptr<devices::DeviceGroup> devices_of(const Rig& rig, const hand::Dri
     return make_devices(uncorrected(rig), held_fingers(rig), context);
 }
 
-/// Where the middle of the link can be carried, whichever way it points.
+/// The ball through which the middle of the link can be carried, whichever way the link points.
 Ball common_ball(const Rig& rig) {
     const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
     const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};

@@ -1,5 +1,5 @@
-// Taking the samples of a calibration: what is common to guided and simulated ones, and the hand
-// that does it on simulated devices.
+// Takes the samples of a calibration: the part that guided and simulated ones share, and the
+// simulated hand that moves simulated devices for it.
 #pragma once
 
 #include <functional>
@@ -10,30 +10,29 @@
 
 namespace dihaptic::rig {
 
-/// Collects samples of a rig's devices, as they report themselves, with forces off.
+/// Collects samples of a rig's devices, uncorrected and unscaled, with forces off.
 class CalibrationSampler {
   public:
-    /// Two endpoints, or an endpoint and a point of the jig, are sampled so often.
+    /// Time between samples.
     static constexpr Time kEvery = std::chrono::milliseconds(20);
 
-    /// Throws Error as make_devices() does. `driver`: of simulated devices.
+    /// Throws Error as make_devices() does. `driver`: for simulated devices.
     CalibrationSampler(const Rig& rig, const hand::Driver* driver);
 
     void activate() { devices_->activate(); }
     void deactivate() { devices_->deactivate(); }
     DeviceReader& reader() { return reader_; }
 
-    /// The last tick's endpoints of the first device and another, joined.
+    /// Adds the last tick's endpoints of the first device and another, joined by the link.
     void add_link(size_t other);
-    /// The same, held together.
+    /// Adds the last tick's endpoints of the first device and another, held together.
     void add_together(size_t other);
-    /// How much further apart some were than others, of those held together since sample `from`
-    /// [m].
+    /// Largest minus smallest distance of endpoints held together, from sample `from` on [m].
     double moved_apart(size_t from) const;
     void forget_together(size_t from) { input_.together_samples.resize(from); }
-    /// The last tick's endpoint of a device on a point of the jig.
+    /// Adds the last tick's endpoint of a device, on a point of the jig.
     void add_touch(size_t device, size_t point);
-    /// Extents of the cloud of a device's endpoint, as far as it goes, the smallest first [m].
+    /// Extents of the cloud of a device's joined endpoints so far, the smallest first [m].
     Vec3 cloud(size_t device) const;
     const CalibrationInput& input() const { return input_; }
 
@@ -48,9 +47,9 @@ class CalibrationSampler {
     CalibrationInput input_;
 };
 
-/// On simulated devices a firm hand carries a link of 50 mm through what all devices reach, letting
-/// it slip in a twentieth of the time, and touches the jig. Throws Error when the rig's devices are
-/// not simulated. `progress` gets the share that is done, and returns false to give up.
+/// A firm simulated hand carries a link of 50 mm through the workspace that all devices share,
+/// letting it slip in a twentieth of the time, and touches the jig. Throws Error when the rig's
+/// devices are not simulated. `progress` gets the share that is done, and returns false to give up.
 CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
                                       const std::function<bool(double share)>& progress);
 

@@ -9,7 +9,7 @@ namespace {
 
 using Gradient = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 12>;
 
-// priors: standard deviations of what a rig may be off by
+// priors: standard deviations of a rig's faults
 constexpr double kTurn = 0.2;    // [rad]
 constexpr double kShift = 0.05;  // [m]
 constexpr double kOffset = 0.2;  // [rad]
@@ -25,7 +25,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// Of a misfit over its spread.
+/// Weight of a misfit; `ratio`: misfit over spread. `redescending`: Tukey's, else Huber's.
 double weight(double ratio, bool redescending) {
     constexpr double kHuber = 1.345;
     if (!redescending) return std::abs(ratio) <= kHuber ? 1 : kHuber / std::abs(ratio);
@@ -87,7 +87,7 @@ Vec3 CalibrationSolver::jig_misfit(const CalibrationSolution& solution,
     return endpoint(solution, sample.device, sample.at) - input_.jig[sample.point];
 }
 
-/// One Gauss-Newton step: the normal equations H change = -g, added up, and what comes of them.
+/// One Gauss-Newton step: sums up the normal equations H change = -g, and solves them.
 struct CalibrationSolver::Step {
     Step(const CalibrationSolver& of, CalibrationSolution& from, bool is_redescending)
         : solver(of),
@@ -101,7 +101,7 @@ struct CalibrationSolver::Step {
         return static_cast<Eigen::Index>(solver.first_[device]);
     }
 
-    /// Of the endpoint by its device's parameters: turn, shift, shape.
+    /// Derivative of an endpoint with respect to its device's parameters: turn, shift, shape.
     Gradient slope(size_t device, const CalibrationReading& reading) const {
         const Correction& correction = solution.corrections[device];
         Gradient out(3, static_cast<Eigen::Index>(6 + solver.shape_count(device)));
@@ -127,7 +127,7 @@ struct CalibrationSolver::Step {
             if (link[k])
                 misfits.push_back(
                     std::abs(solver.link_misfit(solution, solver.input_.link_samples[k])));
-        // medians of a normal distribution's size, in one dimension and in three
+        // 0.6745 and 1.538: medians of a standard normal's magnitude in one and in three dimensions
         solution.link_spread = std::max(kLeastSpread, median(misfits) / 0.6745);
         misfits.clear();
         for (size_t k = 0; k < jig.size(); ++k)
@@ -188,7 +188,7 @@ struct CalibrationSolver::Step {
             for (size_t j = 0; j < shape.size(); ++j)
                 expect(i + 6 + static_cast<Eigen::Index>(j), shape[j], kStretch);
         }
-        H(n - 1, n - 1) += 1;  // a link of a metre, more or less: for jigs without one
+        H(n - 1, n - 1) += 1;  // L has a prior of 1 m, so that H has an inverse without a link
     }
 
     /// Returns the largest change of a parameter.
@@ -227,7 +227,7 @@ double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<
     for (size_t k = 0; k < jig.size(); ++k) {
         if (jig[k]) step.add(input_.jig_samples[k]);
     }
-    // links are added to the lower half alone
+    // add() filled only the lower half for the link's samples
     step.H = Eigen::MatrixXd(step.H.selfadjointView<Eigen::Lower>());
     step.add_priors();
     return step.change_parameters();
@@ -236,7 +236,7 @@ double CalibrationSolver::step(CalibrationSolution& solution, const std::vector<
 CalibrationSolution CalibrationSolver::solve(CalibrationSolution start,
                                              const std::vector<uint8_t>& link,
                                              const std::vector<uint8_t>& jig) const {
-    constexpr double kDone = 1e-8;  // of any parameter [m, rad]
+    constexpr double kDone = 1e-8;  // largest change of a parameter [m, rad]
     for (int i = 0; i < kHuberSteps; ++i) {
         if (step(start, link, jig, false) < kDone) break;
     }

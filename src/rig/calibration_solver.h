@@ -1,12 +1,13 @@
-// Robust least squares for a calibration (README.md): Gauss-Newton steps on
+// The calibration's robust least squares (README.md): Gauss-Newton steps on
 //
 //     sum over link samples  rho((|p_a - p_b| - L) / s_link)
 //   + sum over jig samples   rho(|p - q| / s_jig)
 //   + sum over parameters    (value / prior)^2
 //
-// with p the corrected endpoint in the world. Steps are weighted, first by Huber's rho, which finds
-// the way, then by Tukey's, which gives slips no say; s follows from the median misfit. The prior
-// is far wider than any fault: it decides only what the samples leave open.
+// with p the corrected endpoint in the world, q the jig's point and L the link's length. Weights
+// follow first Huber's rho, which converges from afar, then Tukey's, which gives slips no weight; s
+// follows from the median misfit. The prior is far wider than any fault of a rig: it decides only
+// what the samples leave open.
 #pragma once
 
 #include <vector>
@@ -22,16 +23,16 @@ struct CalibrationSolution {
     double jig_spread = 0;                ///< s_jig [m]
 };
 
-/// What weighs nothing any more, over s.
+/// Misfit over s beyond which a sample has no weight: a slip (Tukey's constant).
 constexpr double kSlip = 4.685;
 
 class CalibrationSolver {
   public:
     explicit CalibrationSolver(const CalibrationInput& input);
 
-    /// As the rig file has it, with the median distance for L.
+    /// No corrections, with the median distance as L.
     CalibrationSolution nominal() const;
-    /// `link`, `jig`: which samples are used, 1 each.
+    /// `link`, `jig`: by sample, 1 if it is used.
     CalibrationSolution solve(CalibrationSolution start, const std::vector<uint8_t>& link,
                               const std::vector<uint8_t>& jig) const;
 
@@ -52,8 +53,8 @@ class CalibrationSolver {
     size_t shape_count(size_t device) const { return input_.devices[device].arm ? 2 : 6; }
 
     const CalibrationInput& input_;
-    std::vector<size_t> first_;  // of each device's parameters
-    size_t count_ = 0;           // of all of them, L the last
+    std::vector<size_t> first_;  // index of each device's first parameter
+    size_t count_ = 0;           // number of parameters; L is the last
 };
 
 }  // namespace dihaptic::rig

@@ -1,14 +1,14 @@
 // Devices whose readings are corrected by a calibration, and scaled: the one place where both
 // happen.
 //
-// With scale s, and D's origin where it is, hand and world see
+// With a scale s about D's origin, the world (p_DH) and the hand (p') see
 //
 //     p_DH = s p'        v_DH = s v'        f' = f_DH / s
 //
-// so that a wall of k [N/m] in the world is one of k under the hand too: f' = k (s p') / s. Torques
-// and angles stay as they are. What a device can do is told in the world's measure: s times its
+// so that a wall of stiffness k [N/m] in the world has k under the hand too: f' = k (s p') / s.
+// Torques and angles are not scaled. A device's DeviceInfo is in the world's measure: s times its
 // forces, its reach and its speeds (README.md). A calibration's stretch makes some forces larger
-// than what was limited before: the device's own limit is the last, in the hand's measure.
+// after they were limited: the device's own limit acts last, in the hand's measure.
 #pragma once
 
 #include "rig/correction.h"

@@ -1,13 +1,13 @@
-// From what a device reports to where its endpoint is, in the axes of D as the rig file has D:
+// The correction of one device: from what it reports to where its endpoint is, in the rig file's D:
 //
-//     p' = X f(reading)        f = FK(q + offset)        of devices that tell their joints' angles
+//     p' = X f(reading)        f = FK(q + offset)        of devices that report joint angles q
 //                              f = (I + S) p             of others; S symmetric
 //     v' = A v                 A = R J(q + offset) J(q)^-1        or R (I + S)
 //     f  = A^T f'              which keeps power: f . v = f' . v'
 //
-// X: pose of the true D in that of the file, R its rotation; J the arm's Jacobian. With joints, the
-// transpose is exact too: the device's driver makes torques J(q)^T f, and at the true angles they
-// give the force f'.
+// X: pose of the true D in the file's D; R: its rotation; FK, J: the arm's kinematics and Jacobian.
+// With joint angles the transpose is also exact for the motors: the device's driver makes torques
+// J(q)^T f, which at the true angles give the force f'.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace dihaptic::rig {
 
 struct Correction {
     Pose X;
-    std::optional<model::PhantomLinks> arm;  ///< of a device that tells its joints' angles
-    Vec3 joint_offset = Vec3::Zero();        ///< true less reported [rad]
+    std::optional<model::PhantomLinks> arm;  ///< of a device that reports joint angles
+    Vec3 joint_offset = Vec3::Zero();        ///< true minus reported [rad]
     Mat3 stretch = Mat3::Zero();             ///< S: scale, and skew off its diagonal
 
     /// f [m].
@@ -31,7 +31,7 @@ struct Correction {
     Vec3 position(const Vec3& p_DH, const Vec3& joints) const noexcept {
         return X * shaped(p_DH, joints);
     }
-    /// A. Where the arm is stretched or folded and has no inverse, R.
+    /// A; R where the arm is stretched or folded, so that J(q) has no inverse.
     Mat3 slope(const Vec3& joints) const noexcept;
 };
 

@@ -39,7 +39,7 @@ void DeviceReader::repeat(const std::function<bool()>& each) {
             }
             return each();
         } catch (...) {
-            failure = std::current_exception();  // not through a maker's library
+            failure = std::current_exception();  // must not pass through a maker's library
             return false;
         }
     };

@@ -1,4 +1,4 @@
-// Devices that are only read: no force is ever written but zero.
+// Reads devices without force: it never writes a force other than zero.
 #pragma once
 
 #include <chrono>
@@ -12,17 +12,17 @@ namespace dihaptic::rig {
 
 class DeviceReader {
   public:
-    /// How often devices are read that do not say it themselves.
+    /// Time between readings of devices that do not pace.
     static constexpr Time kTick = std::chrono::milliseconds(1);
 
-    /// `fingers`: who holds each, for what is said of one that does not answer.
+    /// `fingers`: which finger holds each device; named in errors.
     DeviceReader(devices::DeviceGroup& devices, std::vector<std::string> fingers);
 
     /// Reads once, at `now`.
     void tick(Time now) noexcept;
-    /// In real time: reads, at the devices' own pace where they have one, and calls `each` after
-    /// each reading until it returns false. Devices that are not active are not read. Throws Error
-    /// when a device does not answer, and what `each` throws.
+    /// Reads in real time, at the devices' own pace if they pace, and calls `each` after each
+    /// reading until it returns false. Devices that are not active are not read. Throws Error when
+    /// a device does not answer, and what `each` throws.
     void repeat(const std::function<bool()>& each);
 
     const std::vector<devices::Reading>& readings() const { return readings_; }

@@ -11,7 +11,7 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr double kPanel = 420, kPanelTop = 78, kGap = 40;  // [px]
-/// From no misfit to the largest of the scale.
+/// Colours from no misfit to the scale's largest.
 constexpr std::array kErrorColours{"#1b4f9c", "#3f8fc4", "#8cc5c9",
                                    "#f2d388", "#ec8f45", "#c0392b"};
 
@@ -30,7 +30,7 @@ struct View {
     double y(double p) const { return kPanelTop + kPanel / 2 - (p - area.center().y()) * scale; }
 };
 
-/// A round number that most of the misfits are below [m].
+/// A round number below which most of the misfits are [m].
 double scale_of(const std::vector<LinkResidual>& residuals) {
     std::vector<double> sizes;
     for (const LinkResidual& r : residuals)

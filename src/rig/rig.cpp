@@ -89,7 +89,7 @@ void place_world(Rig& rig) {
     rig.origin = Vec3::Zero();
 }
 
-/// What is done to a device's readings; nothing, when they are as they come.
+/// How a device's readings are adjusted; nullopt if they need no adjustment.
 std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
                                      const devices::DeviceInfo& info) {
     Adjustment out;

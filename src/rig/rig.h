@@ -13,10 +13,10 @@ struct Device {
     std::string backend;
     Vec3 position = Vec3::Zero();  ///< of D's origin in the world [m]
     Vec3 rotation = Vec3::Zero();  ///< about the world's axes x, then y, then z [rad]
-    /// Positions in the world over those of the hand, about D's origin; forces on the hand are as
-    /// much smaller (corrected_devices.h).
+    /// Positions in the world over those of the hand, about D's origin; forces on the hand are
+    /// smaller by this factor (corrected_devices.h).
     double scale = 1;
-    Node options;  ///< the backend's own
+    Node options;  ///< read by the backend
     Place place;
 
     template <class Visitor>
@@ -33,7 +33,7 @@ struct Device {
     Pose X_WD() const { return {rotation_xyz(rotation), position}; }
 };
 
-/// A point whose place in the world is known, and that endpoints can touch.
+/// A point of known position in the world that endpoints can touch.
 struct JigPoint {
     std::string name;
     Vec3 position = Vec3::Zero();  ///< [m]
@@ -45,8 +45,8 @@ struct JigPoint {
     }
 };
 
-/// The box that hands are kept in, where the rig file gives one: along the world's axes, in place
-/// of each device's own.
+/// The box in which hands are kept, if the rig file gives one: along the world's axes, in place of
+/// each device's own workspace.
 struct Wall {
     Vec3 centre = Vec3::Zero();  ///< [m]
     Vec3 size = Vec3::Zero();    ///< [m]
@@ -61,19 +61,19 @@ struct Wall {
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
 };
 
-/// Of positions in the file all are in one frame; `origin` puts the world into it. read_rig() has
-/// done that already: what it returns is in the world.
+/// A rig file. All its positions are in one frame, in which `origin` is the world's origin.
+/// read_rig() subtracts that: the positions that it returns are in the world.
 struct Rig {
     std::string title;
     Vec3 origin = Vec3::Zero();  ///< of the world, in the file's frame [m]
     std::vector<Device> devices;
     std::optional<Wall> wall;
     std::vector<outlets::OutletConfig> outlets;
-    std::string calibration;  ///< its file, beside the rig's; empty: none
+    std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
-    std::optional<Calibration> calibrated;  ///< what `calibration` says
+    std::optional<Calibration> calibrated;  ///< content of the file `calibration`
     Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
 
     template <class Visitor>
@@ -92,42 +92,42 @@ struct Rig {
 
 /// Reads a rig file, and its calibration; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
-/// The same of a rig that is about to be calibrated: its calibration may be missing, and is not
-/// read.
+/// Reads a rig file without its calibration, which may be missing: for a rig to be calibrated.
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
-/// Where a rig's calibration goes: to the file that it names, or to one beside it.
+/// Path of a rig's calibration: the file that the rig names, or else one beside the rig file.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
-/// Throws Error when a calibration could not be stored there: before somebody's work.
+/// Throws Error when a calibration could not be stored in `file`: before a person takes samples.
 void check_calibration_file(const std::string& rig_file, const std::string& file);
-/// Writes a calibration, and beside it the picture of what remains; returns the picture's name.
+/// Writes a calibration, and beside it the picture of its residuals; returns the picture's name.
 /// Throws Error when they cannot be written.
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file);
 
-/// What a rig file says to use a calibration.
+/// The line of a rig file that names its calibration.
 std::string calibration_line(const std::string& rig_file, const std::string& calibration_file);
-/// Adds that line to a rig file that names none.
+/// Adds that line to a rig file that names no calibration.
 void name_calibration(const std::string& rig_file, const std::string& calibration_file);
 
-/// Whether its devices are real: they keep real time, and move a person's hand.
+/// Whether the rig's devices are real: they run in real time, and move a person's hand.
 bool is_real(const Rig& rig);
 
 /// A rig without a file: an ideal simulated device for each finger.
 Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = false);
 
-/// Throws Error when the rig's jig, or its lack of one, does not tell where one device is.
+/// Throws Error when the rig's jig is missing or too small to locate its devices. Several devices
+/// need no jig.
 void check_jig(const Rig& rig);
 /// Warns of a calibration that is older than kOldCalibration. `today`: ISO 8601.
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days
 
-/// The rig without calibration and scales: its devices as they report themselves.
+/// The rig without calibration and scales: its readings are what the devices report.
 Rig uncorrected(const Rig& rig);
 
-/// The devices for the scene's fingers, in the fingers' order, corrected and scaled. `keeping`: how
-/// a process of their own owns them, if they are real; none: this process does. Throws Error when a
-/// finger has none, or when the calibration is of other devices.
+/// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
+/// `keeping`: how a keeper owns real devices; nullopt: this process owns them. Throws Error when a
+/// finger has no device, or when the calibration is of other devices.
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<keeper::Keeping>& keeping = {});
@@ -135,9 +135,9 @@ std::unique_ptr<devices::DeviceGroup> make_devices(
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The device that a finger holds. Throws Error when it holds none.
 const Device& device_of(const Rig& rig, const std::string& finger);
-/// X_WD by finger.
+/// X_WD of each finger's device.
 std::vector<Pose> poses(const Rig& rig, const std::vector<std::string>& fingers);
-/// The wall's box in the world, if there is one.
+/// The wall's box in the world; nullopt if there is none.
 std::optional<Eigen::AlignedBox3d> wall_box(const Rig& rig);
 
 }  // namespace dihaptic::rig

@@ -9,13 +9,14 @@
 namespace dihaptic::rig {
 namespace {
 
-/// Points of the grid: about as many, so that any rig takes about as long.
+/// Approximate number of the grid's points: fixed, so that any rig takes about as long.
 constexpr double kPoints = 8e6;
-constexpr double kFinest = 1e-3;  // [m]
-/// The largest box is looked for among cells of several points a side, at most so many a side.
+constexpr double kFinest = 1e-3;  // least spacing of the grid [m]
+/// The largest box is searched among cells of several points a side: at most this many cells along
+/// an axis.
 constexpr int kMostCells = 64;
 
-/// A hand that does nothing: devices are made, but not moved.
+/// A hand that does nothing: making simulated devices takes a hand, but they are not moved.
 class StillDriver final : public hand::Driver {
   public:
     double duration() const override { return 0; }
@@ -26,7 +27,7 @@ class StillDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// Which points of a grid are in.
+/// Which points of a grid are inside.
 struct Grid {
     Eigen::Vector3i size;
     std::vector<uint8_t> in;
@@ -42,8 +43,8 @@ struct Grid {
     }
 };
 
-/// Squared distances to the nearest zero of a line of squared distances, by the lower envelope of
-/// parabolas (Felzenszwalb and Huttenlocher 2012). `step` apart, `n` of them.
+/// The distance transform of one line of squared distances, by the lower envelope of parabolas
+/// (Felzenszwalb and Huttenlocher 2012). `step`: between the line's `n` values.
 class DistanceLine {
   public:
     explicit DistanceLine(int most)
@@ -89,10 +90,10 @@ class DistanceLine {
     std::vector<double> ends_;
 };
 
-/// The point furthest from all that is out; beyond the grid all is out.
+/// Finds the point furthest from all points outside; beyond the grid all points are outside.
 void find_sphere(const Grid& grid, Workspace& out) {
     const Eigen::Vector3i n = grid.size;
-    // a margin of points that are out
+    // with a margin of points outside
     const Grid padded(n + Eigen::Vector3i::Constant(2));
     const Eigen::Vector3i m = padded.size;
     constexpr float kFar = 1e9F;
@@ -120,12 +121,12 @@ void find_sphere(const Grid& grid, Workspace& out) {
                 most = here;
                 out.sphere_centre = out.first + out.spacing * Vec3(x - 1, y - 1, z - 1);
             }
-    // the edge is nearer than the point beyond it, by a cell's diagonal at most
+    // the edge is nearer than the next point outside, by a cell's diagonal at most
     out.sphere_radius =
         std::max(0.0, (std::sqrt(static_cast<double>(most)) - std::sqrt(3.0)) * out.spacing);
 }
 
-/// Largest rectangle under a row of heights: by left and right end and height.
+/// The largest rectangle under a row of heights: its left and right end, and its height.
 struct Rectangle {
     int left = 0, right = 0, height = 0;
     int area() const { return (right - left) * height; }
@@ -147,8 +148,8 @@ Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack
     return best;
 }
 
-/// Cells of `side` steps a side that have all their points in; neighbours share the points between
-/// them.
+/// Which cells of `side` steps a side have all their points inside; neighbours share the points
+/// between them.
 Grid full_cells(const Grid& grid, int side) {
     Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
     const Eigen::Vector3i n = cells.size;
@@ -165,8 +166,8 @@ Grid full_cells(const Grid& grid, int side) {
     return cells;
 }
 
-/// The largest box of full cells: of every stack of layers, the largest rectangle of columns that
-/// are full throughout.
+/// Finds the largest box of full cells: for every stack of layers, the largest rectangle of columns
+/// that are full throughout.
 void find_box(const Grid& grid, Workspace& out) {
     const int side = std::max(1, (grid.size.maxCoeff() - 2) / kMostCells + 1);
     const Grid cells = full_cells(grid, side);
@@ -201,7 +202,7 @@ void find_box(const Grid& grid, Workspace& out) {
 Reach::Reach(const Device& device, const devices::DeviceInfo& info)
     : finger_(device.finger), X_DW_(device.X_WD().inverse()), scale_(info.scale), arm_(info.arm) {
     if (arm_) {
-        // all around the shoulder
+        // a cube around the shoulder that holds the arm in any direction
         const double length = scale_ * (arm_->thigh + arm_->shin);
         const Vec3 shoulder = device.X_WD() * (scale_ * Vec3(0, arm_->shin, -arm_->thigh));
         bounds_ = {shoulder - Vec3::Constant(length), shoulder + Vec3::Constant(length)};
@@ -247,7 +248,7 @@ Placement propose_placement(const Workspace& workspace) {
 }
 
 double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches) {
-    constexpr int kSide = 40;  // points, corners among them
+    constexpr int kSide = 40;  // number of points along a side, corners included
     int out = 0;
     for (int i = 0; i < kSide * kSide * kSide; ++i) {
         const Vec3 share = Vec3(i % kSide, i / kSide % kSide, i / (kSide * kSide)) / (kSide - 1);
@@ -266,7 +267,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     Workspace out;
     out.spacing = std::max(kFinest, std::cbrt(all.volume() / kPoints));
     out.size = (all.sizes() / out.spacing).array().floor().cast<int>() + 1;
-    // cells in the middle of the box
+    // the grid is centred in the box
     out.first = all.center() - out.spacing / 2 * (out.size.cast<double>() - Vec3::Ones());
     const size_t columns = static_cast<size_t>(out.size.x()) * static_cast<size_t>(out.size.y());
     out.volumes.resize(reaches.size());
@@ -278,7 +279,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     std::vector<int64_t> counts(reaches.size());
     int64_t count = 0;
     for (int z = 0; z < out.size.z(); ++z) {
-        // searching takes about a tenth as long as this
+        // the search that follows takes about a tenth as long as this
         if (!progress(0.9 * z / out.size.z())) return {};
         for (int y = 0; y < out.size.y(); ++y) {
             for (int x = 0; x < out.size.x(); ++x) {

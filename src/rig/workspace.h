@@ -1,7 +1,7 @@
-// Where the devices of a rig get to, and where all of them do.
+// The workspace of a rig: where each of its devices reaches, and where all of them do.
 //
-// A device's reach is what its joints allow, or the box that it is said to have. The intersection
-// is found on a grid of points; README.md says how, and how exact that is.
+// A device's reach is what its joints allow, or the box that the device or its options state. The
+// intersection is found on a grid of points; README.md says how, and how exact that is.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@
 
 namespace dihaptic::rig {
 
-/// Where one device gets to.
+/// The reach of one device.
 class Reach {
   public:
     /// Throws Error when the device does not say where its reach ends.
     Reach(const Device& device, const devices::DeviceInfo& info);
 
     bool contains(const Vec3& p_WH) const;
-    /// Smallest box along the world's axes around it [m].
+    /// A box along the world's axes that holds the reach [m].
     const Eigen::AlignedBox3d& bounds() const { return bounds_; }
     const std::string& finger() const { return finger_; }
 
@@ -27,27 +27,29 @@ class Reach {
     Pose X_DW_;
     double scale_;
     std::optional<model::PhantomLinks> arm_;
-    Vec3 half_ = Vec3::Zero();  // of the box's edges [m]
+    Vec3 half_ = Vec3::Zero();  // half the box's edges [m]
     Eigen::AlignedBox3d bounds_;
 };
 
-/// Of all devices of a rig. Throws Error as the rig's backend does.
+/// The reaches of all devices of a rig. Throws Error as the rig's backend does.
 std::vector<Reach> reaches(const Rig& rig);
 
-/// What is seen from above: which columns of points hold any that count.
+/// A reach seen from above: which columns of grid points hold any point of it.
 struct Shadow {
     std::vector<uint8_t> held;  ///< by y, then x
 };
 
 struct Workspace {
-    double spacing = 0;  ///< of the grid's points [m]
-    Vec3 first = Vec3::Zero();
-    Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< points along x, y, z
+    double spacing = 0;                              ///< of the grid's points [m]
+    Vec3 first = Vec3::Zero();                       ///< first point of the grid, in the world [m]
+    Eigen::Vector3i size = Eigen::Vector3i::Zero();  ///< number of points along x, y, z
     std::vector<double> volumes;                     ///< of each device's reach [m^3]
     double shared = 0;                               ///< volume of the intersection [m^3]
     std::vector<Shadow> shadows;                     ///< of each device's reach
     Shadow shared_shadow;
-    Eigen::AlignedBox3d box;  ///< largest along the world's axes within the intersection [m]
+    /// Largest box along the world's axes within the intersection [m].
+    Eigen::AlignedBox3d box;
+    /// Largest sphere within the intersection [m].
     Vec3 sphere_centre = Vec3::Zero();
     double sphere_radius = 0;  ///< [m]
 
@@ -57,23 +59,23 @@ struct Workspace {
     }
 };
 
-/// `progress` gets the share that is done, and returns false to give up: then the result is empty.
+/// `progress` gets the share that is done, and returns false to give up: the result is then empty.
 Workspace find_workspace(const std::vector<Reach>& reaches,
                          const std::function<bool(double share)>& progress);
 
-/// Where a world fits into a workspace that is not empty, and a wall around it.
+/// A proposal for the world's origin and the wall in a workspace that is not empty.
 struct Placement {
-    Vec3 origin;  ///< of the world: over the middle of the box's floor, by kUnderTable [m]
+    Vec3 origin;  ///< of the world: kUnderTable above the middle of the box's floor [m]
     Wall wall;    ///< the largest box
 };
 Placement propose_placement(const Workspace& workspace);
-/// Hands may press a table's top, and reach an object's lower edge.
+/// Reach below a table's top, for hands that press it or grasp an object's lower edge.
 constexpr double kUnderTable = 0.01;  // [m]
 
 /// Share of a box that not every device reaches.
 double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches);
 
-/// SVG text: the reaches and what they share, from above.
+/// SVG text: the reaches and their intersection, seen from above.
 std::string workspace_picture(const Workspace& workspace, const std::vector<Reach>& reaches,
                               const std::string& title);
 

@@ -12,7 +12,7 @@ constexpr double kWidth = 760, kTop = 70, kSideMargin = 40, kLegendLine = 26;  /
 constexpr const char* kDotted = "stroke-dasharray=\"2 4\"";
 constexpr std::array kColours{"#d1495b", "#2e6fbb", "#3a9d5d", "#8e5bb0"};
 
-/// The picture's part that shows the grid: x to the right, y up.
+/// The part of the picture that shows the grid: x to the right, y up.
 struct FromAbove {
     Vec3 corner;    // of the grid, around its first point [m]
     double scale;   // [px/m]
@@ -27,7 +27,7 @@ struct FromAbove {
     double y(double p) const { return kTop + height - (p - corner.y()) * scale; }
 };
 
-/// Runs of held points, a path of thin bars.
+/// An SVG path of thin bars, one for each run of held points.
 std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
     std::string d;
     const double step = w.spacing * scale;
@@ -45,7 +45,7 @@ std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
     return d;
 }
 
-/// The edge between held points and others, as short lines.
+/// An SVG path of the edge between held points and others, as short lines.
 std::string edge(const Workspace& w, const Shadow& shadow, double scale) {
     std::string d;
     const double step = w.spacing * scale;
@@ -75,7 +75,7 @@ void draw_shadows(Svg& svg, const Workspace& w, double scale) {
     svg.path(edge(w, w.shared_shadow, scale), "#ffd400", 3);
 }
 
-/// The largest sphere and box within the intersection.
+/// Draws the largest sphere and box within the intersection.
 void draw_largest(Svg& svg, const Workspace& w, const FromAbove& view) {
     if (w.sphere_radius > 0) {
         const double r = w.sphere_radius * view.scale;
@@ -92,7 +92,7 @@ void draw_largest(Svg& svg, const Workspace& w, const FromAbove& view) {
     }
 }
 
-/// The world's axes, and a decimetre.
+/// Draws the world's axes, and a scale of a decimetre.
 void draw_measures(Svg& svg, const FromAbove& view) {
     svg.path(fmt::format("M{:.1f} {:.1f}h22m-22 0v-22", view.x(0), view.y(0)), "#000000", 2);
     svg.text(view.x(0) + 25, view.y(0) + 4, "x");
@@ -104,7 +104,7 @@ void draw_measures(Svg& svg, const FromAbove& view) {
     svg.text(kWidth - kSideMargin - bar / 2, kTop + view.height + 12, "100 mm", "middle");
 }
 
-/// What each colour and line is, and how large, from y on downward.
+/// Draws the legend, from y downward: what each colour and line shows, and its size.
 void draw_legend(Svg& svg, const Workspace& w, const std::vector<Reach>& reaches, double y) {
     const auto line = [&](const std::string& words) {
         svg.text(kSideMargin + 26, y + 12, words);

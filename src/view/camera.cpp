@@ -21,7 +21,7 @@ Orbit orbit_of(const Camera& camera) {
     const Vec3 d = camera.position - camera.look_at;
     const double across = std::hypot(d.x(), d.y());
     const double distance = std::hypot(across, d.z());
-    // straight above, or no direction at all: as the person sits
+    // straight above, or without any direction: the azimuth of the person's side
     const double azimuth = across > 1e-9 * distance ? std::atan2(d.x(), -d.y()) : 0;
     return {distance, azimuth, std::atan2(d.z(), across)};
 }
@@ -34,7 +34,7 @@ Camera with(const Camera& camera, const Orbit& o) {
     return out;
 }
 
-/// The middle of what can move, and a little above it, where things are lifted.
+/// A point a little above the middle of the bodies that can move, since bodies are lifted.
 Vec3 middle(const scene::Scene& scene) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
@@ -46,7 +46,7 @@ Vec3 middle(const scene::Scene& scene) {
     return (count > 0 ? Vec3(sum / count) : Vec3::Zero()) + Vec3(0, 0, 0.03);
 }
 
-/// How far from there bodies that can move reach, or hands around them [m].
+/// Radius about `centre` that holds the bodies that can move, and the hands around them [m].
 double reach(const scene::Scene& scene, const Vec3& centre) {
     double out = 0.12;
     for (const scene::Body& body : scene.bodies) {
@@ -92,7 +92,7 @@ Camera find_camera(const std::vector<Camera>& cameras, const std::string& name) 
 Camera orbited(const Camera& camera, double azimuth, double elevation) {
     Orbit o = orbit_of(camera);
     o.azimuth = std::remainder(o.azimuth + azimuth, 2 * kPi);
-    // the azimuth of a camera straight above is not to be read from its position: stay a hair off
+    // a position straight above does not tell the azimuth: stay slightly off
     constexpr double kSteepest = kPi / 2 - 1e-6;
     o.elevation = std::clamp(o.elevation + elevation, -kSteepest, kSteepest);
     return with(camera, o);

@@ -1,5 +1,6 @@
-// Colours that persons with any kind of colour vision tell apart: those of Okabe and Ito, "Color
-// Universal Design" (2008), for what the scene file gives no colour.
+// Colours of bodies and fingers. Those without a colour in the scene file get one of Okabe and
+// Ito's "Color Universal Design" (2008), which people with any kind of colour vision can tell
+// apart.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace dihaptic::view {
 
-/// Linear red, green, blue of the colour "#rrggbb"; grey for anything else.
+/// Linear red, green and blue of the colour "#rrggbb"; grey for any other text.
 Vec3 linear_colour(const std::string& hex);
 
 Vec3 body_colour(const scene::Scene& scene, size_t body);

@@ -1,4 +1,4 @@
-// OpenGL objects that end with their scope. For the room's own sources only.
+// OpenGL objects that are deleted at the end of their scope. For the sources of this folder only.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -12,7 +12,7 @@
 
 namespace dihaptic::view::gl {
 
-/// A name that OpenGL gave, and how to give it back.
+/// The name of an OpenGL object, which the destructor deletes.
 template <auto Delete>
 class Name {
   public:
@@ -73,7 +73,7 @@ inline Renderbuffer make_renderbuffer() {
     return Renderbuffer(n);
 }
 
-/// A vertex and a fragment shader, linked. Their source goes after "#version 330 core".
+/// A vertex and a fragment shader, linked; given as source without the line "#version 330 core".
 class Program {
   public:
     Program(const std::string& vertex, const std::string& fragment);
@@ -100,7 +100,7 @@ class Program {
     Name<delete_program> name_;
 };
 
-/// Triangles in OpenGL's memory: position at attribute 0, normal at 1.
+/// Triangles in OpenGL's memory: positions are attribute 0, normals attribute 1.
 class Model {
   public:
     Model() = default;

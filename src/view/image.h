@@ -1,4 +1,4 @@
-// Pictures in memory, and as PNG files.
+// A picture in memory, and its PNG file.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace dihaptic::view {
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<uint8_t> rgb;  ///< sRGB, three bytes a pixel, rows from top to bottom
+    std::vector<uint8_t> rgb;  ///< sRGB, three bytes per pixel, rows from top to bottom
 
     const uint8_t* at(int x, int y) const {
         return &rgb[3 *
@@ -18,9 +18,9 @@ struct Image {
     }
 };
 
-/// Writes a PNG file, which is either whole or not there. Throws Error when it cannot.
+/// Writes a PNG file, which appears only when it is whole. Throws Error when it cannot be written.
 void write_png(const Image& image, const std::string& file);
-/// Throws Error when it is no PNG file.
+/// Throws Error when the file is not a PNG file.
 Image read_png(const std::string& file);
 
 }  // namespace dihaptic::view

@@ -22,7 +22,7 @@
 namespace dihaptic::view {
 namespace {
 
-/// Starts ffmpeg; what goes wrong is an error number.
+/// Starts ffmpeg. Returns 0, or the number of the error.
 int start(const std::vector<std::string>& words, int in, int err, int& process) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -34,7 +34,7 @@ int start(const std::vector<std::string>& words, int in, int err, int& process) 
     posix_spawn_file_actions_adddup2(&files, err, STDERR_FILENO);
     posix_spawnattr_t how;
     posix_spawnattr_init(&how);
-    // Ctrl-C is for us: ffmpeg would end its file as if it were whole
+    // Ctrl-C is for this program only: ffmpeg would end its file as if it were whole
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);
     const int error = posix_spawnp(&process, "ffmpeg", &files, &how, arguments.data(), environ);
     posix_spawnattr_destroy(&how);
@@ -106,7 +106,7 @@ Movie::~Movie() {
     close(said_);
 }
 
-/// Its exit status, 0 when all went well. May be called again.
+/// Waits until ffmpeg ends; returns its exit status, 0 for success. May be called again.
 int Movie::wait() {
     if (pictures_ >= 0) close(std::exchange(pictures_, -1));
     int status = 0;

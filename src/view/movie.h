@@ -1,4 +1,4 @@
-// Videos, by the program ffmpeg: pictures go to it as they are drawn.
+// Makes videos with the program ffmpeg, which gets each picture as soon as it is drawn.
 #pragma once
 
 #include <string>
@@ -7,17 +7,17 @@
 
 namespace dihaptic::view {
 
-/// An MP4 file (H.264) in the making. It appears under its name once it is whole.
+/// An MP4 file (H.264) that is being made. It appears under its name once it is whole.
 class Movie {
   public:
     /// Throws Error when ffmpeg is missing, or when width or height is odd, which players refuse.
     Movie(const std::string& file, int width, int height, int frames_per_second);
-    /// Without finish() nothing is left.
+    /// Leaves no file unless finish() was called.
     ~Movie();
     Movie(const Movie&) = delete;
     Movie& operator=(const Movie&) = delete;
 
-    /// Throws Error when ffmpeg ended before its time, with what it said.
+    /// Throws an Error with ffmpeg's message when ffmpeg has ended too early.
     void add(const Image& image);
     void finish();
 
@@ -27,8 +27,8 @@ class Movie {
 
     std::string file_;
     std::string part_;
-    int pictures_ = -1;  // what ffmpeg reads
-    int said_ = -1;      // what it writes when something is wrong
+    int pictures_ = -1;  // socket from which ffmpeg reads pictures
+    int said_ = -1;      // memory file to which ffmpeg writes its errors
     int process_ = -1;
 };
 

@@ -31,7 +31,7 @@ struct Offscreen::Context {
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display, context);
         }
-        // the display is the process's: another Offscreen may use it
+        // the display belongs to the process: another Offscreen may use it
     }
 };
 
@@ -82,7 +82,8 @@ Image Offscreen::read() const {
     glBindFramebuffer(GL_FRAMEBUFFER, context_->framebuffer);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-    for (size_t y = 0; y < static_cast<size_t>(height_) / 2; ++y) {  // OpenGL's rows rise
+    // OpenGL's rows go from bottom to top
+    for (size_t y = 0; y < static_cast<size_t>(height_) / 2; ++y) {
         auto* const low = &image.rgb[y * row];
         std::swap_ranges(low, low + row, &image.rgb[(static_cast<size_t>(height_) - 1 - y) * row]);
     }

@@ -1,4 +1,4 @@
-// OpenGL without a window or a display server: for pictures, videos and tests.
+// OpenGL drawing without a window or a display server, for pictures, videos and tests.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace dihaptic::view {
 
-/// An OpenGL 3.3 core context, current in the thread that made it, and a framebuffer to draw into:
-/// of Mesa, by a graphics card where it may use one, in software elsewhere.
+/// An OpenGL 3.3 core context of Mesa, current in the thread that made it, and a framebuffer to
+/// draw into. Mesa draws by a graphics card if it may use one, or else in software.
 class Offscreen {
   public:
     /// Throws Error, with the package to install, when there is no such OpenGL.
@@ -20,11 +20,11 @@ class Offscreen {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// What draws, in OpenGL's words.
+    /// OpenGL's name of the renderer.
     std::string renderer() const;
-    /// Until all is drawn.
+    /// Waits until everything is drawn.
     void wait() const;
-    /// What was drawn into the framebuffer; waits for it.
+    /// The picture in the framebuffer; waits until everything is drawn.
     Image read() const;
 
   private:

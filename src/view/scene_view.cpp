@@ -20,7 +20,8 @@ constexpr double kArrowPerNewton = 0.025;  // [m/N]
 constexpr double kDepthRange = 4;          // of the light [m]
 constexpr double kPlaneSize = 6;           // [m]
 
-/// Larger fixed bodies are what others stand on: they receive shadows, and get the grid.
+/// Planes, and fixed bodies larger than this, are ground on which others stand: they get the grid,
+/// and the shadow map is not widened for them.
 constexpr double kGround = 0.3;  // [m]
 bool is_ground(const scene::Body& body) {
     return body.shape.kind == scene::ShapeKind::plane ||
@@ -40,14 +41,14 @@ Vec3 ink(const char* hex) {
     return linear_colour(hex);
 }
 
-/// A copy of a thing at a pose, scaled.
+/// The matrix that scales a model and puts it at a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
     Eigen::Matrix4d out = gl::matrix(X);
     out.topLeftCorner<3, 3>() *= scale.asDiagonal();
     return out;
 }
 
-/// The framebuffer that was bound for drawing is bound again at the end.
+/// Binds the framebuffer that was bound for drawing again, at the end of the scope.
 class KeepTarget {
   public:
     KeepTarget() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_); }
@@ -60,12 +61,12 @@ class KeepTarget {
     GLint target_ = 0;
 };
 
-/// From a to b, z along it.
+/// The pose at a with z toward b.
 Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
 }
 
-/// What overlays are made of.
+/// The solids of which overlays are made.
 class Solids {
   public:
     struct Solid {
@@ -73,7 +74,7 @@ class Solids {
         Eigen::Matrix4d world_from_model;
         Vec3 colour;
     };
-    /// `model` is to last as long.
+    /// `model` has to outlive this object.
     void add(const gl::Model& model, const Eigen::Matrix4d& world_from_model, const Vec3& tint) {
         all_.push_back({&model, world_from_model, tint});
     }
@@ -86,11 +87,11 @@ class Solids {
     const std::vector<Solid>& all() const { return all_; }
 
   private:
-    std::deque<gl::Model> made_;  // stay where they are as it grows
+    std::deque<gl::Model> made_;  // a deque, since all_ points into it as it grows
     std::vector<Solid> all_;
 };
 
-/// The edges of the box.
+/// Adds the edges of a workspace's box.
 void add_workspace(Solids& out, const Workspace& workspace) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
@@ -138,10 +139,10 @@ struct SceneView::Parts {
     std::vector<Thing> bodies;
     std::vector<Thing> fingers;
     Shadows kind;
-    gl::Model floor;  // under everything, for the light alone: what lies beyond the table's edge
+    gl::Model floor;  // below everything, in the shadow map only: the depth beyond a table's edge
     Pose X_WF;
-    Vec3 start = Vec3::Zero();  // middle of what throws shadows at the start
-    double start_radius = 0.1;  // about it [m]
+    Vec3 start = Vec3::Zero();  // middle of the bodies that throw shadows, at the start
+    double start_radius = 0.1;  // of a ball about it that holds them [m]
     ShadowMap shadow_map;
     gl::Program surface;
     gl::Program background;
@@ -156,7 +157,7 @@ struct SceneView::Parts {
 
     Parts(const scene::Scene& scene, Shadows shadows)
         : kind(shadows),
-          // known to the compiler: a renderer in software runs both sides of a branch
+          // a #define instead of a uniform: a software renderer runs both sides of a branch
           surface(shaders::kSurfaceVertex,
                   std::string(shadows == Shadows::plain ? "#define PLAIN\n" : "") +
                       shaders::kBackground + shaders::kSurfaceFragment),
@@ -206,11 +207,12 @@ struct SceneView::Parts {
             start_radius = std::max(start_radius,
                                     (scene.bodies[i].position - start).norm() + bodies[i].radius);
         }
-        start_radius += 0.05;  // fingers come from around
+        start_radius += 0.05;  // room for the fingers around them
     }
 
-    /// Half of the shadow map's width: the smallest of a series that holds all that throws shadows.
-    /// Steps keep shadows from swimming as things move. What falls out of reach is left out.
+    /// Half of the shadow map's width: the smallest of a series of steps that holds everything that
+    /// throws shadows. Steps keep shadows from swimming as bodies move. What is too far away is
+    /// left out.
     double reach(const servo::Frame& frame, const Mat3& R_LW) const {
         double needed = start_radius;
         const double most = 4 * start_radius + 0.5;
@@ -353,7 +355,7 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Camera& ca
     });
 }
 
-/// Seen through, so that what is in a target is seen.
+/// Draws targets transparent, so that what is in them can be seen.
 void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
     surface.set("gloss", 0.4);
     surface.set("alpha", 0.45);
@@ -370,7 +372,7 @@ void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Over everything: what a finger presses, its handle is in.
+/// Draws ghosts over everything, since the handle of a finger that presses a body is inside it.
 void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_FALSE);
@@ -386,7 +388,7 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Where things touch, and forces on fingers.
+/// Adds points of contact, and forces on fingers.
 void SceneView::Parts::add_contacts(Solids& out, const servo::Frame& frame,
                                     const Overlays& overlays) const {
     const auto first_finger = static_cast<int>(bodies.size());
@@ -404,7 +406,7 @@ void SceneView::Parts::add_contacts(Solids& out, const servo::Frame& frame,
     }
 }
 
-/// Each twice: what is in front of the bodies as it is, what is hidden in or behind them faintly.
+/// Draws each solid twice: in full where it is in front of the bodies, faintly where they hide it.
 void SceneView::Parts::draw_solids(const Solids& solids) const {
     if (solids.all().empty()) return;
     surface.set("gloss", 0.4);

@@ -1,11 +1,11 @@
-// Draws a scene as a Frame shows it: bodies and proxies with the soft shadows of README.md, and on
-// top of them, if asked for, what is not to be seen in the world. It knows neither who made the
-// Frame nor where the picture goes.
+// Draws a scene in the state that a Frame holds: bodies and proxies with the soft shadows of
+// README.md and, if asked for, overlays of what cannot be seen in the world. It does not depend on
+// where the Frame comes from or where the picture goes.
 //
-// It works in OpenGL 3.3 core: the same context has to be current whenever one of its functions is
-// called, its end included. What it draws goes to the framebuffer that is bound for drawing, which
-// must not be multisampled (edges are smoothed by SceneView itself) and has to be of the format
-// RGBA8. Other state of the context is left as draw() needed it.
+// SceneView needs OpenGL 3.3 core: the same context has to be current whenever one of its functions
+// is called, the destructor included. It draws to the framebuffer that is bound for drawing, which
+// must have the format RGBA8 and must not be multisampled (SceneView smooths edges itself). It does
+// not restore other state of the context.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace dihaptic::view {
 
-/// Where a device can go: a box about the device's origin.
+/// The workspace of a device: a box about the origin of D.
 struct Workspace {
     Pose X_WD;
     Vec3 size = Vec3::Zero();  ///< edges [m]
@@ -25,23 +25,23 @@ struct Workspace {
 
 /// What is drawn besides bodies and proxies.
 struct Overlays {
-    bool handles = false;                   ///< a ghost of each proxy where its handle is
-    bool forces = false;                    ///< on each finger, from what it touches: 25 mm/N
-    bool contacts = false;                  ///< where bodies and fingers touch
+    bool handles = false;                   ///< a ghost of each proxy at its handle
+    bool forces = false;                    ///< contact forces on each finger, 25 mm/N
+    bool contacts = false;                  ///< points where bodies and fingers touch
     bool grip_axis = false;                 ///< from the first finger to the middle of the others
     std::span<const Vec3> path;             ///< of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< of devices
 };
 
-/// Which frame was shown, and its time.
+/// The number of the frame that was shown, and its time.
 struct Shown {
     int64_t sequence = 0;
     Time time{0};
 };
 
 enum class Shadows {
-    variance,  ///< soft, and softer the higher what throws them
-    plain,     ///< hard: one comparison of depths, to measure the cost of the other
+    variance,  ///< soft, and softer the higher the body that throws them
+    plain,     ///< hard, by one comparison of depths: to measure the cost of soft ones
 };
 
 class SceneView {
@@ -57,7 +57,7 @@ class SceneView {
     Shown draw(const servo::Frame& frame, const Camera& camera, int width, int height,
                const Overlays& overlays = {});
 
-    /// Direction to the main light, in W, of unit length.
+    /// Unit vector toward the main light, in W.
     static Vec3 light();
 
   private:

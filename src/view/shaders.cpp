@@ -2,9 +2,9 @@
 
 namespace dihaptic::view::shaders {
 
-// Both moments of the depth below the light; a quarter of the squared slope is the variance of the
-// depth within a texel of a tilted surface (README.md). Steeper than two in one, a surface hardly
-// shows itself to the light, and its variance would only let light through.
+// Writes both moments of the depth below the light; a quarter of the squared slope is the variance
+// of the depth within a texel of a tilted surface (README.md). The slope is limited to two in one:
+// the light hardly sees a steeper surface, and its variance would only let light through.
 const char* const kMomentsVertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 world_from_model;
@@ -36,8 +36,8 @@ void main() {
 }
 )";
 
-// The binomial weights 1 4 6 4 1 are a Gaussian of one texel. Two neighbours are read at once,
-// where linear interpolation weighs them so.
+// The binomial weights 1 4 6 4 1 are a Gaussian of one texel. Two neighbours are read at once, at
+// the place where linear interpolation gives them these weights.
 const char* const kBlurFragment = R"(
 in vec2 uv;
 uniform sampler2D source;

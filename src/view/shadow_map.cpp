@@ -79,8 +79,9 @@ void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_ran
     glBindVertexArray(0);
 }
 
-/// Rows go to the other texture, columns back. Below the finest level the rows are read from the
-/// level above: a step of its two texels is one of this, and linear interpolation their mean.
+/// Blurs along rows into the other texture, and along columns back. Below the finest level the rows
+/// are read from the next finer level: a step of two of its texels is one of this level's, and
+/// linear interpolation gives their mean.
 void ShadowMap::blur(int level) const {
     const int size = kSize >> level;
     const int from = level > 0 ? level - 1 : 0;
@@ -89,7 +90,8 @@ void ShadowMap::blur(int level) const {
                           const Eigen::Vector2d& texel) {
         glBindFramebuffer(GL_FRAMEBUFFER, target);
         glBindTexture(GL_TEXTURE_2D, source);
-        // reading one level of what is rendered to at another is defined when no other can be read
+        // reading one level of a texture while rendering to another is defined only if no other
+        // level can be read
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, source_level);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, source_level);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);

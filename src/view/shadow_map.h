@@ -1,5 +1,5 @@
-// The variance shadow map: a pyramid of the first two moments of depth (README.md). For the room's
-// own sources only.
+// The variance shadow map: a pyramid of the first two moments of depth (README.md). For the sources
+// of this folder only.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@ class ShadowMap {
 
     ShadowMap();
 
-    /// Renders moments: `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
-    /// depth along the light [m]; `draw` draws what throws and receives shadows, and sets
-    /// world_from_model for each. `depth_range`: largest depth, `texel`: of the finest level [m].
-    /// Without `blurred` only the finest level, as it was rendered. Leaves another framebuffer
-    /// bound.
+    /// Renders moments. `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
+    /// depth along the light [m]. `draw` draws what throws and receives shadows, and sets
+    /// world_from_model for each model. `depth_range`: largest depth [m]; `texel`: size of one of
+    /// the finest level [m]. Without `blurred` only the finest level is rendered, and left as it
+    /// is. Leaves another framebuffer bound.
     void render(const Eigen::Matrix4d& light_from_world, double depth_range, double texel,
                 bool blurred, const std::function<void(const gl::Program&)>& draw) const;
 

@@ -11,8 +11,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr int kRound = 48;             // segments of a full circle
-constexpr int kBevel = 3;              // of half a rounded edge
-constexpr double kMostBevel = 1.2e-3;  // [m]
+constexpr int kBevel = 3;              // segments of half a rounded edge
+constexpr double kMostBevel = 1.2e-3;  // largest radius of a rounded edge [m]
 /// Faces of a mesh that meet at a smaller angle are shaded as one smooth surface.
 const double kSmooth = std::cos(40 * pi / 180);
 
@@ -25,7 +25,7 @@ uint32_t add(Triangles& out, const Vec3& p, const Vec3& n) {
     return static_cast<uint32_t>(out.vertices.size() - 1);
 }
 
-/// A grid of vertices, `columns` wide, becomes two triangles a cell.
+/// Makes two triangles of each cell of a grid of vertices.
 void add_grid(Triangles& out, uint32_t first, uint32_t rows, uint32_t columns) {
     for (uint32_t i = 0; i + 1 < rows; ++i) {
         for (uint32_t j = 0; j + 1 < columns; ++j) {
@@ -41,7 +41,8 @@ void add_grid(Triangles& out, uint32_t first, uint32_t rows, uint32_t columns) {
 Triangles box(const Vec3& size) {
     const double r = bevel(size.minCoeff());
     const Vec3 core = size / 2 - Vec3::Constant(r);
-    std::array<double, 2 * (kBevel + 1)> steps{};  // beyond the core, in r; below: at the low side
+    // offsets beyond the core, in units of r; negative at the low side
+    std::array<double, 2 * (kBevel + 1)> steps{};
     for (int i = 0; i <= kBevel; ++i) {
         const double out = std::tan(pi / 4 * i / kBevel);
         steps[static_cast<size_t>(kBevel - i)] = -out;
@@ -86,7 +87,7 @@ struct Profile {
     double r, z, n_r, n_z;
 };
 
-/// The profile, from bottom to top, turned about z.
+/// The surface of a profile, given from bottom to top, that is turned about z.
 Triangles lathe(std::span<const Profile> profile) {
     Triangles out;
     for (const Profile& at : profile) {
@@ -111,7 +112,7 @@ void add_arc(std::vector<Profile>& profile, double r, double z, double radius, d
     }
 }
 
-/// A sphere, or with a length two halves of one and what is between.
+/// A capsule: two half-spheres and the cylinder between them; a sphere if `length` is 0.
 Triangles capsule(double radius, double length) {
     std::vector<Profile> profile;
     add_arc(profile, 0, -length / 2, radius, -pi / 2, 0, kRound / 4);
@@ -128,8 +129,8 @@ Triangles cylinder(double radius, double length) {
     return lathe(profile);
 }
 
-/// Each corner gets the mean normal, by area, of the faces at that place that are nearly parallel
-/// to its own.
+/// Each face's corner gets the mean normal, weighted by area, of the faces there that are nearly
+/// parallel to the corner's own.
 Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces) {
     struct At {
         Vec3 area;
@@ -236,9 +237,9 @@ Triangles tube(std::span<const Vec3> path, double radius) {
         const Vec3& before = points[i > 0 ? i - 1 : 0];
         const Vec3& after = points[std::min(i + 1, points.size() - 1)];
         Vec3 along = after - before;
-        if (along.norm() < 1e-9) along = points[i] - before;  // back where it came from
+        if (along.norm() < 1e-9) along = points[i] - before;  // the path turns back on itself
         along.normalize();
-        // carried along without twist
+        // `across` is carried along the path without twist
         across -= across.dot(along) * along;
         across = across.norm() > 1e-6 ? Vec3(across.normalized()) : along.unitOrthogonal();
         const auto cap = [&](double side) {

@@ -1,4 +1,4 @@
-// Surfaces of shapes as triangles, for drawing.
+// Turns the surfaces of shapes into triangles, for drawing.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Vertex {
     Eigen::Vector3f n;  ///< outward, of unit length
 };
 
-/// Counter-clockwise seen from outside: three indices each.
+/// Triangles of three indices each, counter-clockwise seen from outside.
 struct Triangles {
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
@@ -22,14 +22,14 @@ struct Triangles {
     void append(const Triangles& other, const Pose& X);
 };
 
-/// The surface of a shape in its body's frame. Edges of boxes and cylinders are rounded, by a
-/// millimetre at most and inward, so that they catch light. A concave mesh is drawn as it is, any
-/// other as its convex hull: what is seen is what is felt. A plane is a square of `plane_size` [m].
+/// The surface of a shape in its body's frame. Edges of boxes and cylinders are rounded inward, by
+/// 1.2 mm at most, so that they catch light. A concave mesh is drawn as it is, any other as its
+/// convex hull: what is seen is what is felt. A plane is a square of `plane_size` [m].
 Triangles triangles(const scene::Shape& shape, double plane_size = 8);
 
 /// A square at z = 0 about the origin, facing up [m].
 Triangles square(double size);
-/// A tube along a path, with round ends [m]. Empty for less than two different points.
+/// A tube along a path, with round ends [m]. Empty for fewer than two different points.
 Triangles tube(std::span<const Vec3> path, double radius);
 /// An arrow from the origin along z, of the given length [m].
 Triangles arrow(double length, double radius);

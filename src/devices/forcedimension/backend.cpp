@@ -26,7 +26,7 @@ void check(const DeviceConfig& config, Diagnostics& diagnostics) {
     read_options(config, diagnostics);
 }
 
-/// Every device that can be opened. Throws the last Error when none can.
+/// Opens every device that can be opened. Throws the last Error if none can.
 std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
     const int count = dhd.device_count();
     if (count <= 0) throw Error(place, "serial", "no Force Dimension device is connected", kNobody);
@@ -41,7 +41,8 @@ std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
     return out;
 }
 
-/// Takes the one that a rig's device is out of `there`.
+/// Removes from `there` the connection of one device of the rig, and returns it. Throws Error when
+/// none fits, or several.
 Connection take(std::vector<Connection>& there, const Options& options, const Place& place) {
     const bool chosen = options.serial != Options::kAny;
     std::vector<size_t> fits;
@@ -73,7 +74,8 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
     return out;
 }
 
-/// What it can turn, if it measures orientation: what does not shall render no torque.
+/// Adds orientation and torque to `info`. A device that does not measure orientation renders no
+/// torque.
 void add_wrist(const Dhd& dhd, const Connection& connection, const Options& options,
                const Place& place, DeviceInfo& info) {
     info.measures_orientation = options.orientation && dhd.has_wrist(connection.id());

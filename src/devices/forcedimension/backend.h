@@ -1,5 +1,5 @@
-// Force Dimension's devices (omega, delta, sigma) and the Novint Falcon, by the DHD API; see
-// README.md.
+// The backend `forcedimension`: Force Dimension's devices (omega, delta, sigma) and the Novint
+// Falcon, through the DHD API; see README.md.
 #pragma once
 
 #include "devices/device_group.h"

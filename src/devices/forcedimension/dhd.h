@@ -1,5 +1,5 @@
-// Force Dimension's DHD API (libdhd, or libdrd which contains it), in declarations of our own: what
-// of it is used here. Units are SI; a device is named by a number of its own in every call.
+// Our own declarations of the part of Force Dimension's DHD API (libdhd, or libdrd, which contains
+// it) that is used here. Units are SI; every call names its device by a number, `id`.
 #pragma once
 
 #include <array>
@@ -8,12 +8,12 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// What dhdGetStatus() gives: 17 numbers in 3.17.5, and room for those of versions to come.
+/// What dhdGetStatus() fills: 17 numbers in 3.17.5, with room for those of later versions.
 using DhdStatus = std::array<int, 64>;
 enum DhdStatusIndex : unsigned {
     kDhdPower = 0,
     kDhdConnected = 1,
-    kDhdReset = 3,  // not calibrated
+    kDhdReset = 3,  // needs calibration
     kDhdForce = 5,  // force is on
     kDhdBrake = 6,
     kDhdErrorIndex = 9,
@@ -28,12 +28,13 @@ enum DhdForceOff : int {
     kDhdByDeadMan = 6,
 };
 
-/// dhdSetWatchdog() takes so many of these: its longest, and of how long each is [s]. 0 is none.
+/// dhdSetWatchdog() takes a number of steps: the largest, and the length of a step [s]. 0 switches
+/// the watchdog off.
 constexpr unsigned char kDhdLongestWatchdog = 255;
 constexpr double kDhdWatchdogStep = 125e-6;
 
-/// The library's functions. They return -1 for an error; 0 and more are none: 1 means that the time
-/// guard gave the last state again, 2 that a motor gives what it can.
+/// The library's functions. They return -1 for an error. 0 and more are no errors: 1 means that the
+/// time guard gave the last state again, 2 that a motor is saturated.
 struct Dhd {
     int (*device_count)() = nullptr;
     int (*open_id)(char id) = nullptr;
@@ -52,17 +53,17 @@ struct Dhd {
     unsigned (*buttons)(char id) = nullptr;
     int (*compensate_gravity)(int on, char id) = nullptr;
     double (*max_force)(char id) = nullptr;   // negative: not stated
-    double (*max_torque)(char id) = nullptr;  // the same
+    double (*max_torque)(char id) = nullptr;  // negative: not stated
     int (*enable_expert_mode)() = nullptr;
     int (*disable_expert_mode)() = nullptr;
     int (*set_watchdog)(unsigned char steps, char id) = nullptr;  // in expert mode
     int (*status)(int*, char id) = nullptr;
     const char* (*last_error)() = nullptr;
 
-    std::string file;  ///< that they are from
+    std::string file;  ///< from which they were loaded
 };
 
-/// Loads it from `path`, or from where the machine has it. Throws Error.
+/// Loads the library from `path`, or from where the system finds it if that is empty. Throws Error.
 Dhd load_dhd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::forcedimension

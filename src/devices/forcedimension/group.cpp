@@ -85,7 +85,7 @@ Error Group::error(const Device& device, const std::string& doing) const {
             "Look at its power and its cable, and switch it off and on."};
 }
 
-/// The device's own answer to a program that dies, is stopped or hangs.
+/// The watchdog ends the device's force by itself when a program dies, is stopped or hangs.
 void Group::set_watchdog(const Device& device) const {
     dhd_.enable_expert_mode();
     const int done = dhd_.set_watchdog(kDhdLongestWatchdog, device.connection.id());
@@ -172,12 +172,12 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
 }
 
 uint32_t Group::drop_status(Running& running, Time now) noexcept {
-    // in a pause nobody says anything, and nothing was taken from the hand
+    // in a pause nothing is written, and the hand felt no force that could be lost
     if (running.cause == kDhdByWatchdog && running.quiet) {
         running.cause = 0;
         return 0;
     }
-    // as long as a person wishes it off it is no fault
+    // however long a person keeps force off, it is no fault
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
     return running.drops.status(now, true);
 }
@@ -206,7 +206,7 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
         running.quiet = wrench.is_zero();
         running.saturated = done == 2;
         if (running.off && !stopped) dhd_.enable_force(1, devices_[i].connection.id());
-        // that the connection is lost shows in the next reading
+        // a lost connection shows in the next reading
         if (done < 0) keep_last_error(running);
     }
 }

@@ -1,5 +1,5 @@
-// A group of DHD devices. Our own thread keeps time. D is the maker's own frame: x toward the
-// person, y right, z up, its origin in the middle of the workspace.
+// A group of DHD devices. The servo's own thread keeps time. D is the maker's frame: x toward the
+// person, y right, z up, with its origin in the middle of the workspace.
 #pragma once
 
 #include <atomic>
@@ -10,17 +10,18 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// A device of the rig file.
+/// Options of a device in the rig file.
 struct Options {
-    int serial = kAny;                        ///< kAny: the only one that is there
-    std::string library;                      ///< libdhd.so, where it is not found by itself
-    std::optional<double> peak_force;         ///< that it may be asked for [N]
+    int serial = kAny;                        ///< kAny: the only device that is connected
+    std::string library;                      ///< path of libdhd.so, if the system finds none
+    std::optional<double> peak_force;         ///< that the device may be asked for [N]
     std::optional<double> continuous_force;   ///< that it can hold for long [N]
     std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
-    bool orientation = true;                  ///< whether it is used, of devices that measure it
-    std::optional<double> peak_torque;        ///< that it may be asked for [N*m]
+    bool orientation = true;                  ///< whether to use it, if the device measures it
+    std::optional<double> peak_torque;        ///< that the device may be asked for [N*m]
     std::optional<double> continuous_torque;  ///< that it can hold for long [N*m]
-    /// Whether the device shall end its force by itself when it hears nothing; no: as it is.
+    /// Whether to set the watchdog by which the device ends its force when it hears nothing; no:
+    /// it is left as it is.
     bool watchdog = true;
 
     template <class Visitor>
@@ -39,10 +40,11 @@ struct Options {
     static constexpr int kAny = -1;
 };
 
-/// A device that was opened, until this ends.
+/// An open device; the destructor closes it.
 class Connection {
   public:
-    /// Throws Error, for `place`, when the n-th device that is there cannot be opened.
+    /// Opens the n-th connected device, from 0. Throws Error, for `place`, when it cannot be
+    /// opened.
     Connection(const Dhd& dhd, int n, const Place& place);
     ~Connection();
     Connection(Connection&& other) noexcept;
@@ -76,10 +78,10 @@ class Group final : public DeviceGroup {
   private:
     struct Running {
         ForceDrops drops;
-        bool off = false;        // it had no force on in this tick's reading
-        bool quiet = true;       // it was last told no force
-        bool saturated = false;  // a motor gave what it can
-        int cause = 0;           // DhdForceOff, the last
+        bool off = false;        // force was off in this tick's reading
+        bool quiet = true;       // the last force written was zero
+        bool saturated = false;  // a motor could give no more
+        int cause = 0;           // the last DhdForceOff
         std::array<char, 160> said{};
     };
 
@@ -92,7 +94,7 @@ class Group final : public DeviceGroup {
     void set_watchdog(const Device& device) const;
     bool read_motion(const Device& device, Reading& reading) noexcept;
     uint32_t read(size_t i, Time now, Reading& reading) noexcept;
-    /// Of a device that has no force on.
+    /// The DeviceStatus of a device whose force is off.
     static uint32_t drop_status(Running& running, Time now) noexcept;
     int tell(const Device& device, const Wrench& wrench_D) noexcept;
     void keep_last_error(Running& running) noexcept;

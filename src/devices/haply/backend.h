@@ -1,4 +1,4 @@
-// Haply Inverse3, through the Inverse Service.
+// The backend `haply`: Haply Inverse3 devices, through Haply's Inverse Service; see README.md.
 #pragma once
 
 #include "devices/device_group.h"

@@ -33,8 +33,8 @@ error_code system_error(int number) {
     return {number, boost::system::system_category()};
 }
 
-/// A socket whose reads and writes end at a deadline. Beast's own time limits need its asynchronous
-/// calls, which allocate.
+/// A socket whose reads and writes end at a deadline. Beast's own time limits work only with its
+/// asynchronous calls, which allocate.
 class TimedSocket {
   public:
     using executor_type = net::io_context::executor_type;
@@ -45,7 +45,7 @@ class TimedSocket {
     executor_type get_executor() noexcept { return context_.get_executor(); }
     void set_deadline(Steady::time_point deadline) { deadline_ = deadline; }
 
-    /// The first of the host's addresses that answers before the deadline.
+    /// Connects to the first of the host's addresses that answers before the deadline.
     error_code connect(const addrinfo* addresses) {
         error_code ec = net::error::host_not_found;
         for (const addrinfo* address = addresses; address != nullptr; address = address->ai_next) {
@@ -74,21 +74,21 @@ class TimedSocket {
     }
     template <class Buffers>
     size_t write_some(const Buffers& buffers, error_code& ec) {
-        // a frame's header and its text in one segment, as there is no waiting for more
+        // TCP_NODELAY sends at once: a frame's header and its text have to go in one segment
         std::array<iovec, 8> parts{};
         msghdr message{};
         message.msg_iov = parts.data();
         for (auto it = net::buffer_sequence_begin(buffers);
              it != net::buffer_sequence_end(buffers) && message.msg_iovlen < parts.size(); ++it) {
             const net::const_buffer part = *it;
-            // sendmsg() does not write there
+            // the cast is safe: sendmsg() only reads from there
             parts[message.msg_iovlen++] = {const_cast<void*>(part.data()), part.size()};
         }
         return transfer(POLLOUT, ec, [&] {
             return ::sendmsg(fd_.load(), &message, MSG_DONTWAIT | MSG_NOSIGNAL);
         });
     }
-    // Beast's concept of a stream asks for these; nothing here calls them.
+    // Beast's concept of a stream requires these; nothing here calls them.
     template <class Buffers>
     size_t read_some(const Buffers& buffers) {
         error_code ec;
@@ -119,7 +119,7 @@ class TimedSocket {
         return {};
     }
 
-    /// Waits until `call` succeeds, fails or the deadline is over.
+    /// Repeats `call` until it succeeds, fails or the deadline is over.
     template <class Call>
     size_t transfer(short event, error_code& ec, const Call& call) {
         ec = {};
@@ -197,7 +197,7 @@ std::optional<Url> Url::parse(const std::string& text) {
 struct Connection::Impl {
     using Stream = websocket::stream<TimedSocket>;
 
-    net::io_context context;  // never run: Beast's timers want one
+    net::io_context context;  // never run: Beast's timers need one
     Stream stream{context};
     bool open = false;
     std::vector<char> message = std::vector<char>(kMostBytes + kPadding);
@@ -231,7 +231,7 @@ void Connection::open(const Url& url, Time time_out) {
     }
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
 
-    // a new stream: one that was closed does not open again
+    // a new stream, because one that was closed does not open again
     impl_ = std::make_unique<Impl>();
     impl_->allow(time_out);
     error_code ec = impl_->stream.next_layer().connect(addresses.get());

@@ -1,5 +1,5 @@
-// A WebSocket to a service, for a loop that must not wait longer than it says: messages go through
-// buffers that are made once, and each call has its own limit of time.
+// A WebSocket connection to a service, for a real-time loop: messages go through buffers that are
+// allocated once, and each call has a time limit.
 #pragma once
 
 #include <memory>
@@ -17,15 +17,15 @@ struct Url {
     int port = 80;
     std::string path = "/";
 
-    /// None when it is no such address.
+    /// Returns nullopt when the text is not such an address.
     static std::optional<Url> parse(const std::string& text);
 };
 
 class Connection {
   public:
-    /// Longest message that is understood [bytes]. A full inventory has about 2000 a device.
+    /// Longest message that can be received [bytes]. A full inventory has about 2000 a device.
     static constexpr size_t kMostBytes = 1 << 18;
-    /// Readable bytes after each message, which the parser wants.
+    /// Readable bytes after each message, which the parser needs.
     static constexpr size_t kPadding = 64;
 
     Connection();
@@ -33,16 +33,17 @@ class Connection {
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// Connects and shakes hands. Throws Error that says where, why not, and what to do.
+    /// Connects and shakes hands. Throws an Error that says where and why it failed, and the
+    /// remedy.
     void open(const Url& url, Time time_out);
     void close() noexcept;
     bool is_open() const noexcept;
 
     /// Sends a text message; false when the connection is lost.
     bool send(std::string_view message, Time time_out) noexcept;
-    /// The next message, valid until the next call; empty when none was complete in time or the
-    /// connection is lost. Either way it is closed then: an answer that comes later would be taken
-    /// for the next one's.
+    /// The next message, valid until the next call. Empty when none was complete in time or the
+    /// connection is lost; the connection is then given up, since a late answer would be taken for
+    /// the next one.
     std::string_view receive(Time time_out) noexcept;
 
     /// Ends the connection from any thread, while another is in send() or receive().

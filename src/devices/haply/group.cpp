@@ -15,7 +15,7 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Readings that an angular velocity is taken over, as the service says none of grips.
+/// Number of readings that an angular velocity is taken over: the service reports none for grips.
 constexpr int kTurnWindow = 8;
 
 std::optional<Grip> grip_of(const Options& options) {
@@ -64,7 +64,7 @@ class HaplyGroup final : public DeviceGroup {
     bool can_stop() const override { return true; }
 
   private:
-    /// Of a device, while it is active.
+    /// State of one device while the group is active.
     struct Cycle {
         Reading last{};
         Past<Quat> past{kTurnWindow};
@@ -83,7 +83,7 @@ class HaplyGroup final : public DeviceGroup {
         connection_.open(url_, kSetUpTime);
         receive_first(connection_, reader_, message_, "list of devices");
         check_inventory(message_, devices_);
-        // no force yet: what the service thinks of our messages is known before a hand feels any
+        // without force: whether the service accepts commands is known before a hand feels one
         std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
         connection_.send(writer_.write(forces_D_, true), kSetUpTime);
         receive_first(connection_, reader_, message_, "answer to a command");
@@ -101,7 +101,7 @@ class HaplyGroup final : public DeviceGroup {
         connection_.close();
     }
 
-    /// Takes every answer that is due; the last is the state.
+    /// Receives every answer that the service owes; the last one is the state.
     void receive() noexcept {
         for (; unanswered_ > 0; --unanswered_) {
             const std::string_view text = connection_.receive(time_out_);
@@ -144,7 +144,8 @@ class HaplyGroup final : public DeviceGroup {
         }
     }
 
-    /// What the message says of a device; false when it says too little.
+    /// Takes a device's state from the message; false when that is missing or incomplete, or the
+    /// device cannot be used as it is.
     bool take(const Wanted& device, Cycle& cycle, Time now) const noexcept {
         const DeviceState* state = message_.device(device.options.device_id);
         if (state == nullptr || !state->p_DH || !state->v_DH) return false;
@@ -175,7 +176,7 @@ class HaplyGroup final : public DeviceGroup {
 
     void do_pace(const std::function<bool()>& tick) override {
         receive();
-        fresh_ = false;  // it may be as old as the pause before
+        fresh_ = false;  // the answer may be as old as the pause before
         while (true) {
             if (unanswered_ == 0) ask_without_force();
             receive();
@@ -200,9 +201,9 @@ class HaplyGroup final : public DeviceGroup {
     CommandWriter writer_;
     std::vector<Vec3> forces_D_;
     std::vector<Cycle> cycles_;
-    int unanswered_ = 0;  // messages that the service owes an answer to
-    bool fresh_ = false;  // message_ was not read yet
-    bool sound_ = false;  // message_ is what the service last said
+    int unanswered_ = 0;  // number of messages that the service has not answered
+    bool fresh_ = false;  // no read() has used message_ yet
+    bool sound_ = false;  // message_ holds the last answer, complete and without an error
     std::atomic<bool> stopped_{false};
 };
 

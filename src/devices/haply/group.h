@@ -1,12 +1,12 @@
-// Inverse3 devices of one Inverse Service: one message carries the forces of all, and the answer
-// their states. Whoever waits for the answer is paced by the service.
+// A group of the Inverse3 devices of one Inverse Service: one message carries the forces of all
+// devices, and its answer their states. The service paces the tick by its answers.
 #pragma once
 
 #include "devices/device_group.h"
 
 namespace dihaptic::devices::haply {
 
-/// Throws Error when the options do not fit together.
+/// Makes the group. Throws Error when the devices' options do not fit together.
 std::unique_ptr<DeviceGroup> make_group(const std::vector<DeviceConfig>& configs,
                                         const Context& context);
 

@@ -8,7 +8,7 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Why a device can not be used as it is, and what to do; empty when it can.
+/// Why a device cannot be used as it is, and the remedy; both are empty when it can.
 std::pair<std::string, std::string> trouble(const DeviceState& state) {
     if (state.power_supply == false) return {"has no power", "Plug its power supply in."};
     if (state.calibrated == false) {

@@ -1,4 +1,4 @@
-// What the service has, beside what a rig file wants of it.
+// Compares what the Inverse Service lists with what a rig file asks for.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::devices::haply {
 
-/// Connecting, and the first messages, which take longer than those of the cycle.
+/// Time limit for connecting and for the first messages, which take longer than those of the cycle.
 constexpr Time kSetUpTime = std::chrono::seconds(2);
 
 struct Grip {
@@ -19,18 +19,19 @@ struct Grip {
 struct Wanted {
     Options options;
     Place place;
-    std::optional<Grip> grip;  ///< that gives the orientation
+    std::optional<Grip> grip;  ///< that gives the finger's orientation
 };
 
-/// An inventory, or the first answer to a command; `what` it is, for messages. Throws Error.
+/// Receives an inventory, or the first answer to a command; `what` names it in messages. Throws
+/// Error.
 void receive_first(Connection& connection, StateReader& reader, StateMessage& message,
                    const char* what);
-/// Throws Error unless each device and grip is there once and can be used as it is.
+/// Throws Error unless each device and grip is listed once and each device can be used as it is.
 void check_inventory(const StateMessage& message, std::span<const Wanted> devices);
 /// Throws Error when the service did not understand the first command.
 void check_answer(const StateMessage& message, std::span<const Wanted> devices);
 
-/// What the service at a url lists.
+/// What the service at `url` lists, for `dihaptic devices`.
 Survey survey_of(const std::string& url);
 
 }  // namespace dihaptic::devices::haply

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <limits>
 
-#define SIMDJSON_EXCEPTIONS 0  // what would throw does not compile
+#define SIMDJSON_EXCEPTIONS 0  // calls that could throw do not compile
 #include <simdjson.h>
 
 #include "devices/haply/connection.h"
@@ -17,7 +17,7 @@ namespace json = simdjson::ondemand;
 static_assert(Connection::kPadding >= simdjson::SIMDJSON_PADDING);
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Calls `use(key, value)` for each member; false when the text breaks off or is no object.
+/// Calls `use(key, value)` for each member; false when the text breaks off or is not an object.
 template <class Use>
 bool for_members(const simdjson::simdjson_result<json::object>& object, const Use& use) {
     if (object.error()) return false;
@@ -31,7 +31,7 @@ bool for_members(const simdjson::simdjson_result<json::object>& object, const Us
     return true;
 }
 
-/// Calls `use(element)` for each element; false when the text breaks off or is no array.
+/// Calls `use(element)` for each element; false when the text breaks off or is not an array.
 template <class Use>
 bool for_elements(json::value value, const Use& use) {
     json::array elements;
@@ -203,7 +203,7 @@ namespace {
 constexpr std::string_view kProfile =
     R"("session":{"configure":{"profile":{"name":"org.dihaptic:dihaptic"}}},)";
 constexpr size_t kNumberBytes = 32;
-/// Of a device's part of the message, without its serial number.
+/// Bytes of a device's part of the message, without its serial number.
 constexpr size_t kDeviceBytes = 128 + 3 * kNumberBytes;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What is said to the service, and what it says: JSON, written and read without memory of its own.
-// The README has an example of each.
+// The messages to and from the Inverse Service: JSON, written and read without allocating.
+// README.md has an example of each.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace dihaptic::devices::haply {
 
-/// What the service says of an Inverse3. What it leaves out is none.
+/// What the service reports about an Inverse3. Fields that it leaves out are nullopt.
 struct DeviceState {
     std::string_view id;
-    /// In D [m], [m/s]; a component that is not a number is NaN, one left out is 0.
+    /// In D [m], [m/s]; a component that is not a number is NaN, one that is left out is 0.
     std::optional<Vec3> p_DH;
     std::optional<Vec3> v_DH;
     std::optional<bool> calibrated;
@@ -31,21 +31,21 @@ constexpr auto enum_names(GripKind) {
     return std::array{"verse_grip", "wireless_verse_grip"};
 }
 
-/// What it says of a grip.
+/// What the service reports about a grip.
 struct GripState {
     GripKind kind = GripKind::verse_grip;
     std::string_view id;
-    std::optional<Quat> R;  ///< not a number where it is not one
+    std::optional<Quat> R;  ///< a component that is not a number is NaN
     uint32_t buttons = 0;   ///< a, b, c: 1, 2, 4
 };
 
-/// A message of the service. Texts are valid until the next one is read.
+/// A message from the service. Texts are valid until the next message is read.
 struct StateMessage {
-    static constexpr size_t kMostDevices = 16;  ///< and grips; more are left out
+    static constexpr size_t kMostDevices = 16;  ///< and most grips; any further are left out
 
     std::span<const DeviceState> devices() const { return {device_list.data(), device_count}; }
     std::span<const GripState> grips() const { return {grip_list.data(), grip_count}; }
-    /// The only one of that serial number; null when there is none, or several.
+    /// The only device, or grip, with that serial number; null if there is none, or several.
     const DeviceState* device(std::string_view id) const;
     const GripState* grip(GripKind kind, std::string_view id) const;
 
@@ -53,17 +53,17 @@ struct StateMessage {
     size_t device_count = 0;
     std::array<GripState, kMostDevices> grip_list;
     size_t grip_count = 0;
-    std::string_view error;  ///< what the service complains of
+    std::string_view error;  ///< that the service reports; "" if none
 };
 
-/// Reads messages. Neither allocates nor throws, once made.
+/// Reads messages. Once made, it neither allocates nor throws.
 class StateReader {
   public:
     explicit StateReader(size_t most_bytes);
     ~StateReader();
 
-    /// False when the text is no complete JSON object; `out` then means nothing. Behind the text
-    /// Connection::kPadding bytes must be readable.
+    /// Returns false when the text is not a complete JSON object; `out` then means nothing.
+    /// Connection::kPadding bytes must be readable after the text.
     bool read(std::string_view text, StateMessage& out) noexcept;
 
   private:
@@ -71,7 +71,7 @@ class StateReader {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Writes the one message of a tick. Neither allocates nor throws, once made.
+/// Writes the message of a tick. Once made, it neither allocates nor throws.
 class CommandWriter {
   public:
     struct Device {
@@ -80,7 +80,8 @@ class CommandWriter {
     };
     explicit CommandWriter(std::vector<Device> devices);
 
-    /// `forces_D` by device [N]: finite. `first`: also says who we are. Valid until the next call.
+    /// `forces_D`: by device, finite [N]. `first`: the message also names this program. The text is
+    /// valid until the next call.
     std::string_view write(std::span<const Vec3> forces_D, bool first) noexcept;
 
   private:

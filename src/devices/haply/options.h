@@ -1,4 +1,4 @@
-// What a rig file says of an Inverse3.
+// Options of an Inverse3 in a rig file.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@
 namespace dihaptic::devices::haply {
 
 /// How the service spells the field of a force command: `vector` in the documents of 3.5, `values`
-/// in those before it and in clients of that time.
+/// in earlier ones and in clients of that time.
 enum class ForceKey { vector, values };
 constexpr auto enum_names(ForceKey) {
     return std::array{"vector", "values"};
 }
 
 struct Options {
-    std::string device_id;  ///< serial, hexadecimal, as the service lists it
+    std::string device_id;  ///< serial number, hexadecimal, as the service lists it
     std::string url = "ws://localhost:10001/";
     ForceKey force_key = ForceKey::vector;
-    double time_out = 0.02;           ///< without an answer for so long, the service is gone [s]
+    double time_out = 0.02;           ///< after this time without an answer, it is given up [s]
     double peak_force = 5;            ///< larger forces are clamped; not verified [N]
-    std::string verse_grip;           ///< serial of a wired grip that gives the orientation
-    std::string wireless_verse_grip;  ///< the same, of a wireless one
+    std::string verse_grip;           ///< serial number of a wired grip, for the orientation
+    std::string wireless_verse_grip;  ///< serial number of a wireless grip, for the orientation
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -36,7 +36,7 @@ struct Options {
     }
 };
 
-/// A device's options; every problem goes to `diagnostics`.
+/// Reads a device's options; every problem goes to `diagnostics`.
 Options read_options(const DeviceConfig& config, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::devices::haply

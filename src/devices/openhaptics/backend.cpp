@@ -58,7 +58,7 @@ Survey survey() {
     Survey out;
     try {
         const Hd hd = load_hd("", {});
-        // HD lists no devices: the first is all that can be found without a name
+        // HD lists no devices: without a name only the first can be found
         const Connection connection(hd, {}, {});
         out.devices.push_back({connection.serial(), connection.model(),
                                "the driver's first; others answer to their names there"});

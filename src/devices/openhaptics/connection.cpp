@@ -93,7 +93,8 @@ void Connection::read_info() {
     centre_ = (least + most) / 2 * kPerMm;
     info_.workspace = (most - least) * kPerMm;
     if (options_.joint_angles) {
-        // HD's own origin is where the joints are zero, and the box around it is the smaller one
+        // HD's own origin is the endpoint at joint angles of zero; the box is the part of the
+        // workspace that is symmetric about it
         info_.arm = options_.links;
         centre_ = Vec3::Zero();
         info_.workspace = 2 * least.cwiseAbs().cwiseMin(most.cwiseAbs()) * kPerMm;
@@ -119,7 +120,7 @@ void Connection::read_info() {
     info_.max_damping = options_.max_damping;
     const double stiffness = number(kHdMaxStiffness) / kPerMm;
     const double damping = number(kHdMaxDamping) / kPerMm;
-    forget_errors();  // not every device says these two
+    forget_errors();  // not every device states these two
     if (!info_.max_stiffness && sound(stiffness)) info_.max_stiffness = stiffness;
     if (!info_.max_damping && sound(damping)) info_.max_damping = damping;
     if (!options_.serial.empty() && options_.serial != serial_) {
@@ -129,14 +130,14 @@ void Connection::read_info() {
     }
 }
 
-/// What measures no orientation shall render no torque, and what states no limit of it neither.
+/// A device that measures no orientation renders no torque; nor does one without a known limit.
 void Connection::read_limits_of_turning() {
     int dof = 0;
     hd_.get_integers(kHdOutputDof, &dof);
     const bool turns = info_.measures_orientation && dof >= 6;
     const double peak = turns ? number(kHdMaxTorque) * kPerMm : 0;
     const double continuous = turns ? number(kHdMaxContinuousTorque) * kPerMm : 0;
-    forget_errors();  // not every device says these
+    forget_errors();  // not every device states these
     if (!turns && options_.peak_torque) {
         throw Error(place_, "peak_torque", who() + " renders no torque",
                     "Leave it out: devices with six degrees of output do, with orientation.");

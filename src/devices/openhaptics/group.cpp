@@ -10,7 +10,7 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// A scheduler that calls no more is given up: after it began, and before.
+/// Time without a call after which the scheduler is given up: once it has begun, and before.
 constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);
 constexpr auto kLook = std::chrono::milliseconds(5);
@@ -126,7 +126,7 @@ void Group::do_read(Time now, std::span<Reading> readings) noexcept {
 void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
     for (size_t i = 0; i < devices_.size(); ++i) {
         Device& device = devices_[i];
-        // outside of a tick the scheduler is stopped, and no force acts
+        // outside a tick the scheduler is stopped, and no force acts
         if (!device.framed) continue;
         device.framed = false;
         hd_.make_current(device.connection.handle());
@@ -154,7 +154,7 @@ unsigned Group::on_tick(void* group) noexcept {
     return kHdDone;
 }
 
-/// False when the scheduler called no more.
+/// Returns false when the scheduler stopped calling.
 bool Group::wait_for_end() {
     uint64_t seen = 0;
     auto since = Steady::now();
@@ -165,7 +165,8 @@ bool Group::wait_for_end() {
         if (ticks != seen) since = now;
         seen = ticks;
         Turn free = Turn::free;
-        // a tick that blocks is for whoever watches the servo: nobody else may call one meanwhile
+        // a tick that blocks is left to the servo's watchdog: turn_ stays `inside`, so that none
+        // can be called meanwhile
         if (now - since > (seen == 0 ? Steady::duration(kBeginning) : Steady::duration(kSilence)) &&
             turn_.compare_exchange_strong(free, Turn::closed))
             return false;
@@ -186,7 +187,8 @@ void Group::do_pace(const std::function<bool()>& tick) {
     for (Device& device : devices_) device.framed = false;
     if (!silent_) return;
     take_errors();
-    // an orderly end: the servo sees that nothing answers, and what it records goes on for a while
+    // for an orderly end the servo goes on ticking and recording until it ends the session, and
+    // sees that no device answers
     while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(tick_));
 }
 

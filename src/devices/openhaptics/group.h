@@ -1,8 +1,9 @@
-// A group of devices in one callback of HD's scheduler, which paces the tick: all frames begin, all
-// devices are read, the tick computes, all forces are set, all frames end.
+// A group of devices served in one callback of HD's scheduler, which paces the tick: each device's
+// frame begins and it is read, the tick computes, then each device's force is set and its frame
+// ends.
 //
-// D has HD's axes (x right, y up, z toward the person) and its origin in the middle of the usable
-// workspace that the device states; or HD's own, of a device whose joints are asked for.
+// D has HD's axes (x right, y up, z toward the person). Its origin is the middle of the usable
+// workspace that the device states, or HD's own origin if the device's joint angles are used.
 #pragma once
 
 #include <array>
@@ -14,19 +15,19 @@
 
 namespace dihaptic::devices::openhaptics {
 
-/// A device of the rig file.
+/// Options of a device in the rig file.
 struct Options {
     std::string name;            ///< in the driver's configuration; "": the first that is found
-    std::string serial;          ///< that the device has to have; "": any
-    std::string library;         ///< libHD.so, where it is not found by itself
-    bool encoder_reset = false;  ///< at each activation, held in its neutral pose
-    bool orientation = true;     ///< whether it is used, of devices that measure it
-    std::optional<double> peak_torque;        ///< where the device states none [N*m]
-    std::optional<double> continuous_torque;  ///< the same
-    bool joint_angles = false;  ///< a Premium's are asked for, so that calibrations know them
-    model::PhantomLinks links;  ///< of one whose joints are asked for
-    std::optional<double> max_stiffness;  ///< in place of what the device says [N/m]
-    std::optional<double> max_damping;    ///< the same [N*s/m]
+    std::string serial;          ///< serial number that the device must have; "": any
+    std::string library;         ///< path of libHD.so, if the system finds none
+    bool encoder_reset = false;  ///< reset at each activation, with the arm in its neutral pose
+    bool orientation = true;     ///< whether to use it, if the device measures it
+    std::optional<double> peak_torque;  ///< lower than the device's own, or in its place [N*m]
+    std::optional<double> continuous_torque;  ///< in place of what the device states [N*m]
+    bool joint_angles = false;                ///< read a Premium's, which a calibration can use
+    model::PhantomLinks links;                ///< of a device whose joint angles are read
+    std::optional<double> max_stiffness;      ///< in place of what the device states [N/m]
+    std::optional<double> max_damping;        ///< in place of what the device states [N*s/m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -45,10 +46,10 @@ struct Options {
     }
 };
 
-/// A device that was initialised, until this ends.
+/// An initialised device; the destructor disables it.
 class Connection {
   public:
-    /// Throws Error, for the device's place in the rig file.
+    /// Initialises the device. Throws Error, for the device's place in the rig file.
     Connection(const Hd& hd, const DeviceConfig& config, const Options& options);
     ~Connection();
     Connection(Connection&& other) noexcept;
@@ -64,7 +65,8 @@ class Connection {
     const Vec3& centre() const { return centre_; }
     const DeviceInfo& info() const { return info_; }
 
-    /// Throws Error when the device's positions mean nothing, and it cannot mend that by itself.
+    /// Calibrates the device if it can do so by itself. Throws Error when its positions still mean
+    /// nothing.
     void calibrate() const;
     /// Empties the stack of errors; throws Error for the newest of them.
     void check(const std::string& doing, const char* key) const;
@@ -84,7 +86,7 @@ class Connection {
     HdHandle handle_ = kNoHandle;
     std::string model_;
     std::string serial_;
-    Vec3 centre_ = Vec3::Zero();  // of the usable workspace, in HD's frame [m]
+    Vec3 centre_ = Vec3::Zero();  // D's origin in HD's frame [m]
     DeviceInfo info_;
 };
 
@@ -99,10 +101,10 @@ class Group final : public DeviceGroup {
     struct Device {
         Connection connection;
         bool framed = false;   // its frame has begun
-        uint32_t trouble = 0;  // DeviceStatus, for good
+        uint32_t trouble = 0;  // DeviceStatus that lasts until the next activation
         bool dropped = false;  // it cut its force in this tick
         ForceDrops drops;
-        unsigned said = kHdSuccess;  // the last error that it was named in
+        unsigned said = kHdSuccess;  // the last error that concerned it
     };
 
     void do_activate() override;
@@ -120,7 +122,7 @@ class Group final : public DeviceGroup {
     std::vector<Device> devices_;
     double tick_;  // [s]
 
-    // of pace(): the scheduler's thread is in a tick, or none, or may not begin one any more
+    // for pace(): whether the scheduler's thread may begin a tick, is in one, or may begin no more
     enum class Turn : int { free, inside, closed };
     const std::function<bool()>* paced_ = nullptr;
     std::atomic<Turn> turn_{Turn::closed};

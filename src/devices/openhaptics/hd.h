@@ -1,4 +1,4 @@
-// OpenHaptics' HD API (libHD), in declarations of our own: what of it is used here. Units are mm,
+// Our own declarations of the part of OpenHaptics' HD API (libHD) that is used here. Units are mm,
 // mm/s, N, mN*m and rad; axes are x right, y up, z toward the person.
 #pragma once
 
@@ -11,8 +11,8 @@ constexpr double kPerMm = 1e-3;  // [m]
 using HdHandle = unsigned;
 constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 
-/// The newest of the errors that all threads share. A stack that never empties must not hold the
-/// program up: nobody asks for more than kMostErrors at a time.
+/// The newest error of the stack that all threads share. A stack that never empties must not hold
+/// the program up: at most kMostErrors are taken at a time.
 struct HdErrorInfo {
     unsigned code = 0;  ///< HdError
     int internal = 0;
@@ -26,7 +26,7 @@ enum HdCallbackCode : unsigned { kHdDone = 0, kHdContinue = 1 };
 constexpr unsigned short kHdHighestPriority = 65535;
 
 enum HdValue : unsigned {
-    kHdButtons = 0x2000,          // int, a bit each
+    kHdButtons = 0x2000,          // int, one bit each
     kHdPosition = 0x2050,         // 3 doubles
     kHdVelocity = 0x2051,         // 3 doubles
     kHdTransform = 0x2052,        // 16 doubles, column after column
@@ -38,7 +38,7 @@ enum HdValue : unsigned {
     kHdUsableWorkspace = 0x2551,   // 6 doubles: minima, maxima
     kHdInputDof = 0x2553,          // int
     kHdOutputDof = 0x2554,         // int
-    kHdCalibrationStyle = 0x2555,  // int: HdCalibrationStyle, added
+    kHdCalibrationStyle = 0x2555,  // int: sum of HdCalibrationStyle
     kHdMaxStiffness = 0x2602,      // double [N/mm]
     kHdMaxForce = 0x2603,          // double
     kHdMaxContinuousForce = 0x2604,
@@ -80,12 +80,12 @@ enum HdError : unsigned {
 /// What an error means for a session.
 enum class HdErrorClass {
     none,
-    force,      ///< the device cut its force: zero, and on again
+    force,      ///< the device cut its force: write zero, then switch force on again
     scheduler,  ///< the device, or the loop, is lost
     device,     ///< anything else
 };
 HdErrorClass error_class(unsigned code);
-/// Its name, and what to do.
+/// An error's name, and the remedy.
 struct HdErrorText {
     std::string what;
     std::string remedy;
@@ -115,10 +115,10 @@ struct Hd {
     unsigned long (*schedule)(HdCallback, void* data, unsigned short priority) = nullptr;
     void (*unschedule)(unsigned long) = nullptr;
 
-    std::string file;  ///< that they are from
+    std::string file;  ///< from which they were loaded
 };
 
-/// Loads it from `path`, or from where the machine has it. Throws Error.
+/// Loads the library from `path`, or from where the system finds it if that is empty. Throws Error.
 Hd load_hd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::openhaptics

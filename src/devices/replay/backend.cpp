@@ -3,7 +3,7 @@
 namespace dihaptic::devices::replay {
 namespace {
 
-/// What forces were limited by when the recording was made.
+/// The limits on force that held when the recording was made, and the device's properties then.
 struct Options {
     double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
     std::optional<double> continuous_force;                       ///< [N]
@@ -13,7 +13,7 @@ struct Options {
     std::optional<double> continuous_torque;  ///< [N*m]
     double scale = 1;                         ///< DeviceInfo::scale
     bool simulated = false;                   ///< DeviceInfo::simulated
-    /// Of handle and hand together [N*s/m]; infinite: whatever came late, nothing was softened.
+    /// Of handle and hand together [N*s/m]; infinite: late ticks softened nothing.
     double damping = std::numeric_limits<double>::infinity();
 
     template <class Visitor>

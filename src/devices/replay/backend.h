@@ -1,4 +1,4 @@
-// Devices that repeat what was recorded: forces go nowhere.
+// The backend `replay`: devices that repeat a recording. Forces go nowhere.
 #pragma once
 
 #include "devices/device_group.h"

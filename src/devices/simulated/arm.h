@@ -3,10 +3,11 @@
 //
 //     (M + m J^T J) q'' + C + m J^T dJ/dt q' + G + b q' = J^T f_finger + torques + friction
 //
-// by the classical Runge-Kutta method. The motors' torques J^T f_device come from the angles that
-// the encoders report, a step each at the endpoint in the reset pose, and end at what gives the
-// peak force there. Coulomb friction of each joint takes momentum, and holds the joint when it can;
-// its stops take all. Gravity acts: a Premium leans on its motors' weights, and the rest is felt.
+// integrated by the classical Runge-Kutta method. The motors' torques J^T f_device use the angles
+// that the encoders report; an encoder's step is `position_step` at the endpoint in the reset pose.
+// Each motor's torque is limited to what gives the peak force in that pose. Coulomb friction of
+// each joint takes momentum away, and holds the joint when it can; an end stop takes all of it.
+// Gravity acts: a Premium is balanced by the weight of its motors, and what remains is felt.
 #pragma once
 
 #include "devices/simulated/options.h"
@@ -15,17 +16,17 @@ namespace dihaptic::devices::simulated {
 
 class Arm {
   public:
-    /// `carried`: m [kg].
+    /// `carried`: the finger's mass m [kg].
     Arm(const Options& options, double carried);
 
     /// Smallest apparent mass of the endpoint in the reset pose [kg].
     static double least_mass(const Options& options);
 
-    /// Puts the endpoint, at rest, where it gets nearest to p_DH; returns where that is.
+    /// Puts the endpoint, at rest, as near to p_DH as it can get; returns its position there.
     Vec3 reset(const Vec3& p_DH);
-    /// Motors hold the torques of this force, until they are told another [N].
+    /// Sets the motors' torques for this force [N], which they hold until the next call.
     void drive(const Vec3& f_device_D) noexcept;
-    /// Moves on by h [s]; pull(p_DH, v_DH): the finger's force [N].
+    /// Integrates over h [s]; pull(p_DH, v_DH): the finger's force [N].
     template <class Pull>
     void move(double h, const Pull& pull) noexcept {
         const auto rates = [&](const State& s) noexcept -> State {
@@ -46,7 +47,7 @@ class Arm {
     const Vec3& rate() const { return state_.rate; }
     Vec3 p_DH() const noexcept { return model::phantom_position(links_, state_.q); }
     Vec3 v_DH() const noexcept { return model::phantom_jacobian(links_, state_.q) * state_.rate; }
-    /// Angles as the encoders have them [rad].
+    /// Joint angles as the encoders report them [rad].
     Vec3 reported() const noexcept;
     bool has_steps() const { return step_.x() > 0; }
     /// Kinetic and potential energy of the arm alone [J].
@@ -72,7 +73,7 @@ class Arm {
     model::PhantomLinks links_;
     model::PhantomDynamics dynamics_;
     double carried_;
-    Vec3 offset_;    // true less reported angles [rad]
+    Vec3 offset_;    // true minus reported angles [rad]
     Vec3 step_;      // of the encoders [rad]
     Vec3 peak_;      // torque of the motors [N*m]
     Vec3 friction_;  // [N*m]

@@ -25,8 +25,8 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// A hand that sees its fingers in the world, scaled, and aims accordingly: it moves 1/s of the way
-/// from D's origin to a place.
+/// A hand that sees its fingers in the world, scaled by s, and aims accordingly: from D's origin it
+/// moves 1/s of the way to a place.
 class AimingDriver final : public hand::Driver {
   public:
     AimingDriver(const std::vector<DeviceConfig>& configs, const hand::Driver& seen) : seen_(seen) {
@@ -55,7 +55,7 @@ class AimingDriver final : public hand::Driver {
 
 struct Device {
     Options options;
-    Pose X_WD;  // where it truly is
+    Pose X_WD;  // true pose of D: that of the rig file, misplaced as the options say
     Plant plant;
     Encoder encoder;
     JointEncoder joints;
@@ -170,7 +170,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = false;  // with the next reading, at whatever time that is
+    bool begins_ = false;  // the plants begin at the next reading, whatever its time
 };
 
 void check(const DeviceConfig& config, Diagnostics& diagnostics) {

@@ -1,4 +1,4 @@
-// Simulated devices in the simulated hand: what experiments are rehearsed on.
+// The backend `simulated`: devices held by the simulated hand, on which experiments are rehearsed.
 #pragma once
 
 #include "devices/device_group.h"

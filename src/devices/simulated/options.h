@@ -1,4 +1,4 @@
-// What a simulated device is like.
+// Options of a simulated device in a rig file, and its presets.
 #pragma once
 
 #include <array>
@@ -13,16 +13,16 @@
 namespace dihaptic::devices::simulated {
 
 /// plant: a bare mass, as the benchmarks use it. premium_1_0: SensAble PHANToM Premium 1.0, from
-/// its data sheet. touch: 3D Systems Touch, which measures orientation; sigma_7: Force Dimension
-/// sigma.7 without its gripper, which renders torque too. What the three render calmly, and the
-/// sigma.7's force and torque, are what CHAI3D 3.3 has; masses, inertias, friction and steps of the
-/// last two are estimates.
+/// its data sheet. touch: 3D Systems Touch, which measures orientation. sigma_7: Force Dimension
+/// sigma.7 without its gripper, which also renders torque. The largest stiffness and damping of the
+/// three, and the sigma.7's force and torque, are CHAI3D 3.3's values; masses, inertias, friction
+/// and encoder steps of the last two are estimates.
 enum class Preset { plant, premium_1_0, touch, sigma_7 };
 constexpr auto enum_names(Preset) {
     return std::array{"plant", "premium_1_0", "touch", "sigma_7"};
 }
 
-/// point: one mass at the endpoint, alike along all axes. phantom: the links and joints of a
+/// point: one mass at the endpoint, equal along all axes. phantom: the links and joints of a
 /// Premium.
 enum class Mechanics { point, phantom };
 constexpr auto enum_names(Mechanics) {
@@ -30,32 +30,32 @@ constexpr auto enum_names(Mechanics) {
 }
 
 struct Options {
-    std::string serial;                      ///< that it tells
-    Preset preset = Preset::plant;           ///< sets all others, which may then be given too
+    std::string serial;                      ///< that the device reports
+    Preset preset = Preset::plant;           ///< sets all others, which may be given besides
     double mass = 0.075;                     ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;                 ///< larger forces are clamped [N]
     std::optional<double> continuous_force;  ///< that the motors can hold for long [N]
     double position_step = 0;                ///< of the encoders, at the endpoint; 0: exact [m]
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]
-    int delay_ticks = 0;                     ///< a force acts so many ticks after it was written
+    int delay_ticks = 0;                     ///< ticks from writing a force until it acts
     int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
-    int buttons = 0;          ///< that the simulated hand holds down, a bit each
+    int buttons = 0;          ///< that the simulated hand holds down, one bit each
     std::optional<Vec3> workspace;        ///< edges of the reachable box around D's origin [m]
-    std::optional<double> max_stiffness;  ///< that the maker says it renders calmly [N/m]
-    std::optional<double> max_damping;    ///< the same [N*s/m]
+    std::optional<double> max_stiffness;  ///< that it renders stably, says the maker [N/m]
+    std::optional<double> max_damping;    ///< that it renders stably, says the maker [N*s/m]
 
     Mechanics arm = Mechanics::point;
-    model::PhantomLinks links;           ///< phantom: those of a 1.0 are not verified [m]
-    Vec3 joint_offset = Vec3::Zero();    ///< phantom: true less reported angles, as a reset
+    model::PhantomLinks links;           ///< phantom: lengths; a 1.0's are not verified [m]
+    Vec3 joint_offset = Vec3::Zero();    ///< phantom: true minus reported angles, as a reset
                                          ///< off the standard configuration leaves it [rad]
-    Vec3 misplaced_by = Vec3::Zero();    ///< of D from where the rig has it, in D [m]
-    Vec3 misplaced_turn = Vec3::Zero();  ///< the same, about D's x, then y, then z [rad]
+    Vec3 misplaced_by = Vec3::Zero();    ///< shift of D from its place in the rig, in D [m]
+    Vec3 misplaced_turn = Vec3::Zero();  ///< turn of D, about its x, then y, then z [rad]
 
-    bool orientation = false;  ///< whether it is measured: else the endpoint does not turn
-    double peak_torque = 0;    ///< larger torques are clamped; 0: it renders none [N*m]
+    bool orientation = false;  ///< whether orientation is measured: else the endpoint does not turn
+    double peak_torque = 0;    ///< larger torques are clamped; 0: the device renders none [N*m]
     std::optional<double> continuous_torque;  ///< that the motors can hold for long [N*m]
-    double inertia = 1e-4;  ///< of the handle about its endpoint, alike about all axes [kg*m^2]
-    double angle_step = 0;  ///< of the three encoders of its gimbal; 0: exact [rad]
+    double inertia = 1e-4;  ///< of the handle about its endpoint, equal about all axes [kg*m^2]
+    double angle_step = 0;  ///< of the three encoders of the gimbal; 0: exact [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -90,7 +90,7 @@ struct Options {
         v("angle_step", angle_step, Field::of(Quantity::angle).within(0, 0.1));
     }
 
-    /// Pose of the true D in the one that the rig has.
+    /// Pose of the true D in the D of the rig file.
     Pose misplaced() const { return {rotation_xyz(misplaced_turn), misplaced_by}; }
 
     static constexpr int kMostWindow = 64;

@@ -1,15 +1,15 @@
-// Mechanics of a simulated device in a simulated finger's grip, in one point:
+// Mechanics of a simulated device held by a simulated finger, as one point mass:
 //
 //     m a = f_finger + f_device + f_friction
 //
-// integrated at 10 kHz (semi-implicit Euler), with the device's force held from write to write,
-// clamped to its peak, and acting `delay_ticks` late. Coulomb friction takes up to friction * h of
-// momentum a step and holds the endpoint when it can. Where orientation is measured the endpoint
-// turns too, alike and without friction, with the same inertia I about all axes:
+// integrated at 10 kHz (semi-implicit Euler). The device's force is held from write to write,
+// clamped to its peak, and acts `delay_ticks` late. Coulomb friction takes up to friction * h of
+// momentum a step and holds the endpoint when it can. If orientation is measured the endpoint
+// turns too, without friction, with an inertia I that is equal about all axes:
 //
 //     I dw/dt = t_finger + t_device,    R <- exp(h w) R
 //
-// With `arm: phantom` joints take the place of the point (arm.h).
+// With `arm: phantom` the links and joints of a Premium replace the point (arm.h).
 #pragma once
 
 #include <vector>
@@ -28,19 +28,19 @@ class Plant {
 
     /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
     /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
-    /// for a + 2 b < 4. k is the stiffness at the device's peak force. The same for turning.
+    /// for a + 2 b < 4. k is the stiffness at the device's peak force. Turning is checked likewise.
     static bool holds(const Options& options, const hand::Impedance& impedance);
 
-    /// Puts the endpoint at the finger's target of that time, at rest.
+    /// Puts the endpoint, at rest, at the finger's target at `now`.
     void begin(Time now) noexcept;
-    /// Moves on to `now`.
+    /// Integrates up to `now`.
     void advance(Time now) noexcept;
-    /// What to hold from now on, in world axes; true when it had to be clamped.
+    /// Sets the wrench to hold from now on, in world axes; true when it had to be clamped.
     bool hold(const Wrench& wrench_W) noexcept;
-    /// No force from now on, whatever is on its way.
+    /// Sets the force to zero at once, delayed forces included.
     void release() noexcept;
 
-    /// What its joints do, of one that has them.
+    /// The arm; null unless `arm: phantom`.
     const Arm* arm() const { return arm_ ? &*arm_ : nullptr; }
     const Vec3& p_WH() const { return p_; }
     const Vec3& v_WH() const { return v_; }
@@ -54,7 +54,7 @@ class Plant {
     void move_arm(const hand::FingerTarget& target, const Vec3& f_device, double h) noexcept;
 
     Options options_;
-    Pose X_WD_;  // where it truly is
+    Pose X_WD_;  // true pose of D
     std::optional<Arm> arm_;
     hand::Finger finger_;
     hand::Tremor tremor_;
@@ -65,11 +65,11 @@ class Plant {
     Vec3 v_ = Vec3::Zero();
     Quat R_ = Quat::Identity();
     Vec3 w_ = Vec3::Zero();
-    std::vector<Wrench> pending_;  // written, the oldest acting now; delay_ticks + 1 of them
+    std::vector<Wrench> pending_;  // the last delay_ticks + 1 written; the oldest acts now
     size_t newest_ = 0;
 };
 
-/// What an encoder and a driver make of a position: steps, and a velocity from past positions.
+/// What encoders and a driver make of a position: its steps, and a velocity from past positions.
 class Encoder {
   public:
     explicit Encoder(const Options& options)
@@ -86,7 +86,7 @@ class Encoder {
     Past<Vec3> past_;
 };
 
-/// The same of an arm, whose joints have an encoder each.
+/// What they make of an arm, whose joints have an encoder each.
 class JointEncoder {
   public:
     explicit JointEncoder(const Options& options) : past_(options.velocity_window) {}
@@ -97,8 +97,7 @@ class JointEncoder {
     Past<Vec3> past_;
 };
 
-/// The same of an orientation, whose gimbal has an encoder for each of the angles of
-/// rotation_xyz().
+/// What they make of an orientation; the gimbal has an encoder for each angle of rotation_xyz().
 class Gimbal {
   public:
     explicit Gimbal(const Options& options)

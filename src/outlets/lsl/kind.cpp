@@ -8,8 +8,8 @@ namespace dihaptic::outlets::lsl {
 namespace {
 
 struct Options {
-    std::string name = "Dihaptic";  ///< that the streams' names begin with
-    std::string library;            ///< a file; empty: where the system finds liblsl
+    std::string name = "Dihaptic";  ///< beginning of the streams' names
+    std::string library;            ///< path of liblsl; empty: where the system finds it
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -24,7 +24,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// The part of liblsl's C interface that is needed; pointers are opaque there too.
+/// The part of liblsl's C interface that is used; its pointers are opaque there too.
 struct Interface {
     Library file;
     void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
@@ -62,9 +62,9 @@ struct Interface {
 
 constexpr int kFloat = 1;         // cft_float32
 constexpr int kString = 3;        // cft_string
-constexpr int32_t kBuffer = 360;  // [s] that a reader may be away, liblsl's default
+constexpr int32_t kBuffer = 360;  // time that a reader may be away, liblsl's default [s]
 
-/// What a push that did not succeed returned: an lsl_error_code_t.
+/// `error`: the lsl_error_code_t that a failed push returned.
 const char* describe(int32_t error) {
     switch (error) {
         case -1:
@@ -82,7 +82,7 @@ class Lsl final : public Outlet {
   public:
     Lsl(const Options& options, const About& about, const Place& place)
         : library_(options.library, place), place_(place) {
-        // Both clocks are monotonic, and may have another zero.
+        // Both clocks are monotonic, but their zeros may differ.
         const auto now = Clock::now().time_since_epoch();
         offset_ = library_.local_clock() - std::chrono::duration<double>(now).count();
         markers_ = open(options.name + " markers", "Markers", {{"code", ""}}, 0, kString,
@@ -101,7 +101,7 @@ class Lsl final : public Outlet {
     }
 
   private:
-    /// What liblsl made, with the function of it that destroys it.
+    /// An object that liblsl made, with the function that destroys it.
     using Made = std::unique_ptr<void, void (*)(void*)>;
 
     double time(Clock::time_point at) const {

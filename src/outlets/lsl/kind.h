@@ -1,4 +1,5 @@
-// Streams of the Lab Streaming Layer: event codes, and handle positions and forces.
+// The outlet `lsl`: streams of the Lab Streaming Layer with event codes, and with handle positions
+// and forces.
 #pragma once
 
 #include "outlets/outlet.h"

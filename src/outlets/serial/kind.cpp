@@ -33,7 +33,7 @@ speed_t speed_of(int baud) {
 struct Options {
     std::string port;  ///< e.g. /dev/ttyUSB0
     int baud = 115200;
-    double hold = 0;  ///< after which the line goes back to code 0; 0: it does not [s]
+    double hold = 0;  ///< time after which code 0 follows; 0: it does not [s]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -62,7 +62,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
 class Serial final : public Outlet {
   public:
     Serial(const Options& options, const Place& place) : options_(options) {
-        // not waiting for the other side, nor becoming its terminal
+        // does not wait for the other side, and does not make the line this process's terminal
         file_ = open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
         if (file_ < 0) {
             const int why = errno;
@@ -113,7 +113,7 @@ class Serial final : public Outlet {
         while (true) {
             const ssize_t count = read(file_, received.data(), received.size());
             if (count < 0 && (errno == EAGAIN || errno == EINTR)) break;
-            if (count <= 0) {  // 0: hung up, for a line without anything to read says EAGAIN
+            if (count <= 0) {  // 0: hung up; a line with nothing to read gives EAGAIN
                 throw Error(fmt::format("{} cannot be read: {}", options_.port,
                                         count < 0 ? strerror(errno) : "it was pulled"),
                             "Check the line.");
