@@ -146,7 +146,7 @@ void add_scale(CLI::App& bench) {
     auto* command =
         bench.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<BenchOptions>();
-    // the bare step beside it is Bullet's
+    // the bare step that it is compared with is Bullet's
     options->setup.settings.dynamics.solver = dynamics::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_common(*command, *options);

@@ -31,7 +31,8 @@ struct Key {
     auto operator<=>(const Key&) const = default;
 };
 
-/// Every folder must be of one rehearsal, or of one that only its seed tells apart.
+/// Throws Error unless a folder is of the first one's rehearsal, or, with --join-seeds, of one that
+/// differs only in its seed.
 void check_same(const CollectOptions& options, const std::string& first_folder,
                 const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
@@ -83,8 +84,8 @@ std::map<Key, std::string> find_people(const CollectOptions& options) {
     return out;
 }
 
-/// The tables that are collected, each with a seed, a group and an id in front, and at its end
-/// who moved the hand.
+/// The tables that are collected. Each row begins with seed, group and id, and ends with who moved
+/// the hand.
 class Collection {
   public:
     void add(const Key& key, const std::string& session) {
@@ -104,7 +105,7 @@ class Collection {
         add_table("thresholds.csv", page.thresholds);
     }
 
-    /// Returns the names of what it wrote.
+    /// Returns the names of the files that it wrote.
     std::vector<std::string> write(const std::string& folder) const {
         std::vector<std::string> out;
         for (const auto& [name, rows] : tables_) {
@@ -147,7 +148,7 @@ class Collection {
         return out;
     }
 
-    /// A session's table under those before it, whose header is the same.
+    /// Appends a session's table. Throws Error when its header differs from earlier ones.
     void append(const std::string& name, const Rows& table) {
         if (table.empty()) return;
         Rows& all = tables_[name];

@@ -16,7 +16,8 @@ namespace {
 
 std::string typed;
 
-/// A terminal that is gone must not end the session: it is finished without progress.
+/// Writes to standard error. Ignores failure: if the terminal is gone, a session is finished
+/// without progress.
 void say(const std::string& text) {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
@@ -76,7 +77,7 @@ CLI::Validator range(Number low, Number high, const char* kind) {
         Number value{};
         const char* const last = text.data() + text.size();
         const auto [end, status] = std::from_chars(text.data(), last, value);
-        // written so that nan is refused too
+        // the comparison also refuses NaN
         if (status == std::errc() && end == last && value >= low && value <= high)
             return std::string();
         return fmt::format("must be a {} from {} to {}, is '{}'", kind, low, high, text);

@@ -1,4 +1,5 @@
-// What the commands share: each is a function that adds itself to the command line.
+// The commands of the program, each a function that adds itself to the command line, and what they
+// share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,13 +11,13 @@
 
 namespace dihaptic::cli {
 
-/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: what runs comes to an orderly end.
+/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: the running command ends in order.
 extern std::atomic<bool> stop_requested;
 
-/// What the program returns: success, some result was bad, the input was bad.
+/// What the program returns: success, a result is bad, the input was bad.
 enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2 };
 
-/// Set by the command that ran.
+/// What the program will return; set by the command that ran.
 extern int exit_code;
 
 void add_run(CLI::App& app);
@@ -38,8 +39,8 @@ void add_gui(CLI::App& app);
 void add_workspace(CLI::App& app);
 void add_calibrate(CLI::App& app);
 
-/// One line of progress on standard error, redrawn in place on a terminal; elsewhere a line each
-/// tenth.
+/// A line of progress on standard error, redrawn in place on a terminal; elsewhere a new line for
+/// each tenth.
 class ProgressLine {
   public:
     explicit ProgressLine(std::string label);
@@ -54,14 +55,14 @@ class ProgressLine {
     size_t width_ = 0;
 };
 
-/// Every line that was typed, as one.
+/// The command line as it was typed.
 std::string command_line();
 void remember_command_line(int argc, char** argv);
 
-/// Prints problems, warnings and errors alike.
+/// Prints problems, both warnings and errors.
 void print(const std::vector<Problem>& problems, std::FILE* to = stderr);
 
-/// What --rate takes, --time and --seed.
+/// Validators of the options --rate, --time and --seed.
 CLI::Validator rate_range();
 CLI::Validator time_range();
 CLI::Validator seed_range();

@@ -10,7 +10,7 @@ namespace dihaptic::cli {
 namespace {
 
 constexpr char kEscape = 27;
-constexpr int kWait = 20;  // between two looks at whether the session is over [ms]
+constexpr int kWait = 20;  // time between checks whether the session is over [ms]
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void EscapeKey::listen(std::atomic<bool>& pressed, std::atomic<char>& key) {
             pressed.store(true);  // the terminal is gone, and with it the operator
             return;
         }
-        // arrows and function keys begin with it: they stop as well, which harms nobody
+        // arrows and function keys begin with Escape: they stop as well, which harms nobody
         if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
             pressed.store(true);
         else

@@ -1,5 +1,6 @@
-// Escape on the terminal, while a session runs on the real clock: it asks the session to stop, as
-// Ctrl-C does. Keys are read as they are pressed, without echo, until the object is gone.
+// Reads the terminal's keys while a session runs on the real clock: Escape asks the session to
+// stop, as Ctrl-C does. Keys are read as they are pressed, without echo, until the object is
+// destroyed.
 #pragma once
 
 #include <termios.h>
@@ -11,8 +12,8 @@ namespace dihaptic::cli {
 
 class EscapeKey {
   public:
-    /// Sets `pressed` when Escape is, and `key` to any other. Does nothing when standard input is
-    /// no terminal, or another program's at the moment.
+    /// Sets `pressed` when Escape is pressed, and `key` to any other key. Does nothing when
+    /// standard input is not a terminal, or when another program is in its foreground.
     EscapeKey(std::atomic<bool>& pressed, std::atomic<char>& key);
     ~EscapeKey();
     EscapeKey(const EscapeKey&) = delete;
@@ -20,7 +21,7 @@ class EscapeKey {
 
     /// Whether keys are read.
     bool listens() const { return listens_; }
-    /// Gives the terminal back as it was, from any thread: for a program that must end at once.
+    /// Restores the terminal, from any thread: for a program that must end at once.
     void restore() noexcept;
 
   private:

@@ -11,11 +11,11 @@
 namespace dihaptic::cli {
 namespace {
 
-/// What was done in each trial, and what the trial was.
+/// The trials of a table, with what was measured in each.
 struct Trials {
     std::vector<double> measured;
     std::vector<model::AdaptationTrial> trials;
-    int count = 0;  ///< measured
+    int count = 0;  ///< number of trials in which something was measured
 };
 
 double number(const CsvFile& table, const std::string& file, size_t row, const char* column,
@@ -42,7 +42,7 @@ Trials read_trials(const std::string& file) {
                         "Write 1 where no error was shown, whatever the person did, and 0 "
                         "elsewhere.");
         }
-        // what a clamp showed teaches nothing
+        // in a clamp trial the perturbation is not learned from
         const double perturbation =
             clamp == "1" ? 0
                          : number(table, file, i, "perturbation",

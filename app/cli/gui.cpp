@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kProgram = "dihaptic-gui";
 
-/// Becomes the window's program, which lies beside this one.
+/// Replaces this process by the window's program, which lies beside this one.
 void run(const std::string& file, const std::string& out, double sync) {
     const auto is_set = [](const char* name) {
         const char* value = std::getenv(name);

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Names the word that is no command, which the parser would leave to a guess.
+/// Throws an Error that names a word which is not a command: the parser would not name it.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> commands;

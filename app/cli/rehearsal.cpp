@@ -73,7 +73,7 @@ Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& p
     const TemporaryFolder scratch;
     const auto folder = recording::SessionFolder::create(scratch.path(), "inputs");
     for (const recording::InputFile& input : experiment::freeze_inputs(plan, folder)) {
-        if (input.file == "trial-list.csv") continue;  // each person's own
+        if (input.file == "trial-list.csv") continue;  // differs from person to person
         const bool text = fs::path(input.file).extension() == ".yaml";
         out.inputs.set(input.file,
                        text ? read_yaml(folder.file(input.file)) : Node::of(input.checksum));
@@ -96,7 +96,7 @@ Rehearsal read_rehearsal(const std::string& folder) {
 std::string difference(const Rehearsal& there, const Rehearsal& here) {
     Rehearsal a = there;
     Rehearsal b = here;
-    // as files have them, so that numbers are the same text
+    // through text, so that a number from a file and one from memory compare equal
     const Node left = parse_yaml(to_yaml(write_fields(a)), "there");
     const Node right = parse_yaml(to_yaml(write_fields(b)), "here");
     return difference(left, right, "");

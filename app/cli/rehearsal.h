@@ -1,5 +1,5 @@
-// What a folder of rehearsed people is a rehearsal of: rehearsal.yaml, beside them. Sessions of
-// another experiment, seed, population or program are never put among them.
+// The identity of a rehearsal, in the file rehearsal.yaml of the folder with its people: sessions
+// of another experiment, seed, population or program are never put into it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Rehearsal {
     std::string experiment;  ///< title
     std::string seed;
     Node population;
-    Node inputs;  ///< as a session freezes them, by file: everything that makes a difference
+    Node inputs;  ///< by file, as a session freezes them: everything that affects the result
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -26,15 +26,15 @@ struct Rehearsal {
     }
 };
 
-/// Of a plan whose person is not seated yet.
+/// `plan`: without a simulated person yet.
 Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population);
-/// Throws Error when the folder does not say, or cannot be read.
+/// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
-/// In words, the first difference; "" when there is none. `there`: in the folder.
+/// The first difference, in words; "" if there is none. `there`: the folder's rehearsal.
 std::string difference(const Rehearsal& there, const Rehearsal& here);
 
-/// Makes the folder, or sees that what it holds is of the same rehearsal. Throws Error, naming the
-/// difference, when it is of another one.
+/// Makes the folder, or checks that it holds the same rehearsal. Throws an Error that names the
+/// difference when it holds another one.
 void claim(const std::string& folder, const Rehearsal& rehearsal);
 
 }  // namespace dihaptic::cli

@@ -36,7 +36,7 @@ struct RehearseOptions {
 
 struct Shard {
     int number = 1;  ///< from 1
-    int of = 1;
+    int of = 1;      ///< number of shards
 };
 
 Shard parse_shard(const std::string& text) {
@@ -53,7 +53,7 @@ Shard parse_shard(const std::string& text) {
 std::string id_of(int person) {
     return fmt::format("sim-{:03d}", person);
 }
-/// Where a person's session is made, and where it is once it is complete.
+/// Folder in which a person's session is made, and then the folder of the complete session.
 std::string unfinished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/unfinished-" + id;
 }
@@ -61,8 +61,8 @@ std::string finished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + id;
 }
 
-/// One person's session, in a process of its own: whatever becomes of it, the others go on.
-/// Returns what the process returns.
+/// Runs one person's session in a process of its own, so that others go on if it fails. Returns the
+/// exit status of the process.
 int run_person(const RehearseOptions& options, const std::string& id) {
     const std::string folder = unfinished(options, id);
     const int messages = open((folder + "/messages.txt").c_str(), O_CREAT | O_WRONLY, 0644);
@@ -102,7 +102,7 @@ int run_person(const RehearseOptions& options, const std::string& id) {
             fmt::print("{}\n", result.fault.empty() ? "the simulation diverged" : result.fault);
             return kFailed;
         }
-        fs::rename(result.folder, finished(options, id));  // all of it, or nothing
+        fs::rename(result.folder, finished(options, id));  // appears complete, or not at all
         fs::remove_all(folder);
         return kOk;
     } catch (const std::exception& e) {
@@ -135,7 +135,7 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
-/// What a person's process had to say. A disk that is full takes no messages either.
+/// The messages of a person's process. If the disk is full there are none.
 std::string messages_of(const RehearseOptions& options, const std::string& id) {
     const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
     if (!messages.empty() || stop_requested) return messages;
@@ -156,7 +156,7 @@ std::string usual_folder(const experiment::Request& request) {
 /// A shard's people.
 struct Roster {
     std::vector<std::string> waiting;
-    int there = 0;  ///< whose sessions were complete before
+    int there = 0;  ///< number of people whose sessions were complete before
 };
 
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
@@ -171,7 +171,7 @@ Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     return roster;
 }
 
-/// Returns what is to be said of those who failed.
+/// Rehearses people. Returns what to print about those whose sessions failed.
 std::vector<std::string> run_people(const RehearseOptions& options,
                                     const std::vector<std::string>& people) {
     ProgressLine line("rehearsing");

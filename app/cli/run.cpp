@@ -35,7 +35,8 @@ struct SessionOptions {
     bool real_objects = false;
 };
 
-/// "trial 12 of 96"
+/// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: of trials that are
+/// over.
 std::string trial_at(const experiment::Plan& plan, double share) {
     if (!plan.task) return "";
     const size_t all = plan.task->trials.size();
@@ -43,7 +44,7 @@ std::string trial_at(const experiment::Plan& plan, double share) {
     return fmt::format("trial {} of {}", std::min(all, done + 1), all);
 }
 
-/// The terminal's keys, on the real clock.
+/// The terminal during a session: reads its keys if the session runs on the real clock.
 class Console {
   public:
     explicit Console(experiment::RunOptions& run) {
@@ -54,11 +55,12 @@ class Console {
         run.stuck = [this](const std::string& message) {
             escape_->restore();
             fmt::print(stderr, "\nerror: {}\n", message);
-            std::_Exit(kFailed);  // the thread that is stuck would keep an orderly end waiting
+            std::_Exit(kFailed);  // an orderly end would wait for the thread that is stuck
         };
     }
 
-    /// Before somebody's hour, not after it: whether the calibration of real devices still holds.
+    /// Has the session check, before it costs a person an hour, whether the calibration of real
+    /// devices still holds.
     void check_calibration(const experiment::Plan& plan, experiment::RunOptions& run) {
         const auto fingers = scene::finger_names(plan.scene);
         if (!escape_ || !escape_->listens() || !rig::can_check_together(plan.rig, fingers)) return;
@@ -66,7 +68,7 @@ class Console {
     }
 
   private:
-    /// Whether the calibration still holds, by what the person holds together.
+    /// Checks the calibration by endpoints that the person holds together; returns warnings.
     std::vector<Problem> check(const experiment::Plan& plan, devices::DeviceGroup& devices) {
         struct Skipped {};
         rig::Guide guide;
@@ -100,14 +102,14 @@ class Console {
     std::optional<app::NoSuspension> no_suspension_;
 };
 
-/// Whether a person does it: a file without a task moves the hand itself.
+/// Whether a file has a task, which a person does: without one the file moves the hand itself.
 bool has_task(const std::string& file) {
     if (experiment::kind_of(file) != experiment::FileKind::experiment) return false;
-    Diagnostics ignored;  // said when the plan is made
+    Diagnostics ignored;  // problems are reported when the plan is made
     return experiment::read_experiment(file, ignored).task.has_value();
 }
 
-/// What is not known of the person yet, asked for on a terminal; in words, never refused there.
+/// Asks on the terminal for what is not known about the person yet. Answers are not checked here.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
     const auto question = [](const char* text, std::string& answer) {
@@ -141,7 +143,7 @@ void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
     console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
     if (run.clock == experiment::Clock::real) {
-        // before an hour of somebody's time, not after it
+        // said before the session costs a person an hour, not after
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
         if (refusals.any()) fmt::print("note: {}\n", servo::describe(refusals, priority));
@@ -181,12 +183,12 @@ const char* outcome_of(const analysis::SessionFigures& figures, bool interrupted
     return interrupted ? "interrupted" : "done";
 }
 
-/// What became of the object.
+/// What happened to the object.
 struct Handling {
-    double held = 0;    ///< its longest hold [s]
-    double slip = NAN;  ///< in that [m]
-    double slid = 0;    ///< along what it lies on, in all [m]
-    double flown = 0;   ///< untouched in the air, in all [s]
+    double held = 0;    ///< duration of its longest hold [s]
+    double slip = NAN;  ///< in that hold [m]
+    double slid = 0;    ///< total distance along what it lies on [m]
+    double flown = 0;   ///< total time untouched in the air [s]
 };
 
 Handling handling_of(const std::vector<analysis::Episode>& episodes) {
@@ -202,7 +204,7 @@ Handling handling_of(const std::vector<analysis::Episode>& episodes) {
     return out;
 }
 
-/// One movement of a batch: its row, printed and kept.
+/// Runs one movement of a batch. Returns its row of the summary.
 std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::string& name) {
     const experiment::Plan plan = experiment::make_plan(options.request);
     const experiment::RunResult result =
@@ -279,8 +281,8 @@ Table empty_summary() {
     return summary;
 }
 
-/// A folder of movements: a session each, and a summary row each. The summary is written anew after
-/// every movement: whatever becomes of the next, it has those before.
+/// Runs a folder of movements, with a session and a row of the summary for each. The summary is
+/// written after every movement, so that it is complete up to there if the next one fails.
 void run_batch(SessionOptions& options) {
     const Console console(options.run);
     const std::vector<std::string> files = movements_in(options.request.movement);
@@ -321,7 +323,7 @@ void run_batch(SessionOptions& options) {
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
-/// Settings that have an option of their own.
+/// Adds the settings that have an option of their own.
 void add_settings(SessionOptions& options) {
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
@@ -345,7 +347,7 @@ void run(SessionOptions& options) {
                                                         : experiment::Clock::virtual_clock;
     options.run.command = command_line();
     const bool task = has_task(options.request.file);
-    // of nobody but a person
+    // only a person has these data
     if (real && task) ask(options.run.participant);
     if (options.simulate && task)
         options.run.participant.id = recording::simulated_id(options.run.participant.id);

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kLayers{"path",      "forces",  "contacts",
                                        "grip-axis", "handles", "workspace"};
 
-/// What hands are kept in: the rig's wall, or else what the finger's device is said to reach.
+/// Adds the box in which hands are kept: the rig's wall, or else the workspace of the finger's
+/// device.
 void add_workspace(Showing& showing, const rig::Rig& rig, const std::string& finger,
                    const std::optional<Vec3>& reach) {
     if (rig.wall && showing.workspaces.empty())
@@ -104,7 +105,7 @@ std::pair<int, int> pixels(const std::string& size) {
 }  // namespace
 
 Showing open_showing(const std::string& file) {
-    std::error_code unreadable;  // then it says so when it is read
+    std::error_code unreadable;  // ignored here: reading the file reports it
     return fs::is_directory(file, unreadable) || fs::path(file).filename() == "raw.log"
                ? open_session(file)
                : open_plan(file);
@@ -143,7 +144,7 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
 void Drawer::follow(const servo::Frame& frame) {
     if (!path_wanted_ || object_ < 0) return;
     const Vec3 p = servo::displayed_body(frame, static_cast<size_t>(object_)).p;
-    constexpr double kStep = 5e-4;  // [m]
+    constexpr double kStep = 5e-4;  // least distance between points of the path [m]
     if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
 }
 

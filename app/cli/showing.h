@@ -1,5 +1,5 @@
-// What picture and video show: a session as it was recorded, or a scene or an experiment as the
-// simulated hand tries it out.
+// What the commands picture and video show: a session as it was recorded, or a scene or an
+// experiment with the simulated hand in it.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,17 @@ namespace dihaptic::cli {
 struct Showing {
     std::string title;
     scene::Scene scene;
-    std::vector<view::Workspace> workspaces;    ///< of the devices that say
+    std::vector<view::Workspace> workspaces;    ///< of the devices whose workspace is known
     double duration = 0;                        ///< planned [s]; 0: not known
-    bool recorded = false;                      ///< a session
+    bool recorded = false;                      ///< whether it is a session
     std::function<const servo::Frame*()> next;  ///< the next frame; null at the end
 };
 
-/// Throws Error with what is wrong with the files.
+/// `file`: a scene or an experiment, or a session's folder. Throws Error with what is wrong with
+/// it.
 Showing open_showing(const std::string& file);
 
-/// What both commands are asked for.
+/// The options that both commands have.
 struct ViewOptions {
     std::string file;
     std::string camera;
@@ -41,7 +42,7 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
 class Drawer {
   public:
     Drawer(const Showing& showing, const ViewOptions& options);
-    /// The frame's part of the object's path; call it for every frame.
+    /// Adds to the object's path; to be called for every frame.
     void follow(const servo::Frame& frame);
     view::Image draw(const servo::Frame& frame);
     int width() const { return offscreen_->width(); }

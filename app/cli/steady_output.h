@@ -1,5 +1,6 @@
-// Standard output and error of which no writing fails. When whoever reads them is gone (a pipe's
-// other end, a terminal), what is said goes nowhere, and the program is asked to stop in order.
+// Replaces standard output and error by streams to which writing never fails. When their reader (a
+// terminal, or the other end of a pipe) is gone, output is lost and the program is asked to stop in
+// order.
 #pragma once
 
 namespace dihaptic::cli {

@@ -82,7 +82,7 @@ void print_movement(const experiment::MovementReport& report, size_t most_lines)
 
 namespace {
 
-/// A row a block: its trials' outcomes, and the mean angle of the hand.
+/// Prints a row for each block and kind of trial: outcomes, and the hand's mean angle or extent.
 void print_trials(const Table& trials) {
     const auto column = [&](const char* name) {
         const auto found = std::find_if(trials.columns.begin(), trials.columns.end(),
@@ -100,7 +100,7 @@ void print_trials(const Table& trials) {
         int measured = 0;
     };
     bool extents = false;
-    std::vector<std::pair<std::string, Block>> blocks;  // by number and kind of trial
+    std::vector<std::pair<std::string, Block>> blocks;  // key: block number and kind of trial
     for (const auto& row : trials.rows) {
         const std::string number = text(row[column("block_num")]);
         const std::string kind = text(row[column("kind")]);

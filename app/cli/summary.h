@@ -1,4 +1,4 @@
-// What a session's end looks like on the screen.
+// Runs a session from the terminal, and prints its summary.
 #pragma once
 
 #include "analysis/session_report.h"
@@ -6,13 +6,13 @@
 
 namespace dihaptic::cli {
 
-/// The table of phases, limits that were met, timing, and the folder.
+/// Prints the table of trials or phases, limits that were met, timing, and the folder.
 void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
                    const experiment::RunResult& result);
-/// What a recorded movement had wrong with it.
+/// Prints what was wrong with a recorded movement.
 void print_movement(const experiment::MovementReport& report, size_t most_lines);
 
-/// Runs a plan and tells of it.
+/// Runs a plan, finishes its session, and prints the summary.
 void run_plan(const experiment::Plan& plan, experiment::RunOptions run);
 
 /// Finishes the session's files, with progress.

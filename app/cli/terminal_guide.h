@@ -1,4 +1,4 @@
-// Leads a person on the terminal: prints what to do, and Enter says that it is done.
+// Leads a person on the terminal: it prints what to do, and Enter says that a step is done.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ class TerminalGuide {
     /// `label`: of the line of progress.
     explicit TerminalGuide(const std::string& label) : line_(label) {}
 
-    /// Ctrl-C and the end of input give up.
+    /// The guide throws rig::GivenUp at Ctrl-C and at the end of input.
     rig::Guide guide();
 
   private:
@@ -24,7 +24,7 @@ class TerminalGuide {
 
     ProgressLine line_;
     int step_ = 0;
-    std::string typed_;  // and not taken yet
+    std::string typed_;  // input that was not taken yet
 };
 
 }  // namespace dihaptic::cli

@@ -19,8 +19,8 @@ struct TuneOptions {
     bool json = false;
 };
 
-/// Before a minute of somebody's time, not after it; a map that is there stays until it is
-/// replaced.
+/// Throws Error when the file cannot be written: before a minute of computing, not after it. A map
+/// that is there stays until it is replaced.
 void check_writable(const std::string& file) {
     std::error_code ignored;
     const bool is_new = !std::filesystem::exists(file, ignored);

@@ -7,7 +7,7 @@
 namespace dihaptic::cli {
 namespace {
 
-constexpr int kRate = 60;  // pictures a second
+constexpr int kRate = 60;  // pictures per second
 
 void make_video(const ViewOptions& options) {
     const Showing showing = open_showing(options.file);
@@ -18,7 +18,8 @@ void make_video(const ViewOptions& options) {
         ProgressLine line("drawing");
         servo::Frame shown;
         while (const servo::Frame* frame = showing.next()) {
-            // the newest frame at each picture's time; stretches that a log lacks stand still
+            // the newest frame at each picture's time; where a log has a gap the picture stands
+            // still
             while (!shown.bodies.empty() &&
                    seconds(frame->time) > static_cast<double>(pictures) / kRate + 1e-9) {
                 movie.add(drawer.draw(shown));

@@ -12,7 +12,7 @@ std::string in_mm(const Vec3& v) {
     return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v.x() * 1e3, v.y() * 1e3, v.z() * 1e3);
 }
 
-/// In the frame of the rig file.
+/// Prints the proposed origin and wall, in the frame of the rig file.
 void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
     const rig::Placement proposed = rig::propose_placement(found);
     fmt::print(
@@ -23,7 +23,7 @@ void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
         in_mm(proposed.wall.centre + rig.moved_by), in_mm(proposed.wall.size));
 }
 
-/// What a wall is worth where devices were moved since.
+/// Prints how much of the rig's wall is out of reach: devices may have been moved since it was set.
 void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
     if (!rig.wall) return;
     const double out = rig::out_of_reach(rig.wall->box(), reaches);

@@ -17,7 +17,7 @@ void on_signal(int signal) {
     const int before = errno;
     if (std::atomic<bool>* const stop = flag.load(); stop != nullptr) stop->store(true);
     const auto number = static_cast<char>(signal);
-    // a full pipe has woken whoever reads it already
+    // if the pipe is full its reader has been woken already
     [[maybe_unused]] const ssize_t written = write(wake_file.load(), &number, 1);
     errno = before;
 }
@@ -51,9 +51,9 @@ void stop_on_signals(std::atomic<bool>& stop, int wake) {
         const bool nohup = signal == SIGHUP && before.sa_handler == SIG_IGN;
         const bool anothers = (before.sa_flags & SA_SIGINFO) != 0 ||
                               (before.sa_handler != SIG_IGN && before.sa_handler != SIG_DFL);
-        if (!nohup && !anothers) handle(signal, on_signal);  // another's: a profiler's
+        if (!nohup && !anothers) handle(signal, on_signal);  // another's: e.g. a profiler's
     }
-    // writing fails then, and says so: to a pipe that nobody reads, beyond a quota
+    // writing to a pipe without a reader, or beyond a quota, then fails with an error instead
     handle(SIGPIPE, SIG_IGN);
     handle(SIGXFSZ, SIG_IGN);
 }

@@ -1,8 +1,8 @@
-// Signals that ask the program to end, or to wait, end a session in order instead: a program that
-// is gone, or suspended, leaves its devices with their last force.
+// Makes signals that ask the program to end, or to wait, end a session in order instead: a program
+// that is gone, or suspended, leaves its devices with their last force.
 //
-// Those that tell of an error of its own, SIGSEGV and the like, are none of them: after one nothing
-// can be ended in order.
+// Signals of an error of the program itself, such as SIGSEGV, are left alone: after one nothing can
+// be ended in order.
 #pragma once
 
 #include <csignal>
@@ -12,13 +12,15 @@
 
 namespace dihaptic::app {
 
-/// From now on whatever would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal, a
-/// log-out, a timer, a limit of the system's) only sets `stop`, and writes the signal's number as a
-/// byte to the file `wake`, if there is one. A hangup that is ignored already stays so, as nohup
-/// wants. `stop` and `wake` must live as long as the program.
+/// From now on a signal that would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal,
+/// a log-out, a timer, a limit of the system) only sets `stop`, and writes its number as a byte to
+/// the file `wake`, if there is one. A hangup that is ignored already stays ignored, as nohup
+/// needs, and a signal with a handler already keeps it. `stop` and `wake` must live as long as the
+/// program.
 void stop_on_signals(std::atomic<bool>& stop, int wake = -1);
 
-/// As long as it is there, what would suspend the program, Ctrl-Z above all, is such a signal too.
+/// While this exists, signals that would suspend the program, Ctrl-Z above all, end it in order
+/// too.
 class NoSuspension {
   public:
     NoSuspension();
@@ -27,7 +29,7 @@ class NoSuspension {
     NoSuspension& operator=(const NoSuspension&) = delete;
 
   private:
-    std::array<struct sigaction, 3> before_;  // what was done at each
+    std::array<struct sigaction, 3> before_;  // previous action of each
 };
 
 }  // namespace dihaptic::app

@@ -1,7 +1,7 @@
 // dihaptic-decompose < MESH.off > PIECES: cuts a closed mesh into convex pieces, exactly (CGAL's
-// Nef polyhedra; Chazelle 1984). Writes "piece COUNT" and then the vertices, one a line, of each.
-// The program dihaptic calls it, under limits, and keeps the result; nobody needs to call it by
-// hand.
+// Nef polyhedra; Chazelle 1984). For each piece it writes a line "piece COUNT" and then COUNT
+// vertices, one per line. The program dihaptic calls it, under limits, and keeps the result; there
+// is no need to call it by hand.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/IO/Polyhedron_iostream.h>
 #include <CGAL/Nef_polyhedron_3.h>
@@ -26,7 +26,7 @@ void decompose(std::istream& in, std::ostream& out) {
     CGAL::convex_decomposition_3(solid);
 
     out.precision(17);
-    // the first volume is what lies outside
+    // the first volume is the outside
     for (auto volume = ++solid.volumes_begin(); volume != solid.volumes_end(); ++volume) {
         if (!volume->mark()) continue;
         Polyhedron piece;
@@ -46,7 +46,7 @@ void decompose(std::istream& in, std::ostream& out) {
 
 int main() {
     try {
-        // without a word of its own: whoever called says what it means
+        // CGAL prints nothing: the calling program reports the failure
         CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
         decompose(std::cin, std::cout);
     } catch (const std::bad_alloc&) {

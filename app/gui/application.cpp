@@ -5,7 +5,8 @@
 namespace dihaptic::gui {
 
 bool Application::notify(QObject* receiver, QEvent* event) {
-    // the first of a press: who has the keyboard is asked whether a shortcut's key is for it
+    // ShortcutOverride comes first: it asks the widget with the keyboard focus whether to keep a
+    // shortcut's key for itself
     const bool press =
         event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
     if (press && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) Q_EMIT escape_pressed();

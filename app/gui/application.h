@@ -1,5 +1,5 @@
-// The program's Qt, which sees Escape before anything else does: a dialog, a menu or a field that
-// has the keyboard would use it up.
+// The Qt application object, which sees Escape before any widget: a dialog, a menu or a field that
+// has the keyboard would use the key up.
 #pragma once
 
 #include <QApplication>
@@ -14,7 +14,7 @@ class Application : public QApplication {
     bool notify(QObject* receiver, QEvent* event) override;
 
   Q_SIGNALS:
-    /// Before it does what else it does; more than once a press.
+    /// Sent before the key has any other effect; may be sent more than once for a press.
     void escape_pressed();
 };
 

@@ -1,4 +1,4 @@
-// Calibrates the rig from the window, and checks before a session that its calibration still holds.
+// Calibrates a rig from the window, and checks before a session that its calibration still holds.
 #pragma once
 
 #include <QPointer>
@@ -15,17 +15,18 @@ class Calibrator : public QObject {
     Q_OBJECT
 
   public:
-    /// Its dialogs are of this window.
+    /// `window`: parent of its dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// Asks at the end whether to store what was found.
+    /// Asks at the end whether to store the result.
     void calibrate(const QString& rig_file);
-    /// For a session's start, in its thread: whether the calibration still holds, by what the
-    /// person holds together; who may skip it. `ends`: whether the session is to end.
+    /// Makes a check for a session's start, to be called in the session's thread: the person holds
+    /// endpoints together, or skips it, and it returns warnings if the calibration no longer holds.
+    /// `ends`: whether the session is to end.
     std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
         const rig::Rig& rig, const std::vector<std::string>& fingers,
         const std::function<bool()>& ends);
-    /// The session has ended, and its check with it, wherever that was.
+    /// To be called when the session has ended: ends its check, wherever that is.
     void end_check();
 
   Q_SIGNALS:
@@ -37,7 +38,7 @@ class Calibrator : public QObject {
                       const std::string& rig_file, const std::string& file);
 
     QWidget* window_;
-    QPointer<GuideDialog> check_;  // of the session that starts
+    QPointer<GuideDialog> check_;  // dialog of the starting session's check
 };
 
 }  // namespace dihaptic::gui

@@ -42,7 +42,7 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         table_->setItem(i, kStatus, new QTableWidgetItem("at rest"));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
-        bar->setTextVisible(false);  // the bar's end would cut through a figure
+        bar->setTextVisible(false);  // the end of the bar would cut through the figures
         table_->setCellWidget(i, kBar, bar);
         table_->setItem(i, kForce, new QTableWidgetItem);
         show_force(i, 0);
@@ -76,7 +76,7 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
         table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
     }
     if (frame.status & servo::kOverrun) ++overruns_;
-    // slow averages: single ticks flicker
+    // slow averages, because figures of single ticks would flicker
     const auto follow = [](double& value, double now) {
         if (std::isfinite(now)) value += 0.05 * (now - value);
     };

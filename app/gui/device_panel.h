@@ -1,4 +1,4 @@
-// How the devices and the loop are doing.
+// The panel that shows the state of the devices and of the servo's loop.
 #pragma once
 
 #include <QLabel>
@@ -17,12 +17,12 @@ class DevicePanel : public QWidget {
     struct Device {
         QString finger;
         QString model;
-        double most_force = 0;  ///< that is sent [N]
+        double most_force = 0;  ///< largest force that is sent [N]
     };
     void set_devices(const std::vector<Device>& devices);
-    /// Every frame that is shown; the loop's figures are of those.
+    /// Shows a frame. The loop's figures are of the frames that were shown.
     void show_frame(const servo::Frame& frame);
-    /// No force acts, for a reason.
+    /// Shows that no force acts, and why.
     void rest(const QString& why);
 
   private:

@@ -24,7 +24,7 @@ GuideDialog::GuideDialog(const QString& title, const QString& leave, QWidget* pa
     setAttribute(Qt::WA_DeleteOnClose);
     setMinimumWidth(560);
     QFont large = text_->font();
-    large.setPointSizeF(large.pointSizeF() * 1.5);  // read while both hands hold something
+    large.setPointSizeF(large.pointSizeF() * 1.5);  // is read while both hands hold something
     text_->setFont(large);
     text_->setWordWrap(true);
     text_->setMinimumHeight(120);
@@ -90,7 +90,7 @@ void GuideDialog::show_guidance(const rig::Guidance& now) {
     done_->setEnabled(now.step > 0);
 }
 
-/// Gives up; what came to an end already is closed.
+/// Gives up the work, which then closes the dialog; closes it at once if the work has ended.
 void GuideDialog::reject() {
     given_up_ = true;
     if (ended_) QDialog::reject();

@@ -1,5 +1,5 @@
-// Leads a person through what a rig needs of one (rig/calibration_guide.h): what to do now, and how
-// far that is. The work runs in another thread.
+// The dialog that leads a person through a calibration or its check (rig/calibration_guide.h): it
+// shows what to do now, and progress. The work runs in another thread.
 #pragma once
 
 #include <QDialog>
@@ -17,20 +17,22 @@ class GuideDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `leave`: name of the button that gives up. It is accepted when `work` is done, and rejected
-    /// when the person gave up, or after failed().
+    /// `leave`: name of the button that gives up. The dialog is accepted when `work` is done, and
+    /// rejected when the person gave up, or closed it after failed().
     GuideDialog(const QString& title, const QString& leave,
                 std::function<void(const rig::Guide&)> work, QWidget* parent);
-    /// The same of work that another does: with guide(), and finish() at its end. Outlives it.
+    /// For work that another thread does with guide(), and ends with finish(). The dialog has to
+    /// outlive that work.
     GuideDialog(const QString& title, const QString& leave, QWidget* parent);
-    /// Gives up, and waits for the work's end.
+    /// Gives up, and waits until its own work ends.
     ~GuideDialog() override;
 
     void reject() override;
 
     /// For the thread that works.
     rig::Guide guide();
-    /// From any thread: what came of it; `why`: it failed. The first counts.
+    /// To be called from any thread when the work ends; `why`: reason of a failure. The first call
+    /// counts.
     enum class Outcome { done, given_up, failed };
     void finish(Outcome outcome, const QString& why = "");
 

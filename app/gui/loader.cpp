@@ -41,7 +41,7 @@ Opened open(const Wanted& wanted) {
     const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
     if (!wanted.to_run || !rig::is_real(out.plan.rig)) ask_devices(out, X_WD);
     out.turn = servo::WorkspaceTurn(X_WD);
-    // on simulated devices: real ones are left alone
+    // the first frame is computed on simulated devices: real ones are left alone
     experiment::Plan still = out.plan;
     still.rig = rig::simulated_rig(fingers);
     const auto resting = experiment::make_servo(still);

@@ -1,4 +1,4 @@
-// Reads and checks files in a thread of its own: a mesh may take a while to cut.
+// Reads and checks files for the window, in a thread of its own: a mesh may take a while to cut.
 #pragma once
 
 #include <QObject>
@@ -12,25 +12,25 @@
 
 namespace dihaptic::gui {
 
-/// A file that is good, and what there is to show of it before it runs.
+/// A file without errors, and what can be shown of it before it runs.
 struct Opened {
     experiment::Plan plan;
-    servo::Frame frame;  ///< the first
-    /// What the devices say of themselves; none when they were not asked.
+    servo::Frame frame;  ///< the first one
+    /// What the devices report about themselves; nullopt when they were not asked.
     std::optional<std::vector<DevicePanel::Device>> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
-    /// Of a session that goes on with another: whose it is, and what to tell.
+    /// For a session that goes on with another one: its participant, and lines for the log.
     std::optional<recording::Participant> participant;
     QStringList told;
 };
 
-/// What is to be opened.
+/// What to open.
 struct Wanted {
     experiment::Request request;
-    /// By a session, which opens real devices itself, so that they are not opened here.
+    /// A session follows, which opens real devices itself: they are not opened here.
     bool to_run = false;
-    /// Folder of the session whose rest it is, in place of the request; "": none.
+    /// Folder of the session to go on with, in place of the request; "": none.
     std::string resumes;
 };
 
@@ -41,10 +41,10 @@ class Loader : public QObject {
     using QObject::QObject;
     ~Loader() override;
 
-    /// What was asked for before and is not done yet is dropped.
+    /// Drops the result of a call before that is not done yet.
     void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
-    /// Ends what takes long; refused() says so.
+    /// Ends reading and cutting of meshes; refused() says so.
     void cancel();
 
   Q_SIGNALS:

@@ -1,4 +1,4 @@
-// The log: what came last stays in sight.
+// The log, which keeps its last line in sight.
 #pragma once
 
 #include <QPlainTextEdit>
@@ -14,7 +14,7 @@ class LogView : public QPlainTextEdit {
         setMaximumBlockCount(5000);
         setAccessibleName("Log");
     }
-    /// With the time of day; what is wrong is bold.
+    /// Adds a line with the time of day; a problem is bold.
     void add(const QString& text, bool problem) {
         QString html = text.toHtmlEscaped();
         html.replace("\n", "<br>");

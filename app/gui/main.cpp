@@ -13,8 +13,7 @@ namespace {
 
 QtMessageHandler usual_messages = nullptr;
 
-/// After some messages Qt ends the program as if it were alone in it; on Wayland not even by
-/// exit().
+/// After some messages Qt ends the program at once; on Wayland not even by exit().
 void on_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
     usual_messages(type, context, text);
     if (type == QtFatalMsg || text.startsWith("The Wayland connection "))

@@ -6,17 +6,17 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Where a hand at a desk can be [m].
+/// The box in which a hand at a desk can be [m].
 const Vec3 kLeast(-0.3, -0.25, 0.005);
 const Vec3 kMost(0.3, 0.25, 0.4);
-constexpr double kWidest = 0.16;  // [m]
+constexpr double kWidest = 0.16;  // largest aperture [m]
 
 }  // namespace
 
 void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int height,
                      bool in_depth) {
     const Vec3 sight = (camera.look_at - camera.position).normalized();
-    // seen from above there is no left in the sight: left is the world's
+    // a line of sight straight down tells no left and right: then they are the world's
     Vec3 away(sight.x(), sight.y(), 0);
     away = away.norm() > 1e-6 ? Vec3(away.normalized()) : Vec3(0, 1, 0);
     const Vec3 right = away.cross(Vec3::UnitZ());
@@ -42,7 +42,7 @@ void MouseHand::squeeze(Squeeze keys, double h) {
 }
 
 void MouseHand::close(double way) {
-    if (way > 0 && grip_ > kMostGrip) return;  // and to let go takes effect at once
+    if (way > 0 && grip_ > kMostGrip) return;  // so letting go takes effect at once
     goal_.aperture = std::clamp(goal_.aperture - way, 0.0, kWidest);
 }
 

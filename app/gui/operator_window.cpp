@@ -29,8 +29,8 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;          // [ms]: sixty pictures a second
-constexpr double kLongestStep = 0.1;  // of a hand whose grip is known as of the last picture [s]
+constexpr int kRefresh = 16;          // time between pictures [ms]: sixty a second
+constexpr double kLongestStep = 0.1;  // of squeezing: the grip is known from the last picture [s]
 
 const QString kMouseHelp =
     "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
@@ -95,7 +95,7 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         runner_.watch();
-        if (!subject_) runner_.note_shown(tick);  // the subject looks at this window
+        if (!subject_) runner_.note_shown(tick);  // then the subject looks at this window
     });
 }
 
@@ -103,7 +103,7 @@ void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, [this] {
-        starts_.reset();  // it was another choice that was to run
+        starts_.reset();  // the session that was to start had another choice
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
@@ -162,13 +162,13 @@ void OperatorWindow::connect_files() {
 void OperatorWindow::make_docks() {
     const auto add = [&](const QString& title, QWidget* widget, Qt::DockWidgetArea area) {
         auto* dock = new QDockWidget(title);
-        dock->setObjectName(title);  // by which its place is remembered
+        dock->setObjectName(title);  // saveState() needs it
         dock->setWidget(widget);
         addDockWidget(area, dock);
         return dock;
     };
     add("Session", session_, Qt::RightDockWidgetArea);
-    auto* tuning = new QScrollArea;  // a laptop's screen is low
+    auto* tuning = new QScrollArea;  // a laptop's screen is too low for all of the panel
     tuning->setWidget(tuning_);
     tuning->setWidgetResizable(true);
     tuning->setFrameShape(QFrame::NoFrame);
@@ -177,7 +177,7 @@ void OperatorWindow::make_docks() {
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
     resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {262, 250}, Qt::Vertical);  // all of the first is seen
+    resizeDocks({tuning_dock, plots}, {262, 250}, Qt::Vertical);  // shows all of the first
     resizeDocks({plots}, {380}, Qt::Horizontal);
 }
 
@@ -199,14 +199,14 @@ void OperatorWindow::make_session_menu() {
     QMenu* session = menuBar()->addMenu("&Session");
     const auto add = [&](const QString& name, int key, auto what) {
         QAction* action = session->addAction(name, QKeySequence(key), this, what);
-        action->setShortcutContext(Qt::ApplicationShortcut);  // in the subject's window too
+        action->setShortcutContext(Qt::ApplicationShortcut);  // works in the subject's window too
         return action;
     };
     start_action_ = add("&Start", Qt::Key_F5, &OperatorWindow::start);
     pause_action_ = add("&Pause, or go on", Qt::Key_F6, [this] { pause(!runner_.paused()); });
     stop_action_ = add("S&top", Qt::Key_F7, &OperatorWindow::stop);
     skip_action_ = add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
-    // the key is the application's: it is seen there whoever has the keyboard
+    // Application sees this key, whichever widget has the keyboard focus
     force_off_action_ = add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
     session->addSeparator();
     calibrate_action_ =
@@ -267,7 +267,7 @@ void OperatorWindow::restore() {
 }
 
 void OperatorWindow::choose_file() {
-    // what comes to an end under the dialog must not start a session there
+    // loading that ends while the dialog is open must not start a session
     start_when_opened_ = false;
     starts_.reset();
     const QString start = file_.isEmpty() ? QString("experiments") : QFileInfo(file_).path();
@@ -282,7 +282,7 @@ experiment::Request OperatorWindow::request() const {
     request.rig = session_->rig().toStdString();
     request.mouse = session_->by_mouse();
     request.participant = session_->participant().toStdString();
-    // to look at a file that asks for one; a session has its own
+    // for showing a file that needs a participant; a session has its own
     if (request.participant.empty()) request.participant = "S01";
     request.set.emplace_back("proxy.changeable=yes");
     return request;
@@ -305,7 +305,7 @@ void OperatorWindow::open(const QString& file) {
 
 void OperatorWindow::reload() {
     if (file_.isEmpty()) return;
-    // an editor that replaces the file ends its being watched
+    // when an editor replaces the file it is watched no longer
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
     changed_ = runner_.running() || starts_;
     if (changed_) return;
@@ -473,7 +473,7 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
-    // what is felt to the right is to be seen to the right, by the subject too
+    // what is felt on the right has to be seen on the right, by the subject too
     if (subject_ && follow) subject_->scene().set_camera(scene_->camera());
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
@@ -489,7 +489,7 @@ void OperatorWindow::pause(bool paused) {
 
 void OperatorWindow::force_off() {
     if (runner_.running() && !runner_.paused()) pause(true);
-    // a number that is being typed does not count yet, and is taken back
+    // a number that is being typed, and does not count yet, is taken back
     if (auto* const number = qobject_cast<QDoubleSpinBox*>(QApplication::focusWidget()))
         number->setValue(number->value());
 }
@@ -639,7 +639,7 @@ void OperatorWindow::log(const QString& text, bool problem) {
 
 void OperatorWindow::closeEvent(QCloseEvent* event) {
     if (runner_.running()) {
-        // its files first: the window goes when they are written
+        // the window closes when the session's files are written
         closing_ = true;
         runner_.end();
         log("ending the session ...");
@@ -651,7 +651,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("docks", saveState());
     subject_.reset();
     event->accept();
-    if (ended_) QCoreApplication::exit(1);  // whatever dialog is open
+    if (ended_) QCoreApplication::exit(1);  // even if a dialog is open
 }
 
 }  // namespace dihaptic::gui

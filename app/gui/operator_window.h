@@ -1,5 +1,5 @@
-// The window that a lab sits in front of: the scene, and around it what runs, how it goes, and what
-// may be changed.
+// The operator's window: the scene, and around it panels for the session, its devices and plots,
+// and for what may be changed.
 #pragma once
 
 #include <QElapsedTimer>
@@ -27,17 +27,16 @@ class OperatorWindow : public QMainWindow {
     Q_OBJECT
 
   public:
-    /// `out`: folder for session folders. `sync`: how often a recording is synchronised to the disk
-    /// [s]; 0: at its end alone. `stop`: as SessionRunner has it.
+    /// `out`: folder for session folders. `sync`: time between synchronisations of a recording to
+    /// the disk [s]; 0: only at its end. `stop`: SessionRunner's.
     OperatorWindow(QString out, double sync, std::atomic<bool>& stop);
     ~OperatorWindow() override;
 
-    /// A scene or an experiment. What is wrong with it goes to the log, and the last good one
-    /// stays.
+    /// Opens a scene or an experiment. Problems go to the log, and the last good file stays.
     void open(const QString& file);
-    /// Of the session that runs: in the servo's next tick, and until it is told to go on.
+    /// Pauses the running session: force is off from the servo's next tick until it goes on.
     void force_off();
-    /// `signal` asks the program to end, and has ended force already: the window goes, once the
+    /// `signal` asked the program to end, and has ended force already: the window closes once the
     /// session's files are written.
     void end(int signal);
 
@@ -49,13 +48,13 @@ class OperatorWindow : public QMainWindow {
     void make_docks();
     void make_file_menu();
     void make_session_menu();
-    /// After the docks, which it lists.
+    /// To be called after make_docks(), whose docks it lists.
     void make_view_menu();
     void connect_scene();
     void connect_session();
     void connect_tuning();
     void connect_reports();
-    /// What is read from files, and read again when they change.
+    /// Connects what reads files, and reads them again when they change.
     void connect_files();
     void restore();
     void choose_file();
@@ -63,23 +62,24 @@ class OperatorWindow : public QMainWindow {
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
-    /// Asks for the person first.
+    /// Asks who the person is, then starts.
     void start_trials();
-    /// Offers to go on with a session of that person's that was not finished, if there is one.
+    /// Offers to go on with an unfinished session of that person, if there is one.
     void begin_or_go_on(const recording::Participant& participant);
-    /// Reads the file again: the session is of what is shown, and no other. `resumes`: folder of
-    /// the session that it goes on with, whose frozen files are read instead; "": none.
+    /// Reads the file again, so that the session is of the file as it is now, and starts.
+    /// `resumes`: folder of the session to go on with, whose frozen files are read instead; "":
+    /// none.
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void run(const experiment::Plan& plan, const recording::Participant& participant);
-    /// The rig that is chosen, or the file's.
+    /// Calibrates the rig that is chosen, or else the file's.
     void calibrate();
-    /// Of the last session.
+    /// Writes the report of the last session.
     void report();
     void stop();
     void skip();
-    /// A key that a task may wait for.
+    /// Passes on a key that a task may wait for.
     void press(char key);
-    /// The workspaces go where the camera is, if they are to follow it.
+    /// Turns the workspaces to the camera, if they are to follow it.
     void turn_workspaces();
     void pause(bool paused);
     void session_ended(const SessionEnd& end);
@@ -90,9 +90,9 @@ class OperatorWindow : public QMainWindow {
     void show_progress(const servo::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
-    /// What the task tells the person; empty: nothing.
+    /// The task's message to the person; empty: none.
     QString message() const;
-    /// Over the scene: what to do next, or what is wrong.
+    /// The text over the scene: what to do next, or what is wrong.
     QString banner() const;
     void update_state();
     void log(const QString& text, bool problem = false);
@@ -101,18 +101,18 @@ class OperatorWindow : public QMainWindow {
     QString out_;
     double sync_;
     QString file_;
-    std::optional<experiment::Plan> plan_;  ///< of the file as it was last good
-    servo::Frame frame_;                    ///< its first
+    std::optional<experiment::Plan> plan_;  ///< of the last version of the file without errors
+    servo::Frame frame_;                    ///< the plan's first frame
     std::vector<view::Workspace> workspaces_;
-    int message_ = -1;                    ///< of the task, that is shown
+    int message_ = -1;                    ///< index of the task's message that is shown; -1: none
     recording::Participant participant_;  ///< who did the last trials
-    std::optional<MouseHand> mouse_;      ///< of the session that runs
+    std::optional<MouseHand> mouse_;      ///< of the running session
     bool start_when_opened_ = false;
     std::optional<recording::Participant> starts_;  ///< whose session starts when the file is read
-    bool changed_ = false;  ///< the file has, while it could not be read again
+    bool changed_ = false;  ///< the file has changed while it could not be read again
     bool closing_ = false;
-    bool ended_ = false;  ///< by a signal
-    bool cut_ = false;    ///< the last session was, and its files were written before that is told
+    bool ended_ = false;  ///< a signal asked the program to end
+    bool cut_ = false;    ///< the last session was ended by `stop`
 
     Loader loader_;
     SessionRunner runner_;
@@ -139,9 +139,9 @@ class OperatorWindow : public QMainWindow {
     QTimer timer_;
     QElapsedTimer since_refresh_;
     QFileSystemWatcher watcher_;
-    QTimer reload_;      ///< editors write a file in several goes
-    QString recorded_;   ///< folder of the last session; empty: none of this file
-    QString complaint_;  ///< about the file as it is now; empty: it is good
+    QTimer reload_;      ///< delays reading a changed file: editors write it in several goes
+    QString recorded_;   ///< folder of this file's last session; empty: none
+    QString complaint_;  ///< what is wrong with the file, or why the session paused; empty: nothing
 };
 
 }  // namespace dihaptic::gui

@@ -40,7 +40,7 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
     start_ = buttons->addButton("S&tart", QDialogButtonBox::AcceptRole);
     start_->setDefault(true);
-    buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);  // not by Enter
+    buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);  // Enter must not cancel
     form->addRow(buttons);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);

@@ -1,4 +1,4 @@
-// Asks who does a session with trials, before it starts.
+// The dialog that asks who does a session with trials, before it starts.
 #pragma once
 
 #include <QComboBox>
@@ -14,8 +14,8 @@ class ParticipantDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `known`: what it starts with; `needs_number`: the order of the trials depends on the number
-    /// that the identifier ends in.
+    /// `known`: what the fields begin with. `needs_number`: the order of the trials depends on the
+    /// number at the end of the identifier.
     ParticipantDialog(const recording::Participant& known, bool needs_number, QWidget* parent);
     recording::Participant participant() const;
 

@@ -1,4 +1,4 @@
-// Live curves of grip and load force, of the force on each finger, and of heights.
+// The panel with live curves of grip and load force, of the force on each finger, and of heights.
 #pragma once
 
 #include "experiment/live.h"

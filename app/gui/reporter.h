@@ -1,4 +1,4 @@
-// Writes the report of a session in a thread of its own.
+// Writes the report of a session for the window, in a thread of its own.
 #pragma once
 
 #include <QObject>
@@ -13,7 +13,7 @@ class Reporter : public QObject {
     using QObject::QObject;
     ~Reporter() override;
 
-    /// Of the session in a folder; one at a time.
+    /// Writes the report of the session in a folder; one at a time.
     void write(const QString& folder);
 
   Q_SIGNALS:

@@ -12,7 +12,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;  // [rad/pixel]
-constexpr size_t kPath = 300;     // pictures: five seconds
+constexpr size_t kPath = 300;     // length of the path [pictures]: five seconds
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void SceneWidget::set_staying(bool stays) {
 }
 
 void SceneWidget::move_hand(const QPointF& pixels, bool in_depth) {
-    // the hand is where the devices are: the workspaces' turn is none of its business
+    // the hand moves where the devices are, so the camera is turned back by the workspaces' turn
     view::Camera camera = camera_;
     camera.position = turn_.unturned(camera.position);
     camera.look_at = turn_.unturned(camera.look_at);
@@ -133,7 +133,7 @@ void SceneWidget::set_help(const QString& text) {
 }
 
 void SceneWidget::place_labels() {
-    // read from a chair's distance, on a screen of any size
+    // legible from a chair's distance, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
                 "font-size: %1px; border-radius: 8px;")
@@ -202,7 +202,7 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     } else if (orbit) {
         set_camera(view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y()));
     } else if (hand_ != nullptr) {
-        setFocus();  // keys are the hand's where the pointer is
+        setFocus();  // keys belong to the hand while the pointer is here
         if (stays_) return;
         if (!left) return move_hand(way, shift);
         hand_->turn(way);
@@ -213,7 +213,7 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
 void SceneWidget::wheelEvent(QWheelEvent* event) {
     const double notches = event->angleDelta().y() / 120.0;
     if (hand_ != nullptr && !event->modifiers().testFlag(Qt::ControlModifier)) {
-        constexpr double kNotch = 20;  // [pixels]
+        constexpr double kNotch = 20;  // movement of the hand per notch [pixels]
         if (!squeezes_) {
             move_hand(QPointF(0, -kNotch * notches), true);
         } else {
@@ -243,7 +243,7 @@ void SceneWidget::keyPressEvent(QKeyEvent* event) {
     set_key(*event, true);
     if (hand_ != nullptr && event->key() == Qt::Key_H && !event->isAutoRepeat())
         set_staying(!stays_);
-    QOpenGLWidget::keyPressEvent(event);  // a task may wait for it
+    QOpenGLWidget::keyPressEvent(event);  // passed on, since a task may wait for the key
 }
 
 void SceneWidget::keyReleaseEvent(QKeyEvent* event) {

@@ -1,4 +1,4 @@
-// The scene as it is now, seen through a camera that the mouse moves; or the mouse moves the hand.
+// The widget that shows the scene as it is now. The mouse moves its camera, or the simulated hand.
 #pragma once
 
 #include <QLabel>
@@ -19,16 +19,18 @@ class SceneWidget : public QOpenGLWidget {
     explicit SceneWidget(QWidget* parent = nullptr);
     ~SceneWidget() override;
 
-    /// What frames are of from now on, the first of them, where the devices can go, and how all of
-    /// it turns. The camera stays where it is when the scene has the same ones as that before.
+    /// Sets the scene that frames belong to from now on, the first frame, the devices' workspaces,
+    /// and how workspaces turn. The camera stays where it is if the scene has the same cameras as
+    /// the one before.
     void set_scene(const scene::Scene& scene, const servo::Frame& frame,
                    std::vector<view::Workspace> workspaces = {},
                    const servo::WorkspaceTurn& turn = {});
-    /// The newest frame; drawn with the screen's next picture.
+    /// Sets the newest frame, which is drawn with the screen's next picture.
     void show_frame(const servo::Frame& frame);
-    /// While it is set, the mouse moves this hand; null: the camera.
+    /// The mouse moves this hand; if it is null, the camera. `squeezes`: whether the wheel
+    /// squeezes.
     void set_hand(MouseHand* hand, bool squeezes);
-    /// Keys that squeeze, as they are held now.
+    /// The squeezing by keys that are held now.
     MouseHand::Squeeze keys() const { return keys_; }
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }
@@ -36,7 +38,7 @@ class SceneWidget : public QOpenGLWidget {
     void set_camera(const view::Camera& camera);
     const view::Camera& camera() const { return camera_; }
     void reset_camera();
-    /// What is drawn besides the scene; `paths`: of the object, in the last seconds.
+    /// What is drawn besides the scene; `path`: of the object, in the last seconds.
     struct Layers {
         bool handles = false;
         bool forces = false;
@@ -47,16 +49,16 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     const Layers& layers() const { return layers_; }
-    /// Of the last picture.
+    /// Which frame the last picture shows.
     const view::Shown& shown() const { return shown_; }
-    /// Large, over the picture; empty: nothing.
+    /// Sets the large text over the picture; empty: none.
     void set_banner(const QString& text);
     void set_help(const QString& text);
 
     QSize sizeHint() const override { return {900, 640}; }
 
   Q_SIGNALS:
-    /// The picture of a tick that was not shown before was handed to the screen.
+    /// The picture of a tick was handed to the screen; sent once for each tick.
     void presented(qint64 tick);
     /// The hand has a new goal.
     void hand_moved();
@@ -92,10 +94,10 @@ class SceneWidget : public QOpenGLWidget {
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
     view::Shown shown_;
-    int64_t presented_ = -1;  // tick
+    int64_t presented_ = -1;  // last tick for which presented() was sent
     MouseHand* hand_ = nullptr;
-    bool squeezes_ = false;  // otherwise the wheel moves it in depth
-    bool stays_ = false;     // while the pointer goes elsewhere
+    bool squeezes_ = false;  // the wheel squeezes; otherwise it moves the hand in depth
+    bool stays_ = false;     // the hand stays while the pointer moves
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
     QLabel* banner_;

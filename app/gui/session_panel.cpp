@@ -35,7 +35,7 @@ SessionPanel::SessionPanel(QWidget* parent)
     start_->setToolTip("F5");
     pause_->setToolTip("F6, or Escape: time stands still, and no force acts");
     skip_->setToolTip("F8: this trial is over and counts as skipped; the next one begins");
-    // of fixed height, and as long as there is room: nothing jumps under the pointer
+    // of fixed height and as wide as there is room, so that nothing jumps under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
     stop_->setToolTip("F7: ends the session in order");

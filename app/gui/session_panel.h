@@ -1,4 +1,4 @@
-// Chooses what runs, and starts, pauses and stops it.
+// The panel that chooses what runs, and starts, pauses and stops it.
 #pragma once
 
 #include <QComboBox>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::gui {
 
-/// Lets a field take what may be part of a folder's name.
+/// Limits a field to characters that may be part of a folder's name.
 void set_up_identifier(QLineEdit& field);
 
 class SessionPanel : public QWidget {
@@ -23,12 +23,12 @@ class SessionPanel : public QWidget {
     explicit SessionPanel(QWidget* parent = nullptr);
 
     void set_file(const QString& file);
-    /// Rig files to choose from; the first choice is what the file says.
+    /// Rig files to choose from; the first choice is the rig that the file names.
     void set_rigs(const QStringList& files);
-    /// `trials`: what runs, or would, has some.
+    /// `trials`: whether the file that runs, or would run, has trials.
     void set_state(State state, bool trials);
     void set_progress(double share, const QString& text);
-    /// Which trial runs; empty: there are none.
+    /// `text`: which trial runs; empty: there are none.
     void set_trial(const QString& text);
     void set_finishing(double share);
 
@@ -39,12 +39,12 @@ class SessionPanel : public QWidget {
 
   Q_SIGNALS:
     void open_requested();
-    /// Another rig, or another hand.
+    /// Another rig or another hand was chosen.
     void choice_changed();
     void start_requested();
     void pause_requested(bool paused);
     void skip_requested();
-    /// Of the session, or of what is being opened.
+    /// The session, or the opening of a file, is to stop.
     void stop_requested();
 
   private:

@@ -33,7 +33,7 @@ QString describe_trial(const experiment::TaskPlan& plan, const servo::Frame& fra
 SessionProgress progress_of(const experiment::Plan& plan, const servo::Frame& frame, double done) {
     const double now = seconds(frame.time);
     if (plan.task) {
-        // those that are left take as long as those before took
+        // assumes that the trials left take as long as those before
         const QString left =
             done > 0 ? "about " + duration(now * (1 - done) / done) + " left" : duration(now);
         return {describe_trial(*plan.task, frame), done, left};

@@ -1,4 +1,4 @@
-// How far a session is, in words.
+// The progress of a session, in words.
 #pragma once
 
 #include <QString>
@@ -9,12 +9,12 @@
 namespace dihaptic::gui {
 
 struct SessionProgress {
-    QString trial;  ///< which of how many, and what it is; empty without trials
-    double share = 0;
-    QString text;  ///< how much is left, as far as that is known
+    QString trial;     ///< which trial of how many, and what it is; empty without trials
+    double share = 0;  ///< of the session that is over
+    QString text;      ///< time that is left, or the time so far if that is not known
 };
 
-/// `done`: share of the trials that are over. Without trials or a script time alone is known.
+/// `done`: share of the trials that are over. Without trials or a script only the time is known.
 SessionProgress progress_of(const experiment::Plan& plan, const servo::Frame& frame, double done);
 
 }  // namespace dihaptic::gui

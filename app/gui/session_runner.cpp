@@ -21,7 +21,7 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
         out += QString::fromStdString(
             servo::describe(result.timing.refusals, plan.settings.real_time_priority));
     }
-    const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // the fault says so
+    const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // result.fault says so already
     uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
     if (stopped) told &= ~(servo::kStopped | servo::kForceOff);
     servo::for_each_status(told, [&](servo::Status bit) {
@@ -36,10 +36,11 @@ QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFig
     return out;
 }
 
-constexpr int kBeat = 100;        // a tenth of what the servo waits [ms]
-constexpr int kFirstBeat = 5000;  // at the latest, without any picture [ms]
+constexpr int kBeat = 100;        // a tenth of Live::kLongestSilence [ms]
+constexpr int kFirstBeat = 5000;  // latest first beat, even if there is no picture [ms]
 
-/// That a key can take force away, the display has to answer too: X tells where the pointer is.
+/// Waits for the display: a key can take force away only if the display answers too. Asking X for
+/// the pointer's position waits for its answer.
 void ask_display() {
     QCursor::pos();
 }
@@ -73,7 +74,7 @@ void SessionRunner::end_program() {
     std::fprintf(stderr, "The window is lost: force is off, and the session ends.\n");
     while (runner->busy_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::fflush(nullptr);
-    std::_Exit(1);  // what exit() would still call belongs to a window that is gone
+    std::_Exit(1);  // not exit(), whose handlers belong to a window that is gone
 }
 
 void SessionRunner::watch() {
@@ -87,17 +88,18 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     session_ = std::make_unique<Session>();
     no_suspension_.emplace();
     session_->plan = std::move(plan);
-    // a window that never comes so far as to beat takes force away by that
+    // if the window never beats, force goes off too
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
-    // for each session anew: what was made before it is still there when this is called
+    // registered anew for each session, so that exit() calls it before it destroys what was made
+    // before the session
     std::atexit(end_program);
     options.live = &session_->live;
     options.keys = &session_->key;
     options.clock = experiment::Clock::real;
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
-        std::_Exit(1);  // its threads never end
+        std::_Exit(1);  // an orderly end would wait for a thread that is stuck
     };
     busy_ = true;
     thread_ = std::thread([this, options] {

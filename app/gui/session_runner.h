@@ -1,5 +1,5 @@
-// Runs sessions in a thread of their own, so that the window never waits for one, and ends their
-// force when the window hangs or goes.
+// Runs sessions for the window in a thread of their own, so that it never waits for one, and ends
+// their force when the window hangs or goes.
 #pragma once
 
 #include <QObject>
@@ -16,8 +16,8 @@ namespace dihaptic::gui {
 
 /// How a session ended.
 struct SessionEnd {
-    QString folder;        ///< of what was recorded; empty: it never began
-    QStringList messages;  ///< what went wrong, with remedies; then what was measured
+    QString folder;        ///< of the recording; empty: the session never began
+    QStringList messages;  ///< what went wrong, with remedies
     bool good = false;     ///< nothing went wrong
 };
 
@@ -25,58 +25,60 @@ class SessionRunner : public QObject {
     Q_OBJECT
 
   public:
-    /// `stop`: force is off at once, and what runs ends; outlives it. One a program.
+    /// `stop`: when it is set, force goes off at once and the session ends; has to outlive this. A
+    /// program has only one SessionRunner.
     explicit SessionRunner(std::atomic<bool>& stop);
     /// Ends the session in order and waits for its files.
     ~SessionRunner() override;
 
-    /// One session at a time. `options.live` is the runner's own business.
+    /// Starts a session; one at a time. Sets `options.live` itself.
     void start(experiment::Plan plan, experiment::RunOptions options);
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
 
-    /// The window shows the session: from now on its silence takes force away. To draw a scene for
-    /// the first time may take longer than that.
+    /// To be called when the window shows the session: from now on force goes off if the window
+    /// falls silent. Not before, because drawing a scene for the first time may take longer.
     void watch();
 
-    /// Only while running.
+    // what follows, up to end(), only while running
     const experiment::Plan& plan() const { return session_->plan; }
     const servo::Frame& frame() { return session_->live.frame.read(); }
     std::optional<experiment::CurveSample> take_sample() { return session_->live.take_sample(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
-    /// Why the session has just paused by itself; "": it has not.
+    /// Why the session has paused by itself since the last call; "": it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
     void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
     void set_friction_scale(double scale) { session_->live.friction_scale.publish(scale); }
     void set_proxy(haptics::ProxyKind kind) { session_->live.proxy.publish(kind); }
-    /// Angle that the workspaces turn to [rad].
+    /// `angle`: to which the workspaces turn [rad].
     void turn_workspaces(double angle) { session_->live.workspace.publish(angle); }
-    /// The trial that runs.
+    /// Skips the current trial.
     void skip() { session_->live.skip = true; }
     /// Share of the trials that are over.
     double done() const { return session_->live.done; }
-    /// The picture of a tick was handed just now to the screen that the subject looks at.
+    /// The picture of a tick was handed just now to the screen that the subject looks at. May be
+    /// called at any time.
     void note_shown(int64_t tick) {
         if (running()) session_->live.note_shown(tick, experiment::Live::Clock::now());
     }
-    /// For a task that waits for a key.
+    /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }
     void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
-    /// In order; the hand may hold what it holds.
+    /// Ends the session in order, even while the hand holds something.
     void end() { session_->live.ended = true; }
-    /// Force was switched off for good, as by a signal; also after the session's end.
+    /// Whether force was switched off for good, as by a signal; also after the session's end.
     bool stopped() const { return stop_; }
-    /// Whether it is to end; from the session's thread too.
+    /// Whether the session is to end; only while running, from the session's thread too.
     bool ending() const { return session_->live.ended || stop_; }
-    /// For a program that must end and unwinds nothing, when its display is gone: does nothing when
-    /// nothing runs; otherwise switches force off at once, waits for the session's files, and ends
-    /// the program. From any thread but the session's.
+    /// For a program that must end without unwinding because its display is gone. If a session runs
+    /// it switches force off at once, waits for the session's files, and ends the program; if none
+    /// does it does nothing. From any thread but the session's.
     static void end_program();
 
   Q_SIGNALS:
-    /// Share of the session's files that is written; in the window's thread, as ended() is.
+    /// `share`: of the session's files that is written. Both signals come in the window's thread.
     void finishing_progressed(double share);
     void ended(const dihaptic::gui::SessionEnd& end);
 
@@ -92,7 +94,7 @@ class SessionRunner : public QObject {
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;
     std::optional<app::NoSuspension> no_suspension_;
-    std::atomic<bool> busy_{false};  ///< its thread runs a session, or makes its files
+    std::atomic<bool> busy_{false};  ///< thread_ runs a session, or makes its files
     QTimer alive_;                   ///< beats as long as the window answers
     QTimer first_beat_;
     std::thread thread_;

@@ -11,7 +11,7 @@
 namespace dihaptic::gui {
 namespace {
 
-std::atomic<bool> stop_requested{false};  // a signal may come as long as the program is
+std::atomic<bool> stop_requested{false};  // static, since a signal may come until the program ends
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// That somebody outside of the window wants the program to end, as the session that runs and the
-// window are told: the one by a flag, for its next tick, the other by its event loop.
+// A request from outside the window that the program end. The running session gets it by a flag, in
+// its next tick, and the window by its event loop.
 #pragma once
 
 #include <QObject>
@@ -11,10 +11,11 @@ class StopRequest : public QObject {
     Q_OBJECT
 
   public:
-    /// From now on signals that end a program come here (common/stop_signals.h). One a program.
+    /// From now on signals that end a program come here (common/stop_signals.h). A program has only
+    /// one StopRequest.
     StopRequest();
 
-    /// Set by a signal, or by whoever ends the program.
+    /// Set by a signal, or by other code that ends the program.
     std::atomic<bool>& flag();
 
   Q_SIGNALS:

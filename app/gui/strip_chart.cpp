@@ -7,7 +7,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The next of 1, 2, 5, 10, ... above.
+/// The smallest of ..., 1, 2, 5, 10, ... that is not below `least`.
 double round_step(double least) {
     const double power = std::pow(10, std::floor(std::log10(least)));
     for (const double factor : {1.0, 2.0, 5.0}) {
@@ -16,7 +16,7 @@ double round_step(double least) {
     return 10 * power;
 }
 
-/// With its line, and the gap to the next.
+/// Width of a curve's entry with its line, and the gap to the next [pixels].
 int legend_width(const QFontMetrics& metrics, const StripChart::Curve& curve) {
     return metrics.horizontalAdvance(curve.name) + 26;
 }
@@ -63,15 +63,15 @@ StripChart::Range StripChart::range(int lines) const {
     }
     high = std::max(high, low + least_range_);
     const double step = round_step((high - low) / std::max(1, lines));
-    // what is as good as zero opens no step below it
+    // a value that is as good as on a line opens no step beyond it
     return {std::floor(low / step + 0.05) * step, std::ceil(high / step - 0.05) * step, step};
 }
 
-/// Where times [s] and values are on the widget.
+/// Maps times [s] and values to the widget.
 struct StripChart::Axes {
     QRectF area;
     Range range;
-    double end;  // of the times [s]
+    double end;  // latest time [s]
 
     double x(double time) const { return area.right() - (end - time) / kSeconds * area.width(); }
     double y(double value) const {

@@ -1,4 +1,4 @@
-// A chart of the last seconds, as of a pen on a strip of paper: one or more curves, one scale.
+// A strip chart: one or more curves of the last seconds, on one scale.
 #pragma once
 
 #include <QWidget>
@@ -17,11 +17,12 @@ class StripChart : public QWidget {
         QString name;
         QColor colour;
     };
-    /// `unit`: of all curves; `least_range`: what the scale shows at least.
+    /// `unit`: of all curves. `least_range`: least range of the scale.
     StripChart(QString title, QString unit, std::vector<Curve> curves, double least_range,
                QWidget* parent = nullptr);
 
-    /// Values at `time` [s], one a curve; NaN leaves a gap. Time that goes back starts anew.
+    /// Adds values at `time` [s], one for each curve; NaN leaves a gap. A time before the last one
+    /// starts the chart anew.
     void add(double time, const std::vector<double>& values);
     void clear();
 
@@ -39,7 +40,7 @@ class StripChart : public QWidget {
     struct Range {
         double low, high, step;
     };
-    /// `lines`: at most, across.
+    /// Range of the scale. `lines`: about how many steps it has.
     Range range(int lines) const;
     struct Axes;
     QColor ink() const;

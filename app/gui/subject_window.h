@@ -1,11 +1,11 @@
-// What the subject sees: the scene and nothing else, full screen on a display of its own.
+// The subject's window: the scene and nothing else, full screen on a display of its own.
 #pragma once
 
 #include "scene_widget.h"
 
 namespace dihaptic::gui {
 
-/// The letter or digit of a key event, for a task; 0: none.
+/// The letter or digit of a key event, for a task; 0 for any other key.
 char task_key(const QKeyEvent& event);
 
 class SubjectWindow : public QWidget {
@@ -15,12 +15,12 @@ class SubjectWindow : public QWidget {
     SubjectWindow();
 
     SceneWidget& scene() { return *scene_; }
-    /// On the display that the operator's window is not on, if there is one.
+    /// Shows it on a display other than the operator's window's, if there is one.
     void show_beside(const QWidget& operator_window);
 
   Q_SIGNALS:
     void closed();
-    /// A letter or a digit.
+    /// `key`: a letter or a digit.
     void key_pressed(char key);
 
   protected:

@@ -1,9 +1,9 @@
-// Dark or light.
+// The window's theme, dark or light.
 #pragma once
 
 namespace dihaptic::gui {
 
-/// Of the whole program.
+/// Sets the theme of the whole program.
 void set_dark(bool dark);
 
 }  // namespace dihaptic::gui

@@ -11,7 +11,7 @@ QDoubleSpinBox* box(double least, double most, double step, int decimals, const 
     out->setSingleStep(step);
     out->setDecimals(decimals);
     out->setSuffix(unit);
-    out->setKeyboardTracking(false);  // a number counts when it is whole
+    out->setKeyboardTracking(false);  // a number counts once it is typed completely
     return out;
 }
 
@@ -22,7 +22,7 @@ QComboBox* choice() {
     return out;
 }
 
-constexpr double kUnset = -0.1;  // below the least damping, shown in words
+constexpr double kUnset = -0.1;  // below the least damping; shown in words
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// What may be changed while a session runs, from one of the next ticks on; and, while none does,
-// the proxy of the next.
+// The panel for what may be changed while a session runs, from one of the next ticks on, and for
+// the proxy of the next session while none runs.
 #pragma once
 
 #include <QComboBox>
@@ -15,7 +15,7 @@ class TuningPanel : public QWidget {
   public:
     explicit TuningPanel(QWidget* parent = nullptr);
 
-    /// As the session starts with them.
+    /// Shows the settings with which the session starts.
     void set_settings(const servo::Settings& settings);
 
   Q_SIGNALS:
@@ -34,7 +34,7 @@ class TuningPanel : public QWidget {
     QDoubleSpinBox* smoothing_;
     QComboBox* solver_;
     QDoubleSpinBox* friction_;
-    bool setting_ = false;  // by the program, not by its user
+    bool setting_ = false;  // values are being set by the program, not by its user
 };
 
 }  // namespace dihaptic::gui

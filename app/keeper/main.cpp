@@ -1,5 +1,5 @@
 // dihaptic-keeper: owns the real devices of a session, in a process of its own (src/keeper). The
-// program dihaptic starts it; nobody needs to call it by hand.
+// program dihaptic starts it; there is no need to call it by hand.
 #include <sys/stat.h>
 
 #include <cstdio>

@@ -1,8 +1,8 @@
-// dihaptic-mesh FORMAT: reads a mesh (obj, stl, ply or off) from its standard input and writes the
-// triangles to its standard output: a line "dihaptic mesh 1"; how many vertices and how many faces,
-// as 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices each; all
-// as this machine has them in memory. The program dihaptic calls it, under limits, because the
-// library that reads meshes crashes on damaged ones; nobody needs to call it by hand.
+// dihaptic-mesh FORMAT: reads a mesh (obj, stl, ply or off) from standard input and writes its
+// triangles to standard output: a line "dihaptic mesh 1"; the numbers of vertices and of faces, as
+// 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices each; all as
+// in this machine's memory. The program dihaptic calls it, under limits, because the library that
+// reads meshes crashes on damaged ones; there is no need to call it by hand.
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,7 +21,8 @@ namespace {
 /// How the program ends (base/companion.h).
 enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
 
-/// The mesh, and no file that it names: a session keeps only the mesh, and has to read the same.
+/// Lets the library read the mesh, and no file that it names: a session keeps only the mesh, and
+/// has to read the same from it.
 class OneFile final : public Assimp::MemoryIOSystem {
   public:
     OneFile(const std::string& bytes, std::string name)
@@ -77,7 +78,7 @@ Status read(const std::string& format) {
     const std::string bytes = standard_input();
     const std::string name = AI_MEMORYIO_MAGIC_FILENAME "." + format;
     Assimp::Importer importer;
-    importer.SetIOHandler(new OneFile(bytes, name));  // which then owns it
+    importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
     const aiScene* scene =
         importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                     aiProcess_PreTransformVertices);
@@ -87,7 +88,7 @@ Status read(const std::string& format) {
     std::fputs("dihaptic mesh 1\n", stdout);
     const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
                          std::fflush(stdout) == 0;
-    // without destructors, which may crash on what was read from a damaged file
+    // no destructors: they may crash on what was read from a damaged file
     std::_Exit(written ? kDone : kRefused);
 }
 

@@ -15,7 +15,7 @@
 namespace dihaptic::person {
 
 /// What a hand aims at: its centre, its aperture, and the force with which it carries objects. Also
-/// used for differences and for rates of these, where it says so.
+/// holds differences of aims, and their rates of change.
 struct Aim {
     Vec3 centre = Vec3::Zero();  ///< [m]
     double aperture = 0;         ///< [m]

@@ -6,7 +6,7 @@ namespace dihaptic::person {
 namespace {
 
 constexpr double kLeastForce = 0.03;        // least force that is felt [N]
-constexpr double kSlipSpeed = 1e-3;         // slower sliding is none [m/s]
+constexpr double kSlipSpeed = 1e-3;         // slower sliding does not count [m/s]
 constexpr double kSlipDistance = 1e-4;      // least slip that is felt [m]
 constexpr double kPad = 0.01;               // size of a fingertip's pad [m]
 constexpr double kAccelerationTime = 0.02;  // time constant by which accelerations are smoothed [s]

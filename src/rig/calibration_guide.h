@@ -34,7 +34,7 @@ struct Guide {
 /// simulated hand's. Throws Error as make_devices() does, and when a device does not answer.
 CalibrationInput lead_calibration(const Rig& rig, const Guide& guide);
 
-/// Two endpoints that are held together, compared with the same at calibration.
+/// Two endpoints that are held together, compared with their distance at calibration.
 struct Together {
     /// Difference that is allowed beyond the calibration's own error [m]: a person does not hold
     /// fingers together twice in the same way.

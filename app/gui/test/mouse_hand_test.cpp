@@ -34,7 +34,7 @@ TEST_F(MouseHandTest, FollowsItInDepthWithTheModifier) {
     EXPECT_EQ(way.z(), 0);
 }
 
-/// As many pixels as the picture is high are as far as the picture shows at the hand's depth.
+/// A movement by the picture's height moves the hand by the height that is seen at its depth.
 TEST_F(MouseHandTest, MovesAsFarAsThePictureShows) {
     camera.position = {0, -0.4, 0.05};
     camera.look_at = {0, 0, 0.05};
@@ -43,7 +43,7 @@ TEST_F(MouseHandTest, MovesAsFarAsThePictureShows) {
 }
 
 TEST_F(MouseHandTest, RightIsRightFromEverySide) {
-    camera.position = {0.5, 0, 0.3};  // from the right: the person's depth is sideways
+    camera.position = {0.5, 0, 0.3};  // from the right: right in the picture is the person's depth
     EXPECT_GT(moved({30, 0}, false).y(), 0.01);
     camera.position = {0, 0, 0.6};  // from above
     const Vec3 before = mouse.goal().centre;

@@ -1,4 +1,4 @@
-// What the window's thread does, or does no more, to the force of a session that runs beside it.
+// Tests what the window's thread, working or hanging, does to the force of a session beside it.
 #include "session_runner.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +21,13 @@ class SessionRunnerTest : public ::testing::Test {
         experiment::Request request;
         request.file = "scenes/block-on-table.yaml";
         request.mouse = true;
-        request.set = {"safety.max_pause_ms=1000"};  // on a busy machine, too
+        request.set = {"safety.max_pause_ms=1000"};  // long enough for a busy machine
         experiment::RunOptions options;
         options.out = folder_.path();
         runner_.start(experiment::make_plan(request), options);
     }
 
-    /// The window answers until then, or for ten seconds.
+    /// Lets the window answer until `condition` holds; false when that takes over ten seconds.
     template <class Condition>
     bool answer_until(const Condition& condition) {
         QElapsedTimer timer;
@@ -56,7 +56,7 @@ class SessionRunnerTest : public ::testing::Test {
         answer_for(700);
         ASSERT_GT(runner_.frame().grip_force, 0.3);
     }
-    /// The frames of the session, which ends.
+    /// Waits for the session's end; returns its frames.
     std::vector<servo::Frame> end() {
         EXPECT_TRUE(answer_until([&] { return !runner_.running(); }));
         std::vector<servo::Frame> frames;
@@ -77,7 +77,7 @@ class SessionRunnerTest : public ::testing::Test {
 
 TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
     grip();
-    QThread::msleep(6500);  // 5 s for the picture, and 1 s more
+    QThread::msleep(6500);  // force goes off after 5 s for the picture and 1 s more
     EXPECT_NE(runner_.frame().status & servo::kForceOff, 0u);
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
@@ -90,7 +90,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     runner_.watch();
     grip();
     const double before = now();
-    QThread::msleep(2500);  // the window's thread does nothing else
+    QThread::msleep(2500);  // the window's thread hangs
     const servo::Frame& frame = runner_.frame();
     EXPECT_NE(frame.status & servo::kForceOff, 0u);
     EXPECT_EQ(frame.fingers[0].f_sent_W, Vec3::Zero());
@@ -107,7 +107,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     runner_.end();
     for (const servo::Frame& f : end()) {
         if ((f.status & servo::kAbandoned) == 0) continue;
-        EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was up to a tenth before
+        EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was up to 0.1 s before
         EXPECT_LT(seconds(f.time), before + 1.2);
     }
 }

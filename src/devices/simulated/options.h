@@ -41,8 +41,8 @@ struct Options {
     int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
     int buttons = 0;          ///< that the simulated hand holds down, one bit each
     std::optional<Vec3> workspace;        ///< edges of the reachable box around D's origin [m]
-    std::optional<double> max_stiffness;  ///< that it renders stably, says the maker [N/m]
-    std::optional<double> max_damping;    ///< that it renders stably, says the maker [N*s/m]
+    std::optional<double> max_stiffness;  ///< largest stable one, as its maker states [N/m]
+    std::optional<double> max_damping;    ///< largest stable one, as its maker states [N*s/m]
 
     Mechanics arm = Mechanics::point;
     model::PhantomLinks links;           ///< phantom: lengths; a 1.0's are not verified [m]

@@ -1,5 +1,5 @@
-// A minute of commands to a Haply service at each rate, on the real clock: none lost, none doubled,
-// and how long an answer takes.
+// Sends a minute of commands to a fake Haply service at each rate, on the real clock: none may be
+// lost or doubled. Prints how long an answer takes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

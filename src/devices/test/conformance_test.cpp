@@ -1,4 +1,4 @@
-// Every backend of the table keeps the contract of device_group.h.
+// Tests that every backend of the table keeps the contract of device_group.h.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -42,7 +42,7 @@ class Conformance : public ::testing::TestWithParam<std::string> {
             haply_service_ = std::make_unique<haply::FakeService>(setup, context);
             configs = haply::rig_of(*haply_service_, configs, "time_out_ms: 1000, ");
         } else if (backend.real) {
-            // our fake of the maker's library, with the simulated device behind
+            // a fake of the maker's library, with simulated devices behind it
             return make_behind(GetParam(), {{}, {}}, configs, context);
         }
         return backend.make(configs, context);
@@ -68,7 +68,7 @@ TEST_P(Conformance, LivesThroughItsLifeCycleTwice) {
             }
         }
         group->deactivate();
-        group->deactivate();  // harmless
+        group->deactivate();  // a second call is harmless
     }
 }
 
@@ -116,7 +116,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
         group->write(wrenches);
         now += std::chrono::milliseconds(1);
     };
-    // how far two newtons push the hand in 50 ms, once it is still [m]
+    // distance that 2 N push the hand in 50 ms, once it is still [m]
     const auto pushed = [&] {
         for (int i = 0; i < 2000; ++i) tick({2, Wrench{}});
         const Vec3 begin = readings[0].p_DH;
@@ -133,7 +133,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
     group->deactivate();
     group->activate();
     EXPECT_GT(pushed(), 1e-3);
-    // while another thread is in the cycle (the thread sanitizer looks at this one)
+    // stops while another thread is in the cycle (the thread sanitizer checks this)
     std::thread stopper([&] { group->stop(); });
     for (int i = 0; i < 30; ++i) tick(forces);
     stopper.join();
@@ -154,7 +154,7 @@ TEST_P(Conformance, PacesUntilItIsToldToEndAndThenAgain) {
         });
         EXPECT_EQ(ticks, 20);
         EXPECT_EQ(readings[0].status, 0u);
-        group->write(none);  // between runs a servo says once more that nothing shall push
+        group->write(none);  // as a servo does between runs, with zero force
     }
     group->deactivate();
 }

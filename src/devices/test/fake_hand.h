@@ -1,4 +1,4 @@
-// What moves the handles of the makers' fake libraries: a test's function, or nothing.
+// The hand that moves the handles of the makers' fake libraries: a test's function, or none.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@ namespace dihaptic::devices {
 struct Held {
     Vec3 p = Vec3::Zero();      ///< [m]
     Vec3 v = Vec3::Zero();      ///< [m/s]
-    Quat R = Quat::Identity();  ///< from its neutral orientation
+    Quat R = Quat::Identity();  ///< turn from its neutral orientation
     Vec3 w = Vec3::Zero();      ///< [rad/s]
 };
 
-/// State of device i at time t [s] from when it was first asked for; since it was last asked for,
-/// the device has pushed and turned it with `push`.
+/// The state of device i's handle at time t [s], from the first call on. `push`: the device's
+/// wrench on it since the last call.
 using Hand = std::function<Held(size_t i, double t, const Wrench& push)>;
 
 }  // namespace dihaptic::devices

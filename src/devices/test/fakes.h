@@ -1,4 +1,4 @@
-// Rigs of simulated devices, run through the makers' fake libraries.
+// Makes rigs of simulated devices that are run through the makers' fake libraries.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 
 namespace dihaptic::devices {
 
-/// Fakes of two devices whose handles are those of simulated ones, and the real backend on them.
-/// `context.driver` outlives the group.
+/// Makes fake devices whose handles move as simulated ones, and the real backend's group on them.
+/// `context.driver` has to outlive the group.
 inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
                                                 const std::vector<simulated::Options>& options,
                                                 std::vector<DeviceConfig> configs,
@@ -34,7 +34,7 @@ inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
             if (options[i].peak_torque > 0) device.max_torque = options[i].peak_torque * 1e3;
             const Vec3 edges = options[i].workspace.value_or(Vec3::Constant(2)) * 1e3;
             for (int axis = 0; axis < 3; ++axis) {
-                // not around the origin: makers' workspaces are not
+                // off the origin, as makers' workspaces are
                 device.workspace[axis] = -0.4 * edges[axis];
                 device.workspace[axis + 3] = 0.6 * edges[axis];
             }

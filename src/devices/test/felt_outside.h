@@ -1,10 +1,11 @@
-// What the makers' fake libraries show to, and take from, a test in another process: the program
-// runs whole, is killed, and a hand may still be pushed.
+// What the makers' fake libraries show to, and take from, a test in another process, which runs and
+// kills the whole program and looks whether a hand is still pushed.
 //
-// DIHAPTIC_FAKE_FELT names a file that is mapped: a Felt a device. What a process leaves there when
-// it dies is what its devices would go on doing. DIHAPTIC_FAKE_PUSH is "x y z": where the handles
-// go from D's origin within half a second, to stay there [m]. DIHAPTIC_FAKE_FAILS is "hangs 2" or
-// "crashes 2": what the library does so many seconds after its first reading.
+// DIHAPTIC_FAKE_FELT names a file that is mapped, with a Felt for each device. What a process
+// leaves there when it dies is what its devices would go on doing. DIHAPTIC_FAKE_PUSH is "x y z":
+// the place to which the handles go from D's origin within half a second, to stay there [m].
+// DIHAPTIC_FAKE_FAILS is "hangs 2" or "crashes 2": what the library does 2 s after its first
+// reading.
 #pragma once
 
 #include <fcntl.h>
@@ -25,8 +26,8 @@ namespace dihaptic::devices {
 struct Felt {
     double force = 0;     ///< that acts on the hand [N]
     double told_at = 0;   ///< when the device was last told a force, on CLOCK_MONOTONIC [s]
-    double watchdog = 0;  ///< its firmware takes its force away so long after that; 0: never [s]
-    double gone_at = 0;   ///< when its force last became zero, on the same clock [s]
+    double watchdog = 0;  ///< time after that when its firmware ends force; 0: never [s]
+    double gone_at = 0;   ///< when its force last became zero, on CLOCK_MONOTONIC [s]
 };
 
 class FeltOutside {
@@ -44,7 +45,7 @@ class FeltOutside {
         if (at != MAP_FAILED) felt_ = static_cast<Felt*>(at);
     }
 
-    /// What acts now. `told`: because the device was told a force.
+    /// Shows the force that acts now. `told`: the device was just told a force.
     void show(size_t device, const Vec3& force, bool told) noexcept {
         if (felt_ == nullptr || device >= kDevices) return;
         Felt& felt = felt_[device];
@@ -78,14 +79,14 @@ inline void fail_as_asked() {
     while (what == "hangs") pause();
 }
 
-/// What DIHAPTIC_FAKE_PUSH asks for; none when it does not.
+/// The hand that DIHAPTIC_FAKE_PUSH asks for; null if it is not set.
 inline Hand pushing_hand() {
     const char* const text = std::getenv("DIHAPTIC_FAKE_PUSH");
     if (text == nullptr) return {};
     Vec3 goal = Vec3::Zero();
     std::istringstream(text) >> goal.x() >> goal.y() >> goal.z();
     return [goal](size_t, double t, const Wrench&) {
-        constexpr double kTime = 0.5;  // [s]
+        constexpr double kTime = 0.5;  // duration of the movement [s]
         Held out;
         out.p = std::min(t / kTime, 1.0) * goal;
         if (t < kTime) out.v = goal / kTime;

@@ -1,5 +1,5 @@
-// What the tests of makers' backends share: devices from rig files' options, and what is said when
-// they cannot be.
+// Shared by the tests of makers' backends: makes devices from options as in rig files, and catches
+// the message when that fails.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::devices {
 
-/// Devices of the thumb and so on, by lines of YAML each.
+/// Makes the devices of thumb, index and middle finger; `options`: YAML text for each.
 inline std::unique_ptr<DeviceGroup> make_devices(const Backend& backend,
                                                  const std::vector<std::string>& options,
                                                  const std::string& library, double tick = 1e-3) {
@@ -25,7 +25,7 @@ inline std::unique_ptr<DeviceGroup> make_devices(const Backend& backend,
     return backend.make(configs, context);
 }
 
-/// What is said when it fails.
+/// The message of the Error that `call` throws.
 template <class Call>
 std::string told(const Call& call) {
     try {

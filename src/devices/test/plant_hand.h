@@ -1,4 +1,4 @@
-// The simulated devices in the simulated hand, behind a maker's fake library.
+// Puts simulated devices, held by the simulated hand, behind a maker's fake library.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::devices {
 
-/// `context.driver` outlives it.
+/// `context.driver` has to outlive the result.
 inline Hand plant_hand(const std::vector<simulated::Options>& options,
                        const std::vector<Pose>& X_WD, const Context& context) {
     struct Device {

@@ -1,5 +1,5 @@
-// The keeper as its program meets it, on the makers' fake libraries, which it loads in its own
-// process. test/force_test.py judges the whole program.
+// Tests the keeper from its program's side, on the makers' fake libraries, which it loads in its
+// own process. test/force_test.py tests the whole program.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -38,7 +38,7 @@ Order order_on(const std::string& backend) {
     return order;
 }
 
-/// What the fakes show of their devices.
+/// What the fake libraries show of their devices.
 class Felt {
   public:
     Felt() : file_(folder_.write("felt", std::string(sizeof(devices::Felt) * 8, '\0'))) {
@@ -52,7 +52,7 @@ class Felt {
         in.read(reinterpret_cast<char*>(&out), sizeof(out));
         return out;
     }
-    /// Waits until no device pushes; how long after `since` that was [s].
+    /// Waits until no device pushes; returns the time from `since` to that [s], NaN after 2 s.
     double gone_after(int64_t since) const {
         const int64_t begin = monotonic();
         while ((*this)[0].force != 0 || (*this)[1].force != 0) {
@@ -100,7 +100,7 @@ class Kept : public ::testing::TestWithParam<const char*> {
     Order order = order_on(GetParam());
     bool hd = std::string(GetParam()) == "openhaptics";
 
-    /// Calls `tick` at 1 kHz until it returns false, as the devices want it.
+    /// Calls `tick` at the devices' pace, or else at 1 kHz, until it returns false.
     static void run(devices::DeviceGroup& devices, const std::function<bool()>& tick) {
         if (devices.paces()) return devices.pace(tick);
         while (tick()) std::this_thread::sleep_for(milliseconds(1));
@@ -159,7 +159,7 @@ TEST_P(Kept, DevicesGiveTheForceOfEachTickWithoutAllocating) {
             return false;
         });
         EXPECT_TRUE(well);
-        if (!hd) {  // whose scheduler has stopped
+        if (!hd) {  // HD's scheduler has stopped, so that no force acts
             EXPECT_EQ(felt[1].force, 2);
         }
         kept->deactivate();
@@ -186,8 +186,8 @@ TEST_P(Kept, DevicesLoseTheirForceWhenTheProgramIsSilent) {
         return ticks < 400;
     });
     EXPECT_GT(gone, order.keeping.longest_silence - 0.005);
-    EXPECT_LT(gone, order.keeping.longest_silence + 0.5);  // a busy machine
-    EXPECT_GT(again, 1);  // whether it may come back is the servo's to decide
+    EXPECT_LT(gone, order.keeping.longest_silence + 0.5);  // allows for a busy machine
+    EXPECT_GT(again, 1);  // whether force may come back is decided by the servo
 }
 
 TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {

@@ -1,4 +1,4 @@
-// An outlet of each kind that tests can make and break.
+// For each kind of outlet, one that tests can make and break.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,11 +17,11 @@ namespace dihaptic::outlets {
 class Fallible {
   public:
     virtual ~Fallible() = default;
-    /// As a rig file has it.
+    /// The outlet's options, as in a rig file.
     virtual std::string options() const = 0;
-    /// From now on it cannot be opened.
+    /// From now on the outlet cannot be opened.
     virtual void never_open() = 0;
-    /// From now on it fails at each call that can fail.
+    /// From now on the outlet fails at each call that can fail.
     virtual void fail() = 0;
 };
 
@@ -50,7 +50,7 @@ class FallibleLsl final : public Fallible {
     TemporaryFolder folder_;
 };
 
-/// Null: nobody has said yet how one of that kind fails.
+/// Null for a kind that has no Fallible yet.
 inline std::unique_ptr<Fallible> make_fallible(const std::string& kind) {
     if (kind == "serial") return std::make_unique<FallibleSerial>();
     if (kind == "lsl") return std::make_unique<FallibleLsl>();

@@ -53,13 +53,13 @@ TEST(Serial, WhatComesInIsATrigger) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(code, 5);
-    EXPECT_EQ(station.take_trigger(), 0);  // once
+    EXPECT_EQ(station.take_trigger(), 0);  // each trigger comes only once
 }
 
 TEST(Serial, ALineThatIsPulledIsToldThoughNothingIsSentOnIt) {
     auto far = std::make_unique<FarEnd>();
     Station station({config("serial", "{ port: " + far->port + " }")}, {});
-    far.reset();  // no trigger comes any more
+    far.reset();  // no more triggers can come
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const std::vector<std::string> failures = station.finish();
     ASSERT_EQ(failures.size(), 1u);
@@ -115,7 +115,7 @@ TEST(Lsl, StreamsCodesAndValuesWithTheTimesOfTheirTicks) {
     station.send(0, std::array{0.25f, 1.5f});
     station.send(42, std::array{0.5f, -2.0f});
     const double after = clock();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // they are sent later than that
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // sent only after `after`
     EXPECT_TRUE(station.finish().empty());
 
     const auto infos = records.read("info");

@@ -1,5 +1,5 @@
-// Lifts of people whose grips are now and then too weak, and who give up or hesitate: what the
-// analysis finds in them.
+// Tests what the analysis finds in lifts of people who sometimes grip too weakly, give up or
+// hesitate.
 #include <fmt/format.h>
 
 #include <map>
@@ -17,7 +17,7 @@ TEST(Lifts, OfPeopleWhoSlipAndGiveUpAreFoundAndTheRestMarked) {
     int found = 0;
     int others = 0;
     int rows = 0;
-    std::map<std::string, int> marked;  // what the others are
+    std::map<std::string, int> marked;  // number of other attempts, by how they are marked
     for (int i = 1; i <= 6; ++i) {
         experiment::Plan plan = sitting.plan(static_cast<uint64_t>(i));
         Traits traits = draw_person(Objects::real, 5, fmt::format("P{:03d}", i));

@@ -1,6 +1,7 @@
-// The shipped population on the schedule that its rates were calibrated to, TwoRateProprioception's
-// (64 baseline, 160 at 30 degrees, 16 reversed, 48 clamped), through the whole program: means and
-// standard deviations over people against those of its 32 people. README.md says what that shows.
+// Tests the shipped population on the schedule to which its rates were calibrated,
+// TwoRateProprioception's (64 baseline, 160 at 30 degrees, 16 reversed, 48 clamped), through the
+// whole program: means and standard deviations over people against those of its 32 people.
+// README.md says what that shows.
 #include <fmt/format.h>
 
 #include <array>
@@ -25,8 +26,8 @@ constexpr std::array kFigures{Figure{"trial 1", 64, 65, 3.5, 4.3},
                               Figure{"end of the reversal", 239, 240, -5.7, 14.2},
                               Figure{"6th clamp trial", 245, 246, 11.5, 7.5},
                               Figure{"last 32 of the clamp", 256, 288, 11.0, 5.6}};
-constexpr double kClose = 3;       // [degrees]
-constexpr double kAsSpread = 0.3;  // of a standard deviation
+constexpr double kClose = 3;       // largest difference of means [degrees]
+constexpr double kAsSpread = 0.3;  // largest difference of standard deviations, as a share
 
 double mean(const std::vector<double>& values) {
     double sum = 0;
@@ -40,7 +41,7 @@ double deviation(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-/// Of trials [from, to), those that were not given up.
+/// The values of trials [from, to), without trials that were given up.
 std::vector<double> done(const std::vector<double>& hand, size_t from, size_t to) {
     std::vector<double> out;
     for (size_t n = from; n < to; ++n) {
@@ -51,7 +52,7 @@ std::vector<double> done(const std::vector<double>& hand, size_t from, size_t to
 
 struct People {
     std::array<std::vector<double>, kFigures.size()> figures;
-    std::vector<double> baseline_sd;  // of trials
+    std::vector<double> baseline_sd;  // over trials of the baseline, by person
     std::vector<analysis::TwoRateFit> fits;
 };
 
@@ -89,7 +90,7 @@ TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
         EXPECT_NEAR(m, kFigures[f].mean, kClose) << kFigures[f].what;
         EXPECT_NEAR(sd, kFigures[f].sd, kAsSpread * kFigures[f].sd) << kFigures[f].what;
     }
-    // told, and judged by nobody: parameters of fits are known badly in people too
+    // printed, not tested: parameters of fits are known badly in people too
     const auto quartiles = [&](const char* what, auto value, const char* published) {
         std::vector<double> all;
         for (const analysis::TwoRateFit& fit : people.fits) all.push_back(value(fit));

@@ -1,5 +1,5 @@
-// The shipped population on schedules that nothing was calibrated to. README.md has what people do
-// there, and the rules that these tests are.
+// Tests the shipped population on schedules to which nothing was calibrated. README.md has what
+// people do there, and the rules that these tests apply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr int kPeople = 60;
 struct Sample {
     double mean = 0;
     double sd = 0;
-    double error = 0;  ///< standard, of the mean
+    double error = 0;  ///< standard error of the mean
 };
 
 Sample sample(const std::vector<double>& values) {
@@ -27,7 +27,7 @@ Sample sample(const std::vector<double>& values) {
     return out;
 }
 
-/// Compensation by trial, by person, under the blocks of a schedule.
+/// Compensation by person, then by trial, under the blocks of a schedule.
 std::vector<std::vector<double>> curves(const std::string& blocks) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  blocks:", "  blocks:\n" + blocks);
@@ -50,7 +50,7 @@ std::string block(const std::string& perturb, int repeats) {
                        repeats);
 }
 
-/// Mean of trials [from, to), without those that were given up.
+/// Mean of trials [from, to), without trials that were given up.
 double over(const std::vector<double>& curve, size_t from, size_t to) {
     double sum = 0;
     double count = 0;
@@ -66,7 +66,7 @@ TEST(Schedule, OfSeventeenOthers) {
     struct Place {
         const char* what;
         size_t from, to;
-        double mean, sd;  // of people [degrees]
+        double mean, sd;  // over people [degrees]
     };
     const auto all =
         curves(block("", 32) + block("rotation", 100) + block("reversal", 12) + block("clamp", 20));
@@ -90,9 +90,9 @@ TEST(Schedule, OfSeventeenOthers) {
     }
 }
 
-/// Share by which the reversal is learned more slowly than the rotation was, of the mean over
-/// people. `initial`: of each person, the mean of the rotation's first 25 trials; filled where it
-/// is empty.
+/// How much more slowly the reversal is learned than the rotation was, as a share of the rotation's
+/// mean over people. `initial`: for each person, the mean of the rotation's first 25 trials; filled
+/// if it is empty.
 Sample interference(int first, std::vector<double>& initial) {
     const auto all = curves(block("", 20) + block("rotation", first) + block("reversal", 80));
     const size_t begin = 20 + static_cast<size_t>(first);

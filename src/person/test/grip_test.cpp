@@ -1,5 +1,5 @@
-// Grip and lift of simulated people against the figures of Johansson and Westling (1984, 1988) and
-// of those after them.
+// Tests grip and lift of simulated people against figures of Johansson and Westling (1984, 1988)
+// and of later studies.
 #include "person/grip.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace dihaptic::person::grip_test {
 namespace {
 
-/// An object of 2 N that is held, as the fingers feel it.
+/// What the fingers feel of an object of 2 N that is held.
 class Held : public ::testing::Test {
   protected:
     Held() : grip_(numb(), {memory()}, kTick) {
@@ -33,7 +33,7 @@ class Held : public ::testing::Test {
             run(kTick);
         }
     }
-    /// Without a skin that tells the friction: slips do.
+    /// A person whose skin does not tell the friction: only slips do.
     static Traits numb() {
         Traits out = median_person(Objects::real);
         out.skin_time = 0;
@@ -49,7 +49,7 @@ class Held : public ::testing::Test {
         for (const double end = now_ + duration - kTick / 2; now_ < end; now_ += kTick)
             grip_.tick(now_, felt_, Vec3::UnitX(), aim_);
     }
-    /// From now until the squeeze is 1 % more [s].
+    /// Time from now until the squeeze is 1 % larger [s].
     double response() {
         const double before = grip_.squeeze();
         const double begin = now_;
@@ -112,17 +112,17 @@ TEST_F(Held, IsLetGoOnceItIsFeltToBeLost) {
 struct Lift {
     std::string condition;
     bool done = false;
-    double mass = 0;      // [kg]
-    double friction = 0;  // of fingers and object
-    double touch = NAN;   // both fingers [s]
-    double onset = NAN;   // of the load
-    double off = NAN;
+    double mass = 0;            // [kg]
+    double friction = 0;        // of fingers and object
+    double touch = NAN;         // when both fingers touch [s]
+    double onset = NAN;         // onset of the load force [s]
+    double off = NAN;           // lift-off [s]
     double peak_grip = 0;       // [N]
     double peak_grip_rate = 0;  // until lift-off, over 20 ms [N/s]
-    double peak_load_rate = 0;
-    double grip = 0;  // static: in the second half of the hold [N]
-    double load = 0;
-    double coupling = NAN;  // correlation of grip and load in the load phase
+    double peak_load_rate = 0;  // until lift-off, over 20 ms [N/s]
+    double grip = 0;            // static: in the second half of the hold [N]
+    double load = 0;            // in the second half of the hold [N]
+    double coupling = NAN;      // correlation of grip and load force in the load phase
 };
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -143,7 +143,7 @@ std::vector<Lift> lifts(const experiment::Plan& plan) {
     std::vector<Lift> out(plan.task->trials.size());
     int trial = 0;
     int attempt = 0;
-    std::vector<double> grip, load;  // of this attempt until lift-off
+    std::vector<double> grip, load;  // in this attempt, until lift-off
     double held = 0, sum_grip = 0, sum_load = 0, count = 0;
     constexpr size_t kStep = 20;
     run_trials(plan, [&](const servo::Frame& frame) {
@@ -209,12 +209,13 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         "repeats: 4, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 4,",
         "repeats: 2, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 3,");
     experiment::Plan plan = sitting.plan(3);
-    // studies tell of means over people; of one who is drawn any of the figures may be another
+    // studies report means over people; in one person who is drawn any figure may differ
     const Traits traits = median_person(Objects::real);
     sit_down(plan, traits);
     const std::vector<Lift> all = lifts(plan);
     std::vector<double> couplings;
-    std::vector<double> after_lighter;  // peak rates of grip over those that the surface needs
+    std::vector<double>
+        after_lighter;  // peak rates of grip force times friction, to compare surfaces
     std::vector<double> after_heavier;
     for (size_t i = 0; i < all.size(); ++i) {
         const Lift& lift = all[i];
@@ -227,7 +228,7 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         EXPECT_GT(margin, 0.1);
         EXPECT_LT(margin, 0.5);
         EXPECT_NEAR(lift.onset - lift.touch, 0.1, 0.05);  // 50 to 150 ms
-        if (i == 0) continue;                             // nobody knows what it weighs
+        if (i == 0) continue;                             // the weight is not known yet
         EXPECT_GT(lift.peak_load_rate, 15);               // 15 to 60 N/s
         EXPECT_LT(lift.peak_load_rate, 60);
         const double rate = lift.peak_grip_rate * lift.friction;
@@ -236,7 +237,7 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
         if (lift.mass == 0.4 && before > 0.4) after_heavier.push_back(rate);
         const double off = lift.off - lift.onset;
         if (before < lift.mass) {
-            EXPECT_GT(off, 0.25);  // pushed again and again until it comes off
+            EXPECT_GT(off, 0.25);  // the load force is increased in steps until it comes off
         } else if (before == lift.mass && i > 1) {
             EXPECT_GT(off, 0.1);  // 150 to 400 ms, from a load of zero
             EXPECT_LT(off, 0.65);
@@ -245,14 +246,14 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
                 EXPECT_LT(lift.peak_grip, 1.6 * lift.grip);
             }
         } else if (before > lift.mass) {
-            EXPECT_GT(lift.peak_grip, 1.3 * lift.grip);  // overshoots
+            EXPECT_GT(lift.peak_grip, 1.3 * lift.grip);  // grip force overshoots
         }
     }
     std::sort(couplings.begin(), couplings.end());
-    EXPECT_GT(couplings[couplings.size() / 2], 0.9);  // grip and load in parallel
+    EXPECT_GT(couplings[couplings.size() / 2], 0.9);  // grip and load force rise in parallel
     ASSERT_FALSE(after_lighter.empty());
     ASSERT_FALSE(after_heavier.empty());
-    // the last lift rules
+    // the last lift decides what is expected
     EXPECT_GT(*std::min_element(after_heavier.begin(), after_heavier.end()),
               *std::max_element(after_lighter.begin(), after_lighter.end()));
 }
@@ -274,7 +275,7 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
     ASSERT_EQ(learned.size(), 15u);
     const double before = learned[2];  // how far the sense of mass is off
     EXPECT_NEAR(before, 0, 0.03);
-    const double excess = 0.2;  // of three blocks over one [kg]
+    const double excess = 0.2;  // mass of three blocks minus that of one [kg]
     double x = 0;
     for (size_t i = 3; i < learned.size(); ++i) {
         x = next(traits.mass(), x, excess - x);

@@ -1,4 +1,4 @@
-// Eyes, strokes and memories, each by itself.
+// Tests eyes, strokes and memories, each by itself.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -88,7 +88,7 @@ TEST(RotationMemory, GeneralisesWhatIsSlowByAGaussianOfDirections) {
     EXPECT_NEAR(memory.expected(direction(width)).z(), std::exp(-0.5) * here, 1e-9);
     EXPECT_NEAR(memory.expected(direction(-2 * width)).z(), std::exp(-2.0) * here, 1e-9);
     EXPECT_LT(memory.expected(direction(std::numbers::pi)).z(), 1e-5);
-    // more directions than it keeps apart: none is lost
+    // more directions than can be stored: what is learned is not lost
     for (int n = 0; n < 500; ++n) memory.learn(direction(0.1 * n), Vec3(0, 0, 0.1));
     EXPECT_TRUE(std::isfinite(memory.expected(direction(1)).z()));
     EXPECT_GT(memory.expected(direction(1)).z(), 0);

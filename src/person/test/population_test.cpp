@@ -11,7 +11,7 @@
 namespace dihaptic::person::population_test {
 namespace {
 
-/// A file over the shipped one.
+/// A file that is based on the shipped one.
 struct File {
     testing::TemporaryFolder folder;
     Population read(const std::string& rest) {
@@ -38,7 +38,7 @@ TEST(Population, ThatIsShippedIsInItsFile) {
     const Population real = read_population("populations/adults-real-objects.yaml");
     EXPECT_EQ(draw_person(real, 1, "sim-001").safety_margin,
               draw_person(Objects::real, 1, "sim-001").safety_margin);
-    // as far as they do not differ, the same people
+    // in traits in which the populations do not differ, people are the same
     EXPECT_EQ(draw_person(real, 1, "sim-001").slow_learning, one.slow_learning);
     for (const TraitSpread& trait : file.traits) EXPECT_NE(trait.source, "") << trait.trait;
 }
@@ -57,7 +57,7 @@ TEST(Population, HasGroupsInTurnThatDifferInWhatTheyName) {
     EXPECT_EQ(patient.population, "Mine");
     EXPECT_EQ(patient.slow_retention, 0.95);
     EXPECT_EQ(median_person(population, "patients").slow_retention, 0.95);
-    // who is drawn is the same with groups and without
+    // the people who are drawn are the same with groups and without
     EXPECT_EQ(patient.tempo, draw_person(Objects::device, 1, "sim-002").tempo);
     EXPECT_EQ(control.slow_retention, draw_person(Objects::device, 1, "sim-001").slow_retention);
 }

@@ -1,4 +1,4 @@
-// Reaches of simulated people, through the whole program: seen, planned, made by the simulated
+// Tests reaches of simulated people through the whole program: seen, planned, made by the simulated
 // hand, and measured from its path.
 #include <gtest/gtest.h>
 
@@ -33,11 +33,11 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
             EXPECT_NEAR(curve.shown[i], -curve.hand[i], 0.6);
         }
     }
-    // rebound: what was learned first comes back in the clamp
+    // spontaneous recovery: what was learned first comes back in the clamp
     const size_t clamp = 4 + 44 + 8;
     EXPECT_GT(curve.hand[clamp + 12], curve.hand[clamp] + 3);
     EXPECT_GT(curve.hand[clamp + 12], 2);
-    // after-effect in the washout, which goes away
+    // the washout begins with an after-effect, which goes away
     const size_t washout = clamp + 24;
     EXPECT_GT(curve.hand[washout], curve.hand[washout + 7] + 1);
 }
@@ -65,7 +65,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
       exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 2, outcome: too slow }]
       hand: [{ duration_s: 0.7, reach: target }]
 )");
-    // timed: nothing but the message changes on the way
+    // timed: only the message changes on the way
     const auto three = curve(R"(
     - name: reach
       show: [target]
@@ -86,7 +86,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
 
 TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     experiment::Plan plan = Sitting("rotation-reversal").plan();
-    // rates that a fit tells apart, and noise: of those who are drawn, some learn at one rate only
+    // rates that a fit can tell apart, and noise; some people who are drawn learn at one rate only
     Traits traits = median_person(Objects::device);
     traits.id = "P01";
     traits.fast_retention = 0.62;
@@ -102,13 +102,13 @@ TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
     const auto trials = schedule(plan);
     const analysis::TwoRateFit fit = analysis::fit_two_rate(curve.hand, trials);
     const std::vector<double> truth = model::compensation(traits.rotation(), trials);
-    double square = 0;  // of the true parameters
+    double square = 0;  // sum of squared residuals with the true parameters
     for (size_t i = 0; i < truth.size(); ++i) square += std::pow(curve.hand[i] - truth[i], 2);
     EXPECT_LE(fit.mean_square, square / static_cast<double>(truth.size()));
     double off = 0;
     for (size_t i = 0; i < truth.size(); ++i) off += std::pow(fit.predicted[i] - truth[i], 2);
     off = std::sqrt(off / static_cast<double>(truth.size()));
-    // noise feeds what is learned, too: the curve is known to about its own wandering
+    // noise is learned too, so that the true curve is known only to about its own wandering
     EXPECT_LT(off, 0.5 * fit.residual_sd);
     EXPECT_NEAR(fit.residual_sd, traits.direction_noise / kDegree, 1.5);
     const auto within = [](double value, const analysis::Interval& interval) {
@@ -128,7 +128,7 @@ TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
     experiment::Plan plan = sitting.plan();
     sit_down(plan, median_person(Objects::device));
     const Curve curve = reaches(plan);
-    EXPECT_GT(curve.hand[0], 1);  // 3.5 degrees in people
+    EXPECT_GT(curve.hand[0], 1);  // people: 3.5 degrees
     EXPECT_LT(curve.hand[0], 6);
 }
 

@@ -1,4 +1,5 @@
-// Reaches of a person in experiments/rotation-reversal.yaml, measured from the hand's path.
+// Runs a simulated person's reaches in experiments/rotation-reversal.yaml, and measures them from
+// the hand's path.
 #pragma once
 
 #include <numbers>
@@ -12,7 +13,7 @@ inline constexpr double kRotation = 30;  // [degrees]
 
 struct Curve {
     std::vector<double> hand;   ///< compensation by trial, at the reach's distance [degrees]
-    std::vector<double> shown;  ///< error shown there
+    std::vector<double> shown;  ///< error shown at that distance [degrees]
     std::vector<std::string> outcome;
 };
 
@@ -26,7 +27,7 @@ inline Curve reaches(const experiment::Plan& plan) {
     const size_t trials = plan.task->trials.size();
     Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
                 std::vector<std::string>(trials)};
-    std::vector<int> measured(trials, 0);  // in which attempt
+    std::vector<int> measured(trials, 0);  // attempt that was measured last, by trial
     run_trials(plan, [&](const servo::Frame& frame) {
         if (frame.trial < 1) return;
         const auto i = static_cast<size_t>(frame.trial - 1);
@@ -45,7 +46,7 @@ inline Curve reaches(const experiment::Plan& plan) {
     return curve;
 }
 
-/// The schedule as adaptation sees it.
+/// The plan's schedule as the models of adaptation take it.
 inline std::vector<model::AdaptationTrial> schedule(const experiment::Plan& plan) {
     std::vector<model::AdaptationTrial> out;
     for (const experiment::Trial& trial : plan.task->trials) {

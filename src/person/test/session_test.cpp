@@ -1,4 +1,5 @@
-// A person in a session: recorded, replayed to the bit, allocating nothing, answering questions.
+// Tests a simulated person in a session: recorded, replayed to the bit, allocating nothing,
+// answering questions.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -99,7 +100,7 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
         experiment::Plan plan = sitting.plan();
         sit_down(plan, median_person(Objects::device));
         const auto phases = plan.task->phases();
-        std::map<int, double> spent;  // by trial: in the last state [s]
+        std::map<int, double> spent;  // time in the last state, by trial [s]
         run_trials(plan, [&](const servo::Frame& frame) {
             const std::string& phase = phases[static_cast<size_t>(frame.phase)];
             if (phase == state || (phase == "less" && std::string(state) == "more"))
@@ -148,7 +149,7 @@ TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
     EXPECT_GE(done, 6);
 }
 
-/// "Was it shown larger than it felt?" with keys y and n, after reaches that were shown scaled.
+/// Answers to "Was it shown larger than it felt?" by keys y and n, after reaches shown scaled.
 std::vector<std::string> answers(double scale, const Traits& traits, int trials) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  perturbations:", fmt::format(R"(  perturbations:
@@ -217,7 +218,7 @@ TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
         right += said == plan.task->task.procedures[static_cast<size_t>(trial.procedure)].yes;
     });
     ASSERT_EQ(shares.size(), 50u);
-    // they begin where it is plain to see, and settle where it is not: 80 % of answers are right
+    // staircases begin where scaling is plain to see, and settle where 80 % of answers are right
     EXPECT_EQ(shares.front(), 0.8);
     EXPECT_LT(*std::min_element(shares.begin(), shares.end()), 0.5);
     EXPECT_GT(right, 32);

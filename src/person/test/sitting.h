@@ -1,4 +1,5 @@
-// A person before a shipped experiment, changed where a test says so; each Frame goes to the test.
+// Runs a simulated person in a shipped experiment that a test may change, and gives the test each
+// Frame.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace dihaptic::person {
 
 inline const std::atomic<bool> kGoOn{false};
 
-/// A shipped experiment as text, to be changed and planned; tests run in the project's folder.
+/// The text of a shipped experiment, to be changed and planned; tests run in the project's folder.
 struct Sitting {
     testing::TemporaryFolder folder;
     std::string text;
@@ -32,7 +33,7 @@ struct Sitting {
         ASSERT_NE(at, std::string::npos) << what;
         text.replace(at, what.size(), by);
     }
-    /// From `from` on, all of it is `by`.
+    /// Replaces everything from `from` on by `by`.
     void end_with(const std::string& from, const std::string& by) {
         const size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
@@ -48,7 +49,7 @@ struct Sitting {
     }
 };
 
-/// Runs the plan's trials as a session does, without a file.
+/// Runs the plan's trials as a session does, but records nothing.
 inline void run_trials(const experiment::Plan& plan, const servo::FrameSink& sink) {
     const auto servo = experiment::make_servo(plan);
     servo->activate();

@@ -27,7 +27,7 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
         std::vector<double> margin;
         for (int i = 0; i < 400; ++i) {
             Traits traits = draw_person(objects, 1, std::to_string(i));
-            // written and read again: every bound is checked
+            // reading what was written checks every bound
             Diagnostics diagnostics;
             Traits read;
             read_fields(read, write_fields(traits), diagnostics);

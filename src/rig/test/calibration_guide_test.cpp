@@ -1,4 +1,4 @@
-// A person who does what the guide says, on our fake of OpenHaptics.
+// Tests the guide with a person who does what it says, on the fake OpenHaptics library.
 #include "rig/calibration_guide.h"
 
 #include <gtest/gtest.h>
@@ -13,24 +13,24 @@
 namespace dihaptic::rig::calibration_guide_test {
 namespace {
 
-constexpr double kLink = 0.05;       // [m]
-constexpr double kTogether = 0.012;  // of endpoints held together [m]
+constexpr double kLink = 0.05;       // length of the link [m]
+constexpr double kTogether = 0.012;  // distance of endpoints held together [m]
 
-/// Two devices that stand elsewhere than the rig file says, and who holds them.
+/// Two devices that stand elsewhere than the rig file says, and the person who holds them.
 struct Person {
     testing::TemporaryFolder folder;
     devices::openhaptics::FakeHd& fake = devices::openhaptics::fake_hd();
     Rig rig;
-    std::vector<Pose> X_WD;  // the truth
+    std::vector<Pose> X_WD;  // true poses
     Guidance now;
     std::vector<std::string> told;
     int64_t ticks = 0;          // since the step began
-    int64_t patience = 60'000;  // ticks of carrying
-    double moving = 0;          // apart, while the endpoints are held together [m]
-    int given_up_at = 0;        // step
-    double felt = 0;            // most of all forces [N]
+    int64_t patience = 60'000;  // ticks of carrying the link
+    double moving = 0;          // by which endpoints held together move apart [m]
+    int given_up_at = 0;        // step at which the person gives up; 0: none
+    double felt = 0;            // largest of all forces [N]
 
-    /// `options`: more, of each device.
+    /// `options`: further ones, for each device.
     explicit Person(const std::string& options = "") {
         std::string text = "title: A rig\ndevices:\n";
         for (const int i : {0, 1}) {
@@ -79,7 +79,7 @@ struct Person {
         }
         return {0, 0, 0.02 * side};
     }
-    /// As a session does, on its devices.
+    /// Checks the calibration as a session does, on its devices.
     std::vector<Together> hold_together() {
         now = {};
         const auto fingers = held_fingers(rig);
@@ -123,7 +123,7 @@ TEST(CalibrationGuide, LeadsAPersonToACalibration) {
     EXPECT_EQ(person.felt, 0);
 }
 
-/// A reset off the standard configuration bends the space of a device that tells no joint angles.
+/// A reset off the standard configuration bends the space of a device that reports no joint angles.
 TEST(CalibrationGuide, FindsAResetThatWasOffByTheJoints) {
     const double degree = std::numbers::pi / 180;
     for (const bool joints : {true, false}) {
@@ -211,13 +211,13 @@ TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
     EXPECT_TRUE(well.agrees);
     EXPECT_NEAR(well.apart, kTogether, 1e-5);
     EXPECT_NEAR(well.before, kTogether, 1e-5);
-    // somebody ran into it
+    // a device was pushed by 4 mm
     person.X_WD[1].p.x() += 0.004;
     const Together moved = person.hold_together().at(0);
     EXPECT_FALSE(moved.agrees);
     EXPECT_NEAR(moved.apart, kTogether + 0.004, 1e-4);
     EXPECT_NE(moved.warning(person.rig).text().find("Calibrate the rig again"), std::string::npos);
-    // a scale moves nothing that is held together
+    // a scale does not move endpoints that are held together apart
     person.X_WD[1].p.x() -= 0.004;
     for (Device& device : person.rig.devices) device.scale = 3;
     EXPECT_NEAR(person.hold_together().at(0).apart, kTogether, 1e-5);

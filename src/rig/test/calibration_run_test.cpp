@@ -34,7 +34,7 @@ class TogetherDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// How far apart devices have the endpoints of a hand that holds them together [m].
+/// Distance that devices report between endpoints which a hand holds together [m].
 struct Apart {
     double rms = 0;
     double worst = 0;

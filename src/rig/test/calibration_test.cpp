@@ -15,11 +15,11 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 const model::PhantomLinks kLinks;
 
-/// Two Premiums whose true places and resets the rig file does not know.
+/// Two Premiums that stand, and were reset, elsewhere than the rig file says.
 struct Faulty {
-    std::vector<Pose> X_WD;     // as the rig file has them
-    std::vector<Pose> true_D;   // the true D in that
-    std::vector<Vec3> offsets;  // true less reported [rad]
+    std::vector<Pose> X_WD;     // in the rig file
+    std::vector<Pose> true_D;   // the true D in the rig file's
+    std::vector<Vec3> offsets;  // true minus reported joint angles [rad]
     double step = 0.03e-3;
     bool joints = true;
 
@@ -36,7 +36,7 @@ struct Faulty {
             offsets.push_back(offset);
         }
     }
-    /// What a device reports of an endpoint.
+    /// What a device reports about an endpoint.
     CalibrationReading report(size_t i, const Vec3& p_W) const {
         const Vec3 q =
             model::phantom_joints(kLinks, true_D[i].inverse() * (X_WD[i].inverse() * p_W)) -
@@ -62,13 +62,14 @@ struct Faulty {
     }
 };
 
-/// A place of the work: a box of 120 x 120 x 120 mm around the endpoints' reset pose.
+/// A random place of the workspace: a box of 120 x 120 x 120 mm around the endpoints' reset pose.
 Vec3 some_place(Random& random) {
     return Vec3(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06),
                 random.uniform(0.01, 0.13));
 }
 
-/// The link of 50 mm, moved about, `outliers` of the samples slipped by some millimetres.
+/// Samples of the link of 50 mm, moved about; a share `outliers` of them slipped by some
+/// millimetres.
 void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3 extent = {1, 1, 1},
                size_t count = 2000) {
     Random random(3, "link");
@@ -86,7 +87,7 @@ void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3
     }
 }
 
-/// A jig of eight points, each touched ten times by each device.
+/// Samples of a jig of eight points, each touched ten times by each device.
 void touch_jig(const Faulty& rig, CalibrationInput& input, double outliers = 0.05) {
     Random random(4, "jig");
     for (int i = 0; i < 8; ++i)
@@ -119,10 +120,10 @@ struct Errors {
 };
 
 struct Judged {
-    Errors agreement;  // of two endpoints in one place
-    Errors truth;      // of each endpoint and that place
+    Errors agreement;  // distance of two endpoints in one place
+    Errors truth;      // distance of each endpoint from that place
 };
-/// Over the workspace, at places that the calibration did not see.
+/// The errors over the workspace, at places that the calibration did not use.
 Judged judge(const Faulty& rig, const Calibration* calibration) {
     Random random(99, "judge");
     Judged out;
@@ -144,7 +145,7 @@ Judged judge(const Faulty& rig, const Calibration* calibration) {
     return out;
 }
 
-/// For --gtest_output=json: micrometres.
+/// Records errors for --gtest_output=json, in micrometres.
 void record(uint64_t seed, const Judged& before, const Judged& after, const Calibration& says) {
     const auto um = [&](const char* name, double metres) {
         ::testing::Test::RecordProperty("seed_" + std::to_string(seed) + "_" + name,
@@ -169,16 +170,16 @@ TEST(Calibration, BringsMisplacedPremiumsTogether) {
         const Judged after = judge(rig, &result.calibration);
         record(seed, before, after, result.calibration);
         EXPECT_GT(before.agreement.rms, 2e-3);
-        // the encoders' steps alone are 0.02 mm; the bars are 0.1 and 0.3 mm
+        // the encoders' steps alone are 0.02 mm; required are 0.1 and 0.3 mm
         EXPECT_LT(after.agreement.rms, 0.03e-3);
         EXPECT_LT(after.agreement.worst, 0.1e-3);
         EXPECT_LT(after.truth.rms, 0.03e-3);
-        // and it says so
+        // the calibration states this error
         EXPECT_NEAR(result.calibration.agreement_rms / after.agreement.rms, 1, 0.15);
         EXPECT_NEAR(result.calibration.link_length, 0.05, 0.02e-3);
         EXPECT_NEAR(result.calibration.slips, 0.05, 0.02);
         for (size_t i = 0; i < 2; ++i) {
-            // the turret's offset is the pose's (README.md)
+            // the turret's offset is part of the pose (README.md)
             const Vec3 off = *result.calibration.devices[i].joint_offset - rig.offsets[i];
             EXPECT_EQ(result.calibration.devices[i].joint_offset->x(), 0);
             EXPECT_LT(off.tail<2>().norm(), 0.02 * kDegree);
@@ -194,7 +195,7 @@ TEST(Calibration, WithoutAJigBringsThemTogetherStill) {
     const Judged after = judge(rig, &calibration);
     EXPECT_LT(after.agreement.rms, 0.05e-3);
     EXPECT_LT(after.agreement.worst, 0.2e-3);
-    // what only a jig can tell stays as the rig file has it, for both devices together
+    // what only a jig can tell stays as in the rig file, for both devices together
     EXPECT_GT(after.truth.rms, 0.2e-3);
     EXPECT_LT(after.truth.rms, 10e-3);
     EXPECT_FALSE(calibration.jig_rms);
@@ -210,8 +211,9 @@ TEST(Calibration, WithoutJointAnglesSaysWhatRemains) {
         const Calibration calibration = calibrate(input).calibration;
         const Judged after = judge(rig, &calibration);
         record(seed, judge(rig, nullptr), after, calibration);
-        // ten times worse than with joint angles, and it does not say less; more, when both are
-        // wrong alike in one place but not in the two that the link's ends are in
+        // ten times worse than with joint angles, and the stated error is not smaller than that. It
+        // is larger when both devices are equally wrong in one place, but not at the link's two
+        // ends
         EXPECT_GT(after.agreement.rms, 0.2e-3);
         EXPECT_GT(calibration.agreement_rms, 0.9 * after.agreement.rms);
         EXPECT_LT(calibration.agreement_rms, 2.2 * after.agreement.rms);
@@ -232,7 +234,7 @@ TEST(Calibration, FindsThreeDevicesJoinedToTheFirst) {
     CalibrationInput other;
     move_link(rig, 0.02, other);
     for (CalibrationInput::LinkSample sample : other.link_samples) {
-        // the link's other end on the third device
+        // puts the link's other end on the third device
         const Vec3 p =
             rig.X_WD[1] *
             (rig.true_D[1] * model::phantom_position(kLinks, sample.at_b.joints + rig.offsets[1]));
@@ -334,7 +336,7 @@ TEST(Calibration, CountsDays) {
     EXPECT_FALSE(days_between("yesterday", "2026-11-20"));
 }
 
-/// An arm that is far from where its driver thinks.
+/// The arm is far from where its driver takes it to be.
 TEST(Correction, SlopeIsThatOfItsPositions) {
     Random random(8, "slope");
     for (const bool joints : {true, false}) {

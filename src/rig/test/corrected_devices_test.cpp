@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 const model::PhantomLinks kLinks;
 
-/// An arm that goes its way, and keeps what it was told.
+/// An arm that moves by itself, and stores the wrench that it was told.
 class MovingArm final : public devices::DeviceGroup {
   public:
     static Vec3 joints(double t) {
@@ -71,7 +71,7 @@ TEST(CorrectedDevices, VelocityIsThatOfThePositionAndPowerThatOfTheHand) {
         group->read(t, now);
         const Vec3 slope = (after[0].p_DH - before[0].p_DH) / (2 * seconds(step));
         EXPECT_LT((now[0].v_DH - slope).norm(), 1e-6);
-        // a force 3 times that of the hand, at 3 times its speed
+        // the world's force is 3 times the hand's, and so is its speed: power is 9 times the hand's
         const Vec3 f(1, -2, 0.5);
         group->write(std::vector<Wrench>{{f, Vec3::Zero()}});
         EXPECT_NEAR(told.force.dot(raw[0].v_DH), f.dot(now[0].v_DH) / 9, 1e-12);
@@ -110,7 +110,7 @@ TEST(CorrectedDevices, NoStretchMakesAForceLargerThanTheDevicesLimit) {
                 EXPECT_LE(told.force.norm(), most / scale * (1 + 1e-9));
             }
             EXPECT_NEAR(largest, most / scale, 1e-9);
-            // and what is far from it is stretched
+            // a force far below the limit is stretched
             group->write(std::vector<Wrench>{{0.1 * Vec3::UnitX(), Vec3::Zero()}});
             EXPECT_NEAR(told.force.norm(), 0.15 / scale, 1e-12);
         }

@@ -47,7 +47,7 @@ TEST(RigFile, OriginPutsTheWorldIntoItsFrame) {
     EXPECT_EQ(rig.jig[0].position, Vec3(0, -0.02, 0.03));
     EXPECT_EQ(wall_box(rig)->center(), Vec3(0, 0, 0.06));
     EXPECT_EQ(rig.moved_by, Vec3(0, 0.02, -0.03));
-    // what a session keeps is the same in the world
+    // the rig file that a session keeps gives the same world
     const Rig again = read_rig(folder.write("again.yaml", to_yaml(write_fields(rig))), diagnostics);
     EXPECT_EQ(again.devices[0].position, rig.devices[0].position);
     EXPECT_EQ(wall_box(again)->sizes(), Vec3(0.2, 0.16, 0.12));
@@ -99,7 +99,7 @@ constexpr const char* kPart =
     "[0, 0, "
     "90]}\n";
 
-/// A rig of one device, and its calibration.
+/// A rig of one device with a calibration.
 Rig calibrated(const testing::TemporaryFolder& folder, const std::string& calibration,
                const std::string& options, Diagnostics& diagnostics) {
     folder.write("calibration.yaml", calibration);

@@ -11,7 +11,7 @@ namespace {
 
 const auto kGoOn = [](double) { return true; };
 
-/// Devices with boxes for reach.
+/// A rig of devices whose reaches are boxes.
 Rig boxes(const std::vector<Vec3>& places, const std::string& edges) {
     Rig rig;
     for (const Vec3& place : places) {
@@ -24,7 +24,7 @@ Rig boxes(const std::vector<Vec3>& places, const std::string& edges) {
     return rig;
 }
 
-/// So many Premiums around a place, with their arms.
+/// A rig of `count` Premiums with arms, around one place.
 Rig premiums(int count) {
     Rig rig;
     for (int i = 0; i < count; ++i) {
@@ -83,8 +83,8 @@ TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
     const Rig rig = premiums(GetParam());
     const auto all = reaches(rig);
     const auto found = find_workspace(all, kGoOn);
-    // independent of the code above: joint angles, drawn so that points are uniform in the first
-    // device's reach (|det J| bounds their density), are asked of the others
+    // an estimate independent of the code above: joint angles are drawn so that points are uniform
+    // in the first device's reach (by |det J|), and the other devices are tested at these points
     Random random(7, "monte carlo");
     const model::PhantomLinks links;
     const model::PhantomLimits& limits = model::phantom_limits();
@@ -110,7 +110,7 @@ TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
     EXPECT_NEAR(found.shared / estimate, 1, 0.02) << estimate * 1e3 << " litres";
     EXPECT_GT(estimate, 1e-4);
 
-    // what is said to be within is
+    // points in the largest box and sphere are within every reach
     for (int n = 0; n < 5000; ++n) {
         const Vec3 d = Vec3(random.normal(), random.normal(), random.normal()).normalized();
         Vec3 inside;

@@ -35,7 +35,7 @@ struct Files {
 
     explicit Files(const std::string& mesh) { folder.write("l.obj", mesh); }
     Shape read(const std::string& text) {
-        diagnostics = {};
+        diagnostics = Diagnostics();
         const Scene scene = read_scene(folder.write("scene.yaml", text), diagnostics);
         return scene.bodies.empty() ? Shape{} : scene.bodies[0].shape;
     }

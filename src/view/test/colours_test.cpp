@@ -5,9 +5,9 @@
 namespace dihaptic::view::colours_test {
 namespace {
 
-/// Colours as persons without red (protanopia) or green cones (deuteranopia) see them: Machado,
-/// Oliveira, Fernandes, "A physiologically-based model for simulation of color vision deficiency"
-/// (2009), severity 1.
+/// Colours as people without red cones (protanopia) or green cones (deuteranopia) see them:
+/// Machado, Oliveira, Fernandes, "A physiologically-based model for simulation of color vision
+/// deficiency" (2009), severity 1.
 Mat3 without_red() {
     Mat3 m;
     m << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
@@ -37,7 +37,7 @@ TEST(Colours, FingersAndTheBlockDifferForEveryKindOfColourVision) {
         for (size_t i = 0; i < colours.size(); ++i) {
             for (size_t j = 0; j < i; ++j) {
                 const bool first_two = i == 3 && j == 2;  // thumb and index
-                // 2.3 is just noticeable
+                // a difference of 2.3 is just noticeable
                 EXPECT_GT((lab(sees * colours[i]) - lab(sees * colours[j])).norm(),
                           first_two ? 40 : 15)
                     << i << " " << j;

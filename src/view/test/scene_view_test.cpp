@@ -20,7 +20,7 @@ scene::Body box(const char* name, const Vec3& size, const Vec3& position) {
     return body;
 }
 
-/// A white table whose top is z = 0, and what is above it.
+/// A grey table whose top is z = 0, and bodies above it.
 scene::Scene on_table(const std::vector<scene::Body>& bodies) {
     scene::Scene scene;
     scene.bodies = {box("table", {0.6, 0.4, 0.05}, {0, 0, -0.025})};
@@ -45,7 +45,7 @@ Image picture(const scene::Scene& scene, const servo::Frame& frame, const Camera
     return offscreen.read();
 }
 
-/// Light of a pixel, its green part, from 0 to 1: what the sRGB value stands for (IEC 61966-2-1).
+/// Linear light of a pixel's green part, from 0 to 1, by the sRGB curve (IEC 61966-2-1).
 double light_at(const Image& image, int x, int y) {
     const double s = image.at(x, y)[1] / 255.0;
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -53,9 +53,9 @@ double light_at(const Image& image, int x, int y) {
 
 constexpr double kHalfTurn = std::numbers::pi;
 constexpr int kPixels = 200;
-constexpr double kSpan = 0.16;  // of the table in its pictures [m]
+constexpr double kSpan = 0.16;  // width of the table that its pictures show [m]
 
-/// Close above the table, looking straight down: what floats higher than 40 mm is behind it.
+/// A camera close above the table that looks straight down: bodies higher than 40 mm are behind it.
 Camera under(const Vec3& p_W) {
     Camera camera;
     camera.look_at = {p_W.x(), p_W.y(), 0};
@@ -64,8 +64,8 @@ Camera under(const Vec3& p_W) {
     return camera;
 }
 
-/// Shares of the light that reach the table around a point, as without the other bodies: rows from
-/// far to near.
+/// Light that reaches the table around a point, over that without the other bodies: by pixel, rows
+/// from far to near.
 std::vector<double> shares(const scene::Scene& scene, const Vec3& around) {
     const Image image = picture(scene, start(scene), under(around), kPixels, kPixels);
     const scene::Scene bare = on_table({});
@@ -129,7 +129,7 @@ TEST(SceneView, TheShadowOfAFloatingBlockMovesAsTheLightHasItAndSoftens) {
     }
 }
 
-/// Under a plate the table is dark everywhere, whatever the edge of another plate above it does.
+/// Under a plate the table is dark everywhere, even below the edge of another plate above it.
 TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     const scene::Body lower = box("lower", {0.4, 0.4, 0.004}, {0, 0, 0.06});
     const Vec3 light = SceneView::light();
@@ -148,11 +148,11 @@ TEST(SceneView, LittleLightBleedsThroughTwoLayers) {
     }
 }
 
-/// The table stands so steep that light only grazes it.
+/// The table is tilted until light only grazes it.
 TEST(SceneView, ATableInGrazingLightHasNoAcne) {
     const Vec3 light = SceneView::light();
     const auto look = [&](double above_horizon) {
-        // turned about x until the light comes from so low
+        // turned about x until the light is this far above the table's horizon
         const double full = std::atan2(light.z(), light.y());
         const double across = std::hypot(light.y(), light.z());
         scene::Scene scene = on_table({});
@@ -187,7 +187,7 @@ TEST(SceneView, ATableInGrazingLightHasNoAcne) {
     const double dark = look(-0.02)[2];
     for (const double degrees : {3.0, 5.0, 10.0, 20.0}) {
         const auto [least, most, mean] = look(degrees * kHalfTurn / 180);
-        // of the light that comes from there
+        // as a share of the light that comes from there
         EXPECT_LT((most - least) / (mean - dark), degrees < 4 ? 0.25 : 0.05) << degrees;
     }
 }
@@ -325,10 +325,10 @@ TEST(SceneView, StampsWhatItShowsAndLeavesTheTargetBound) {
     }
     const Image once = offscreen.read();
     view.draw(held.frame, held.camera(), 64, 48);
-    EXPECT_EQ(offscreen.read().rgb, once.rgb);  // nothing is left of the frame before
+    EXPECT_EQ(offscreen.read().rgb, once.rgb);  // nothing of the previous frame remains
 }
 
-/// A body whose place a damaged log does not tell is left out; the others are drawn as ever.
+/// A body whose place is NaN, as in a damaged log, is left out; the others are drawn as usual.
 TEST(SceneView, DrawsWhatIsKnown) {
     Held held;
     const Vec3 nan = Vec3::Constant(std::nan(""));
@@ -340,7 +340,7 @@ TEST(SceneView, DrawsWhatIsKnown) {
     EXPECT_EQ(without.rgb, away.rgb);
 }
 
-/// What an experiment moves is drawn where it says, as if it were there.
+/// Bodies that an experiment displays elsewhere are drawn as if they were there.
 TEST(SceneView, DrawsTheDisplayedWorld) {
     const Held held;
     servo::Frame moved = held.frame;

@@ -1,5 +1,5 @@
-// Pictures of tests are drawn in software, on whatever machine: those that are compared with stored
-// ones are of Mesa's renderer.
+// Makes tests draw in software on any machine: stored pictures that they compare with were drawn by
+// Mesa's software renderer.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -17,7 +17,7 @@ scene::VolumeIntegrals solid(const Triangles& t) {
     return scene::integrate(vertices, faces);
 }
 
-/// Share of the shape's volume that the triangles enclose, which is negative when they face inward.
+/// Volume that the triangles enclose over the shape's volume; negative if they face inward.
 double share(const scene::Shape& shape) {
     return solid(triangles(shape)).volume / scene::integrate(shape).volume;
 }

@@ -22,7 +22,7 @@ FeltOutside& outside() {
     return one;
 }
 
-/// What a device does is seen outside, too.
+/// Makes a device push with a force, and shows it outside the process too.
 void act(size_t i, const Wrench& push, bool told = false) {
     fake.devices[i].acting = push.force;
     fake.devices[i].acting_torque = push.torque;
@@ -50,7 +50,7 @@ void cut(size_t i, int cause) {
     act(i, {});
 }
 
-/// Its firmware's, if it was set: it ends a force that nobody renews.
+/// The watchdog of a device's firmware, if it was set: it ends a force that is not renewed.
 void watch(size_t i) {
     const Device& device = fake.devices[i];
     const double limit = device.watchdog * kDhdWatchdogStep;
@@ -83,7 +83,7 @@ Device* find(char id) {
     return &fake.devices[i];
 }
 
-Held state[8];  // by device, as last read
+Held state[8];  // by device, at the last reading
 
 }  // namespace
 
@@ -159,7 +159,7 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
     const Lock lock(mutex);
     Device* const device = find(id);
     const double t = i < fake.devices.size() ? now(fake.devices[i]) : 0;
-    if (i < fake.devices.size()) ++fake.devices[i].frames;  // its time goes on, heard or not
+    if (i < fake.devices.size()) ++fake.devices[i].frames;  // time goes on even if the call fails
     if (device == nullptr) return -1;
     state[i] = fake.hand ? fake.hand(i, t, {device->acting, device->acting_torque}) : Held{};
     if (device->fastest > 0 && state[i].v.norm() > device->fastest) cut(i, kDhdByVelocity);

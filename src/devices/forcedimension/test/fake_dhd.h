@@ -1,7 +1,7 @@
-// A libdhd of our own: it behaves as Force Dimension's documentation says, its faults included, and
-// moves its handles by a test's hand. As the real one it exists once in a program; fake_dhd() finds
-// it. Its time is that of its readings, a period each; of a whole program, which
-// DIHAPTIC_FAKE_PUSH moves, it is the real one.
+// A fake libdhd: it behaves as Force Dimension's documentation says, including faults, and a test's
+// hand moves its handles. Like the real library it exists once in a program; fake_dhd() finds it.
+// Its time advances by a period with each reading; in a whole program, whose handles
+// DIHAPTIC_FAKE_PUSH moves, it is real time.
 #pragma once
 
 #include <dlfcn.h>
@@ -18,11 +18,11 @@ struct FakeDhd {
     struct Device {
         std::string model = "omega.3";
         unsigned short serial = 0;
-        double max_force = 12;      ///< [N]; negative: it does not say
-        double max_torque = -1;     ///< [N*m]; the same
+        double max_force = 12;      ///< [N]; negative: not stated
+        double max_torque = -1;     ///< [N*m]; negative: not stated
         bool wrist = false;         ///< measures orientation
         bool active_wrist = false;  ///< renders torque
-        bool has_watchdog = true;   ///< of firmware that has one: it acts only when it was set
+        bool has_watchdog = true;   ///< whether the firmware has one; it acts only if it was set
         bool in_use = false;        ///< by another program
         bool power = true;
         bool connected = true;
@@ -33,34 +33,34 @@ struct FakeDhd {
         bool time_guard = false;  ///< dhdGetPosition() returns 1
         double fastest = 0;       ///< its velocity threshold; 0: none [m/s]
 
-        // what became of it
+        // the device's state
         bool open = false;
         bool force_enabled = false;
         bool gravity = false;
         int cause = 0;  ///< DhdForceOff
         int frames = 0;
         unsigned char watchdog = 0;         ///< steps of 125 us; 0: none
-        double told_at = 0;                 ///< a force, in its time [s]
-        Vec3 wanted = Vec3::Zero();         ///< as it was last told [N]
-        Vec3 acting = Vec3::Zero();         ///< what pushes the hand [N]
-        Vec3 acting_torque = Vec3::Zero();  ///< and turns it [N*m]
+        double told_at = 0;                 ///< when it was last told a force, in its time [s]
+        Vec3 wanted = Vec3::Zero();         ///< force that it was last told [N]
+        Vec3 acting = Vec3::Zero();         ///< force that acts on the hand [N]
+        Vec3 acting_torque = Vec3::Zero();  ///< torque that acts on the hand [N*m]
     };
     std::vector<Device> devices;
-    Hand hand;             ///< none: the handles stay where they are
-    double period = 1e-3;  ///< [s]
-    bool expert = false;   ///< mode, in which a watchdog may be set
+    Hand hand;             ///< null: the handles stay where they are
+    double period = 1e-3;  ///< time between readings [s]
+    bool expert = false;   ///< expert mode, in which a watchdog may be set
     /// Called at the beginning of dhdGetPosition(): may block.
     std::function<void(size_t device)> in_position;
 
-    /// A device cuts its force; `cause` is a DhdForceOff.
+    /// Makes a device cut its force; `cause` is a DhdForceOff.
     std::function<void(size_t device, int cause)> cut;
-    /// Anew, with two omega.3.
+    /// Starts anew, with two omega.3.
     std::function<void()> reset;
 };
 
-#if __has_include("fake_makers.h")  // not where the library itself is built
+#if __has_include("fake_makers.h")  // absent where the fake library itself is built
 #include "fake_makers.h"
-/// The one in this program, as it is; and made anew.
+/// The fake library of this program, as it is; fake_dhd() resets it.
 inline FakeDhd& fake_dhd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_DHD, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

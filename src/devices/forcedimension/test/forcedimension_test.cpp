@@ -1,4 +1,4 @@
-// The DHD backend on a fake libdhd: what it reads, how it fails, and what it says then.
+// Tests the DHD backend on a fake libdhd: what it reads, how it fails, and its messages then.
 #include <cmath>
 
 #include "devices/forcedimension/backend.h"
@@ -19,7 +19,7 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({"serial: 101\n", "serial: 102\n"});
 }
 
-/// Ticks of a servo that pushes along x.
+/// Runs ticks as a servo that pushes along x.
 class Ticks {
   public:
     explicit Ticks(DeviceGroup& group)
@@ -85,7 +85,7 @@ TEST(ForceDimension, WhatReturnsMoreThanZeroIsNoError) {
     const auto group = make_two();
     Ticks ticks(*group);
     EXPECT_EQ(ticks.status(0, 13), 0u);
-    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // of the last tick
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceClamped});  // for the force of the last tick
     EXPECT_EQ(ticks.status(0, 1), 0u);
 }
 
@@ -205,7 +205,7 @@ TEST(ForceDimension, AForceThatNobodyRenewsEndsWithin32Ms) {
     EXPECT_EQ(fake.devices[1].acting, Vec3::Zero());
     EXPECT_EQ(readings[0].status, uint32_t{kForceDropped});
     expect_in("It heard nothing for 32 ms", group->explain(0));
-    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // of the reading before it is armed
+    EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // the reading precedes arming it again
     EXPECT_EQ(ticks.status(0, 1), 0u);
     EXPECT_EQ(fake.devices[0].acting, Vec3(1, 0, 0));
 }
@@ -214,7 +214,7 @@ TEST(ForceDimension, WhatTheWatchdogEndsInAPauseWithoutForceIsNoDrop) {
     FakeDhd& fake = fake_dhd();
     const auto group = make_two();
     Ticks ticks(*group);
-    for (const double force : {0.0, 1.0}) {  // from activation on, and after a pause
+    for (const double force : {0.0, 1.0}) {  // after activation, then after a pause
         std::vector<Reading> readings(2);
         for (int ms = 0; ms < 100; ++ms) group->read(milliseconds(ms), readings);
         EXPECT_FALSE(fake.devices[0].force_enabled);
@@ -280,7 +280,7 @@ TEST(ForceDimension, AnActiveWristIsReadAndTurned) {
     EXPECT_TRUE(group->info(0).measures_orientation);
     EXPECT_EQ(group->info(0).peak_torque, 0.4);
     EXPECT_DOUBLE_EQ(group->info(0).continuous_torque, 0.1);
-    EXPECT_TRUE(group->info(1).measures_orientation);  // as an omega.6, whose wrist is passive
+    EXPECT_TRUE(group->info(1).measures_orientation);  // like an omega.6, whose wrist is passive
     EXPECT_EQ(group->info(1).peak_torque, 0);
     group->activate();
     std::vector<Reading> readings(2);

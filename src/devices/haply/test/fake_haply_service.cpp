@@ -1,12 +1,12 @@
-// Stands for the Inverse Service where the program runs whole: a process of its own, which outlives
-// the death of its client as the real one does, and ends with whoever started it.
+// A fake Inverse Service for tests of the whole program: a process of its own, which outlives its
+// client as the real one does, and ends with the process that started it.
 //
 //   fake_haply_service [DEVICES]      prints its address, then the devices' serial numbers, a line
-//                                     each; 2 devices if not said
+//                                     each; 2 devices by default
 //
-// Its ticks are at 1 kHz of the real clock. DIHAPTIC_FAKE_PUSH moves its handles, and
-// DIHAPTIC_FAKE_FELT shows what its devices do, as of the makers' fake libraries. A force lasts one
-// tick; what Haply's own service leaves on for how long is not known.
+// It ticks at 1 kHz on the real clock. DIHAPTIC_FAKE_PUSH moves its handles, and DIHAPTIC_FAKE_FELT
+// shows what its devices do, as for the makers' fake libraries. A force lasts one tick; how long
+// Haply's own service leaves a force on is not known.
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <unistd.h>

@@ -134,7 +134,7 @@ struct FakeService::Impl {
         });
     }
 
-    /// A message of the client.
+    /// Takes a message of the client.
     void take(const std::string& text) {
         const auto json = nlohmann::json::parse(text);
         Forces these(setup.devices.size(), Vec3::Zero());
@@ -161,7 +161,7 @@ struct FakeService::Impl {
         commanded = true;
         ++owed;
         if (setup.rate > 0) return;
-        // time begins with the first message: the state of a session's first tick is that of time 0
+        // time begins with the first message: a session's first tick has the state at time 0
         if (session->messages > 0) tick();
         answer();
     }
@@ -225,7 +225,7 @@ struct FakeService::Impl {
         if (mischief == Mischief::half_json) text.resize(text.size() / 2);
         if (mischief == Mischief::complains) text = R"({"error":"device-safety-triggered"})";
         if (half) {
-            // the header of a whole text frame, unmasked as a server's are
+            // the header of a whole text frame, unmasked like every frame of a server
             const std::string head{'\x81', '\x7e', static_cast<char>(text.size() >> 8),
                                    static_cast<char>(text.size() & 0xff)};
             error_code ec;
@@ -288,23 +288,23 @@ struct FakeService::Impl {
     }
 
     Setup setup;
-    std::unique_ptr<DeviceGroup> plant;  // none with a hand
+    std::unique_ptr<DeviceGroup> plant;  // null if there is a hand
     FeltOutside outside;
     Time period;
     Time time{0};
     std::vector<Reading> readings;
     std::vector<Wrench> forces;
     bool commanded = false;  // a message came in this tick
-    int owed = 0;            // answers
+    int owed = 0;            // number of answers that are owed
 
     net::io_context io{1};
     net::ip::tcp::acceptor acceptor{io, {net::ip::make_address("127.0.0.1"), 0}};
     net::steady_timer timer{io};
     std::shared_ptr<Session> session;
-    Mischief mischief = Mischief::none;  // that it is at
+    Mischief mischief = Mischief::none;  // what it does wrong now
     size_t mischief_device = 0;
 
-    mutable std::mutex mutex;  // of what is below
+    mutable std::mutex mutex;  // guards the members below
     Mischief planned = Mischief::none;
     int planned_message = -1;
     Time planned_pause{0};

@@ -1,4 +1,4 @@
-// The backend against the fake service: what it asks of a set-up, and what becomes of trouble.
+// Tests the backend on the fake service: what it requires of a set-up, and what trouble leads to.
 #include <gtest/gtest.h>
 
 #include "devices/haply/connection.h"
@@ -46,7 +46,7 @@ class Haply : public ::testing::Test {
         const std::string waits = "time_out_ms: " + std::to_string(time_out_ms_) + ", ";
         return make_group(rig_of(*service_, fingers_, waits + more), context_);
     }
-    /// What activating it says.
+    /// The message with which activation fails.
     std::string refusal(const std::string& more = "") {
         try {
             group(more)->activate();
@@ -60,7 +60,7 @@ class Haply : public ::testing::Test {
     Context context_;
     std::vector<DeviceConfig> fingers_;
     std::unique_ptr<FakeService> service_;
-    int time_out_ms_ = 1000;  // of a busy machine
+    int time_out_ms_ = 1000;  // long enough for a busy machine
 };
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
@@ -208,7 +208,7 @@ TEST_F(Haply, ReadsAndPushesTheDevicesBehindTheService) {
     EXPECT_EQ(readings[1].status, kForceClamped);
     devices->deactivate();
     const auto received = service_->received();
-    ASSERT_EQ(received.size(), 52u);  // the first and the last without force
+    ASSERT_EQ(received.size(), 52u);  // 50, and one without force before and after
     EXPECT_EQ(received.front()[0], Vec3::Zero());
     EXPECT_EQ(received[1][0], Vec3(0, 0, 1));
     EXPECT_EQ(received[1][1], Vec3(0, -5, 0));
@@ -349,8 +349,8 @@ TEST_F(Haply, SurveysWhatTheServiceLists) {
 
 struct Trouble {
     Mischief what;
-    bool one_device = false;  ///< the other one is well
-    bool ends = true;         ///< the connection
+    bool one_device = false;  ///< the other device has no trouble
+    bool ends = true;         ///< whether it ends the connection
 };
 class HaplyTrouble : public Haply, public ::testing::WithParamInterface<Trouble> {};
 
@@ -423,7 +423,7 @@ TEST_P(HaplyRate, LosesAndDoublesNoCommand) {
     devices->activate();
     const NumberedRun first =
         expect_no_command_lost_or_doubled(*devices, *service_, 1, static_cast<int>(GetParam() / 4));
-    // a pause between, as Servo::rest() begins it
+    // a pause, which begins as in Servo::rest()
     devices->write(std::vector<Wrench>(2));
     devices->write(std::vector<Wrench>(2));
     expect_no_command_lost_or_doubled(*devices, *service_, first.sent + 2, 20);

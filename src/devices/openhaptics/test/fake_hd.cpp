@@ -28,7 +28,7 @@ struct Scheduled {
     unsigned short priority;
 };
 
-/// One lock for all: nothing here is in a hurry.
+/// One lock for everything: speed does not matter here.
 std::recursive_mutex mutex;
 std::deque<HdErrorInfo> errors;
 HdHandle current = kNoHandle;
@@ -41,11 +41,11 @@ std::thread scheduler;
 std::atomic<std::thread::id> scheduler_id;
 std::vector<int> frames_of_tick;  // by device
 std::vector<bool> framed;         // by device
-Wrench wanted[8];                 // by device: set in this frame
+Wrench wanted[8];                 // by device, as set in this frame
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
-/// What a device does is seen outside, too.
+/// Makes a device push with a force, and shows it outside the process too.
 void act(Device& device, const Wrench& push, bool told = false) {
     static FeltOutside outside;
     device.acting = push.force;
@@ -97,7 +97,7 @@ void reset() {
     framed.assign(8, false);
 }
 
-/// A device's functions while the scheduler runs are for its callbacks.
+/// While the scheduler runs, only its callbacks may call a device's functions.
 void look_at_thread() {
     if (running.load() && std::this_thread::get_id() != scheduler_id) ++fake.violations;
 }
@@ -128,7 +128,7 @@ void run_scheduler() {
         silent = silent || fake.silent || (fake.before_tick && !fake.before_tick(tick));
         const bool called = !silent && call_all();
         do {
-            next += period;  // what was missed is left out
+            next += period;  // ticks that were missed are left out
         } while (next < Clock::now());
         if (fake.real_time) {
             std::this_thread::sleep_until(next);
@@ -138,7 +138,7 @@ void run_scheduler() {
     }
 }
 
-/// The current device, which the call is about; null and an error when there is none.
+/// The current device, which the call is about. Returns null and raises an error if there is none.
 Device* here() {
     look_at_thread();
     return find(current);
@@ -153,9 +153,9 @@ Held held(Device& device) {
     ++device.frames;
     return out;
 }
-Held state[8];  // by device: in this frame
+Held state[8];  // by device, in this frame
 
-/// What an arm's encoders say, in our signs.
+/// Joint angles as an arm's encoders report them, with our signs [rad].
 Vec3 told_joints(const Device& device, const Held& now) {
     return model::phantom_joints({}, now.p) - *device.joint_offset;
 }
@@ -165,13 +165,13 @@ Vec3 middle(const Device& device) {
     return Vec3(w[0] + w[3], w[1] + w[4], w[2] + w[5]) / 2;
 }
 
-/// Where HD says that the handle is [mm].
+/// Position of the handle as HD reports it [mm].
 Vec3 told_position(const Device& device, const Held& now) {
     if (device.joint_offset) return 1e3 * model::phantom_position({}, told_joints(device, now));
     return 1e3 * now.p + middle(device);
 }
 
-/// What of a force reaches the hand: it ramps up after the amplifiers came on.
+/// The part of a force that reaches the hand: force ramps up after the amplifiers come on.
 Wrench ramped(Device& device, const Wrench& push) {
     const double most = fake.ramp * ++device.frames_of_force / static_cast<double>(rate);
     const double size = push.force.norm();
@@ -368,7 +368,7 @@ void hdSetDoublev(unsigned value, const double* in) {
     if (here() == nullptr) return;
     const bool turn = value == kHdTorque && fake.devices[current].output_dof >= 6;
     if (value != kHdForce && !turn) return push(0x100, current);
-    // outside of a frame a force goes nowhere, and is a mistake
+    // outside a frame a force has no effect, and is a mistake
     if (!framed[current]) ++fake.violations;
     if (turn) wanted[current].torque = Vec3(in[0], in[1], in[2]) * 1e-3;
     if (!turn) wanted[current].force = Vec3(in[0], in[1], in[2]);

@@ -1,5 +1,5 @@
-// A libHD of our own: it behaves as OpenHaptics' manuals say, its faults included, and moves its
-// handles by a test's hand. As the real one it exists once in a program; fake_hd() finds it.
+// A fake libHD: it behaves as OpenHaptics' manuals say, including faults, and a test's hand moves
+// its handles. Like the real library it exists once in a program; fake_hd() finds it.
 #pragma once
 
 #include <dlfcn.h>
@@ -18,39 +18,39 @@ struct FakeHd {
         std::string name;
         std::string model = "PHANToM Premium 1.0";
         std::string serial;
-        unsigned style = 1;             ///< of calibration: HdCalibrationStyle, added
+        unsigned style = 1;             ///< of calibration: sum of HdCalibrationStyle
         unsigned calibration = 0x5000;  ///< HdCalibration
-        unsigned updated = 0x5000;      ///< what that is after an update
+        unsigned updated = 0x5000;      ///< HdCalibration after an update
         int input_dof = 3;
         int output_dof = 3;
         double max_force = 8.5;                                ///< [N]
         double continuous_force = 1.4;                         ///< [N]
-        double max_torque = -1;                                ///< [mN*m]; negative: not told
-        double continuous_torque = -1;                         ///< the same
+        double max_torque = -1;                                ///< [mN*m]; negative: not stated
+        double continuous_torque = -1;                         ///< [mN*m]; negative: not stated
         double max_stiffness = 1;                              ///< [N/mm]
         double max_damping = 0.005;                            ///< [N*s/mm]
         double workspace[6] = {-127, -60, -40, 127, 118, 87};  ///< minima, maxima [mm]
-        /// Its joints' true angles less those that it tells, and goes by; unset: it tells none
-        /// [rad].
+        /// True minus reported joint angles [rad], of a device whose positions follow from the
+        /// reported ones; unset: it reports no joint angles.
         std::optional<Vec3> joint_offset;
         bool nonsense = false;  ///< its position is not a number
 
-        // what became of it
+        // the device's state
         bool initialised = false;
         bool late = false;  ///< initialised while the scheduler ran: takes no part
         bool force_enabled = false;
         bool ramping = false;
-        int resets = 0;                     ///< of its encoders
-        Vec3 acting = Vec3::Zero();         ///< what pushes the hand [N]
-        Vec3 acting_torque = Vec3::Zero();  ///< and turns it [N*m]
+        int resets = 0;                     ///< number of encoder resets
+        Vec3 acting = Vec3::Zero();         ///< force that acts on the hand [N]
+        Vec3 acting_torque = Vec3::Zero();  ///< torque that acts on the hand [N*m]
         int frames = 0;
-        int frames_of_force = 0;  ///< since its amplifiers came on
+        int frames_of_force = 0;  ///< number of frames since its amplifiers came on
     };
     std::vector<Device> devices;
-    Hand hand;              ///< none: the handles stay where they are
-    bool real_time = true;  ///< or as fast as the machine goes
+    Hand hand;              ///< null: the handles stay where they are
+    bool real_time = true;  ///< otherwise as fast as the machine goes
     double ramp = 50;       ///< of force, when it comes on [N/s]
-    std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that it runs at
+    std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that the scheduler can run at
     unsigned init_error = 0;                                  ///< of the next hdInitDevice()
     bool silent = false;  ///< the scheduler calls no more callbacks
     /// Called by the scheduler before each tick, from 0; false: it calls no more callbacks.
@@ -58,17 +58,17 @@ struct FakeHd {
     /// Called in hdBeginFrame(): may block.
     std::function<void(size_t device)> in_frame;
     int violations = 0;      ///< calls that the manuals forbid
-    int callbacks_left = 0;  ///< that were scheduled and neither done nor unscheduled
+    int callbacks_left = 0;  ///< number of callbacks neither done nor unscheduled
 
-    /// An error of a device comes onto the stack; those of force take its force away at once.
+    /// Puts an error of a device onto the stack; a force error takes its force away at once.
     std::function<void(unsigned code, size_t device)> raise;
-    /// Anew, with the two devices of the rig of 2012.
+    /// Starts anew, with the two devices of the rig of 2012.
     std::function<void()> reset;
 };
 
-#if __has_include("fake_makers.h")  // not where the library itself is built
+#if __has_include("fake_makers.h")  // absent where the fake library itself is built
 #include "fake_makers.h"
-/// The one in this program, as it is; and made anew.
+/// The fake library of this program, as it is; fake_hd() resets it.
 inline FakeHd& fake_hd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_HD, RTLD_LAZY | RTLD_GLOBAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

@@ -1,4 +1,4 @@
-// The HD backend on a fake libHD: what it reads, how it fails, and what it says then.
+// Tests the HD backend on a fake libHD: what it reads, how it fails, and its messages then.
 #include <thread>
 
 #include "devices/openhaptics/backend.h"
@@ -21,7 +21,7 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({kTwo[0], kTwo[1]});
 }
 
-/// Runs `ticks` through pace(), as a servo that pushes with `force`; looks at each tick's readings.
+/// Runs `ticks` through pace() as a servo that pushes with `force`; keeps each tick's readings.
 struct Paced {
     std::vector<std::vector<Reading>> readings;
     explicit Paced(DeviceGroup& group, int ticks, const Vec3& force = Vec3::Zero(),
@@ -85,7 +85,7 @@ TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
     fake.hand = [&](size_t, double, const Wrench&) { return Held{model::phantom_position({}, q)}; };
     const auto group = make({"joint_angles: yes\n"});
     ASSERT_TRUE(group->info(0).arm);
-    // around HD's own origin the device reaches less to one side
+    // HD's own origin is not the middle of the workspace: the box is the smaller side's
     EXPECT_TRUE(group->info(0).workspace->isApprox(Vec3(0.254, 0.120, 0.080)));
     group->activate();
     const Reading reading = Paced(*group, 1).readings[0][0];
@@ -316,8 +316,8 @@ TEST_P(HdForceErrors, TakeOneTicksForceAndAreArmedAgain) {
     EXPECT_EQ(run.readings[10][1].status, uint32_t{kForceDropped});
     EXPECT_EQ(run.readings[10][0].status, 0u);
     EXPECT_EQ(run.readings[11][1].status, 0u);
-    EXPECT_EQ(felt[1][10], 0);  // by itself
-    EXPECT_EQ(felt[1][11], 0);  // since zero was written
+    EXPECT_EQ(felt[1][10], 0);  // the device cut its force itself
+    EXPECT_EQ(felt[1][11], 0);  // zero was written
     EXPECT_EQ(felt[1][12], 1);
     EXPECT_NE(group->explain(1), "");
     EXPECT_EQ(group->explain(0), "");
@@ -365,7 +365,7 @@ TEST_P(HdLosses, LeaveADeviceAloneForGoodAndTheOthersInTheirFrames) {
     EXPECT_EQ(fake.devices[1].frames, 20);
     EXPECT_NE(group->explain(0), "");
     group->deactivate();
-    group->activate();  // and there is a way back
+    group->activate();  // recovers the device
     EXPECT_EQ(Paced(*group, 1).readings[0][0].status, 0u);
 }
 INSTANTIATE_TEST_SUITE_P(OpenHaptics, HdLosses,

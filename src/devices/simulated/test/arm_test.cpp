@@ -47,7 +47,7 @@ TEST(Arm, KeepsItsEnergyWithoutFriction) {
             drift = std::max(drift, std::abs(energy() - begin));
         }
         EXPECT_GT(fastest, 0.5);
-        EXPECT_LT(drift / begin, 1e-7) << carried;  // the bar is 0.1 %
+        EXPECT_LT(drift / begin, 1e-7) << carried;  // required: 0.1 %
     }
 }
 
@@ -90,7 +90,7 @@ TEST(Arm, StopsWhereItsJointsEnd) {
     EXPECT_LT(arm.rate().norm(), 1e-9);
 }
 
-/// A hand that goes around.
+/// A hand that moves around.
 class RoundDriver final : public hand::Driver {
   public:
     static Vec3 at(double t) {
