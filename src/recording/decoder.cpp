@@ -161,7 +161,7 @@ class FrameDecoder::Builder {
         const bool changed = rest == kChangedFollow;
         if (!of_item && (changed || rest == kEachFollows)) return begin_list(line, changed);
         const std::optional<size_t> size = bytes_of(first_word(rest));
-        if (!size || (of_item && list_name_.empty())) throw unreadable();
+        if (!size || (of_item && !out_.steps_.back().list)) throw unreadable();
         if (of_item) {
             add_to_list(line, *size);
         } else {

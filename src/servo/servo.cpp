@@ -326,7 +326,7 @@ void Servo::turn_workspaces(double rate) noexcept {
     if (faults_.tripped()) {
         turn_.stop();
     } else {
-        turn_.order(rate, settings_.tick());
+        turn_.order(rate, std::max(elapsed_, settings_.tick()));
     }
     if (turn_.rate() == 0 && frame_.workspace_rate == 0) return;
     for (const haptics::Finger& finger : fingers_)

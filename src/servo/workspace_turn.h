@@ -48,9 +48,11 @@ class WorkspaceTurn {
     void advance(double elapsed) noexcept {
         if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
     }
-    /// Sets the rate from this tick of h [s] on, within the bounds.
-    void order(double rate, double h) noexcept {
-        const double change = kMostAcceleration * h;
+    /// Sets the rate from this tick on, within the bounds. `elapsed` [s]: since the last order, or
+    /// a tick's length if that is longer; where ticks come late, the turn could not slow down in
+    /// time if it were less.
+    void order(double rate, double elapsed) noexcept {
+        const double change = kMostAcceleration * elapsed;
         rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);
     }
     void stop() noexcept { rate_ = 0; }

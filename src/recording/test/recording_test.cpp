@@ -204,7 +204,10 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
          {std::string(), std::string("nonsense"), schema_without("time int64 ns"),
           schema_without("sequence int64 1"), schema() + "colour chars 1\n",
           schema() + "colour int7 1\n", schema() + "colour int8[3 1\n",
-          schema() + "colour int8[99999999999999999999] 1\n", "  colour int32 1\n" + schema()}) {
+          schema() + "colour int8[99999999999999999999] 1\n", "  colour int32 1\n" + schema(),
+          // an item's field where no list is
+          schema() +
+              "marks uint16 count, then each:\n  size int8 1\nhue int8 1\n  colour int8 1\n"}) {
         EXPECT_THROW(FrameDecoder(text, "raw.log"), Error) << text;
     }
 }

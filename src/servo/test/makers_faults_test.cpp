@@ -9,6 +9,7 @@
 #include "devices/test/fakes.h"
 #include "lift.h"
 #include "servo/run.h"
+#include "testing/sanitizer.h"
 
 namespace dihaptic::servo::makers_faults_test {
 namespace {
@@ -226,6 +227,7 @@ TEST_P(Late, By50MsTakesAllForceAway) {
         EXPECT_EQ(grasp.acting(0), 0);
         EXPECT_EQ(grasp.acting(1), 0);
     });
+    if (testing::kSanitized) return;
     // on a busy machine another pause may have come first
     EXPECT_EQ(grasp.servo->fault().kind, FaultKind::late);
     EXPECT_NE(grasp.told().find("look for a device that blocks"), std::string::npos)
@@ -254,8 +256,10 @@ TEST(LateCalls, OfDevicesThatPaceAreOverrunsThoughNoTickIs) {
             recorded += (frame.status & kOverrun) != 0;
         },
         Time(0), milliseconds(300), stop, timing);
-    EXPECT_NE(status & kOverrun, 0u);
     EXPECT_EQ(timing.overruns, recorded);
+    if (!testing::kSanitized) {
+        EXPECT_NE(status & kOverrun, 0u);
+    }
 }
 
 class LateStopped : public Late {};
@@ -265,6 +269,7 @@ TEST_P(LateStopped, ACallThatBlocksIsNotWaitedFor) {
     // while the call still blocks
     blocked = [&] { force = grasp.acting(0) + grasp.acting(1); };
     const Timing timing = run(grasp, milliseconds(200), {});
+    if (testing::kSanitized) return;
     EXPECT_EQ(force, 0);
     ASSERT_TRUE(timing.stall.has_value());
     EXPECT_TRUE(timing.stall->stopped);

@@ -223,7 +223,7 @@ TEST(Perturbation, AForceOnAHandleIsAddedToTheCouplingsAndLimitedAsThatIs) {
 
 TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
     const Vec3 centre(0.3, 0, 0.1);
-    const auto path = [&](const VisualMap& map) {
+    const auto path = [&](const VisualMap& map) -> Vec3 {
         Desk desk(true, 0.5, {0.1, 0, 0});
         double farthest = 0;
         for (int i = 0; i < 500; ++i) {
