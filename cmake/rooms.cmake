@@ -18,6 +18,9 @@ endfunction()
 # to read the same headers. What one source keeps for itself (in its unnamed namespace) has a name that no other
 # source of the target gives to something else; NAME_test.cpp has a namespace NAME_test, and so may use any name.
 function(dihaptic_together target)
+    if(DEFINED CMAKE_UNITY_BUILD AND NOT CMAKE_UNITY_BUILD)
+        return()
+    endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
     # what a class keeps behind a pointer to its Impl may be of a type of its source's own
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
@@ -106,6 +109,7 @@ function(dihaptic_room name)
             add_dependencies(fuzzers ${target})
         else()
             target_link_libraries(${target} PRIVATE dihaptic_feed_corpus)
+            dihaptic_precompile(${target} dihaptic_base)
             add_test(NAME ${target} COMMAND ${target} ${corpus} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
             set_tests_properties(${target} PROPERTIES LABELS ${name} TIMEOUT 900)
         endif()
@@ -113,19 +117,20 @@ function(dihaptic_room name)
 endfunction()
 
 # The table of a seam's implementations: each subfolder with a header KIND.h has a namespace of the
-# folder's name, in NAMESPACE, with a function KIND(). FILE is made from FILE.in, which has @includes@
-# and @entries@. Adding one touches one folder.
+# folder's name, in NAMESPACE, with a function KIND(); a KIND of test/NAME is for tests alone, and its function is
+# NAME(). FILE is made from FILE.in, which has @includes@ and @entries@. Adding one touches one folder.
 #
 #   dihaptic_table(device_table.cpp backend dihaptic::devices)
 function(dihaptic_table file kind namespace)
     get_filename_component(room ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    get_filename_component(function ${kind} NAME)
     file(GLOB headers RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS */${kind}.h)
     set(includes "")
     set(entries "")
     foreach(header ${headers})
-        get_filename_component(folder ${header} DIRECTORY)
+        string(REGEX REPLACE "/.*" "" folder ${header})
         string(APPEND includes "#include \"${room}/${header}\"\n")
-        string(APPEND entries "    ${namespace}::${folder}::${kind}(),\n")
+        string(APPEND entries "    ${namespace}::${folder}::${function}(),\n")
     endforeach()
     configure_file(${file}.in ${file} @ONLY)
 endfunction()

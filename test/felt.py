@@ -5,8 +5,8 @@ import time
 
 
 class Felt:
-    """Per device: force, when it was last told one, its firmware's watchdog, when force last went."""
-    DEVICE = struct.Struct("4d")
+    """Per device: force, when it was last told one, its firmware's watchdog, when force last went, how often it was opened."""
+    DEVICE = struct.Struct("5d")
 
     def __init__(self, file):
         with open(file, "w+b") as f:
@@ -20,10 +20,14 @@ class Felt:
         """What the devices were told last [N]."""
         return [force for force, *_ in self.devices()]
 
+    def opened(self):
+        """How often each device was opened, by any process."""
+        return [opened for *_, opened in self.devices()]
+
     def acting(self):
         """What pushes the hands now [N]."""
         now = time.monotonic()
-        return [0 if watchdog > 0 and now - told > watchdog else force for force, told, watchdog, _ in self.devices()]
+        return [0 if watchdog > 0 and now - told > watchdog else force for force, told, watchdog, *_ in self.devices()]
 
     def wait_for_force(self, seconds=60, settle=0.1):
         end = time.monotonic() + seconds
@@ -39,7 +43,7 @@ class Felt:
         while time.monotonic() - since < seconds:
             if max(self.acting()) == 0:
                 times = []
-                for force, told, watchdog, gone in self.devices():
+                for force, told, watchdog, gone, _ in self.devices():
                     times.append(told + watchdog - since if force > 0 else gone - since)
                 return max(0, *times)  # a force that lasts one tick may have been away already
             time.sleep(0.0005)

@@ -5,6 +5,7 @@ which values of the command's JSON it stands for, and between which bounds they 
 of a list and [key=value] for those that have it; "over" divides by another. "pattern" is sought in the command's text instead.
 "quiet" rows are times: they want a machine that does nothing else. "peers" rows want the program of ./dev bench --peers.
 "arguments" are what is run, where it is not the command with --json; {tmp} in them is a folder that is deleted afterwards.
+A command that begins with dihaptic-bench is run by that program, which lies beside PROGRAM.
 
     figures.py PROGRAM             runs all but the quiet rows and compares
     figures.py PROGRAM --quiet     runs the quiet rows as well
@@ -101,7 +102,9 @@ def differences(row, output):
 def run(program, row):
     with tempfile.TemporaryDirectory() as folder:
         arguments = row.get("arguments", row["command"] + " --json").replace("{tmp}", folder)
-        result = subprocess.run([program, *shlex.split(arguments)], cwd=ROOT, capture_output=True, text=True)
+        words = shlex.split(arguments)
+        of = [program + "-bench", *words[1:]] if words[0] == "dihaptic-bench" else [program, *words]
+        result = subprocess.run(of, cwd=ROOT, capture_output=True, text=True)
     if result.returncode != 0:
         raise RuntimeError(f"{arguments}: returned {result.returncode}\n{result.stderr}")
     return result.stdout + result.stderr if any("pattern" in c for c in row["checks"]) else result.stdout

@@ -158,6 +158,11 @@ class Nwb(unittest.TestCase):
                               "outcome": "-1: none", "message": "-1: none", "thumb_status": "2: a force or a torque was cut"}.items():
             self.assertIn(meaning, self.file["acquisition/" + name].attrs["description"], name)
 
+    def test_descriptions_are_those_of_the_quantities(self):
+        self.assertEqual(self.file["acquisition/thumb_force_sent"].attrs["description"],
+                         "thumb: Force on the handle, as sent to the device. In the world's axes.")
+        self.assertIn(" gap [m]: Smallest distance; negative: penetration. ", self.file["acquisition/contacts"].attrs["description"])
+
     def test_axes_are_those_of_the_data(self):
         for finger in ["thumb", "index"]:
             device = self.file[f"acquisition/{finger}_device_position"]

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "command.h"
-#include "experiment/check.h"
+#include "session/check.h"
 
 namespace dihaptic::cli {
 
@@ -22,7 +22,7 @@ void add_check(CLI::App& app) {
         size_t bad = 0;
         for (const std::string& file : *files) {
             Diagnostics diagnostics;
-            const experiment::Checked checked = experiment::check_file(file, diagnostics, *rig);
+            const session::Checked checked = session::check_file(file, diagnostics, *rig);
             print(diagnostics.problems(), stdout);
             const auto warnings =
                 std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),

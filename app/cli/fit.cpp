@@ -96,7 +96,7 @@ void add_fit(CLI::App& app) {
                      "CSV, a row a trial: perturbation, clamp (0 or 1), compensation (empty: not "
                      "measured)")
         ->required();
-    two_rate->add_flag("--json", *json, "one JSON object on standard output, nothing else");
+    add_json(*two_rate, *json);
     two_rate->footer("\nExample:\n  dihaptic fit two_rate person.csv --json");
     two_rate->callback([file, json] {
         const Trials trials = read_trials(*file);

@@ -9,7 +9,7 @@
 #include "base/regular_file.h"
 #include "base/temporary_folder.h"
 #include "base/text_file.h"
-#include "experiment/frozen_inputs.h"
+#include "session/frozen_inputs.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -62,7 +62,7 @@ bool has_people(const std::string& folder) {
 
 }  // namespace
 
-Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population) {
+Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population) {
     Rehearsal out;
     out.program = recording::program_version();
     out.experiment = plan.title;
@@ -72,7 +72,7 @@ Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& p
     out.inputs = Node::mapping();
     const TemporaryFolder scratch;
     const auto folder = recording::SessionFolder::create(scratch.path(), "inputs");
-    for (const recording::InputFile& input : experiment::freeze_inputs(plan, folder)) {
+    for (const recording::InputFile& input : session::freeze_inputs(plan, folder)) {
         if (input.file == "trial-list.csv") continue;  // differs from person to person
         const bool text = fs::path(input.file).extension() == ".yaml";
         out.inputs.set(input.file,

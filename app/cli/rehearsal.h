@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "experiment/plan.h"
 #include "person/population.h"
+#include "session/plan.h"
 
 namespace dihaptic::cli {
 
@@ -27,7 +27,7 @@ struct Rehearsal {
 };
 
 /// `plan`: without a simulated person yet.
-Rehearsal rehearsal_of(const experiment::Plan& plan, const person::Population& population);
+Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population);
 /// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
 /// The first difference, in words; "" if there is none. `there`: the folder's rehearsal.

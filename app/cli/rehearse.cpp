@@ -12,8 +12,7 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "command.h"
-#include "experiment/simulated_limits.h"
-#include "person/person.h"
+#include "person/simulated_limits.h"
 #include "rehearsal.h"
 #include "summary.h"
 
@@ -23,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RehearseOptions {
-    experiment::Request request;
+    session::Request request;
     std::string out;
     std::string shard = "1/1";
     std::string population_file;
@@ -71,38 +70,26 @@ int run_person(const RehearseOptions& options, const std::string& id) {
         dup2(messages, STDERR_FILENO);
     }
     try {
-        experiment::Request request = options.request;
+        session::Request request = options.request;
         request.participant = id;
         request.order_number = options.population->number_in_group(id);
-        experiment::Plan plan = experiment::make_plan(request);
-        person::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
-        experiment::RunOptions run;
+        session::Plan plan = session::make_plan(request);
+        session::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
+        session::RunOptions run;
         run.out = folder;
         run.command = command_line();
         run.participant.id = id;
-        std::optional<analysis::SessionReader> reader;
-        if (!options.keep_recordings) {
-            run.in_place_of_log = [&](const recording::SessionFolder& session,
-                                      const recording::SessionInfo& info,
-                                      const recording::LogHead& head) -> servo::FrameSink {
-                reader.emplace(session, info, head);
-                return [&reader](const servo::Frame& frame) { reader->add(frame); };
-            };
-        }
-        const experiment::RunResult result = experiment::run_session(plan, run, stop_requested, {});
-        if (result.interrupted) {
-            if (!result.fault.empty()) fmt::print("{}\n", result.fault);
+        run.keep_log = options.keep_recordings;
+        const session::Recorded session = session::record(plan, run, stop_requested);
+        if (!session.good()) {
+            if (!session.fault.empty()) {
+                fmt::print("{}\n", session.fault);
+            } else if (!session.interrupted) {
+                fmt::print("the simulation diverged\n");
+            }
             return kFailed;
         }
-        const auto session = recording::SessionFolder::open_tables(result.folder);
-        const analysis::SessionFigures figures =
-            reader ? analysis::finish_tables(session, result.info, std::move(*reader))
-                   : analysis::finish_session(session, result.info, {});
-        if (figures.failed()) {
-            fmt::print("{}\n", result.fault.empty() ? "the simulation diverged" : result.fault);
-            return kFailed;
-        }
-        fs::rename(result.folder, finished(options, id));  // appears complete, or not at all
+        fs::rename(session.folder, finished(options, id));  // appears complete, or not at all
         fs::remove_all(folder);
         return kOk;
     } catch (const std::exception& e) {
@@ -149,7 +136,7 @@ person::Population population_of(const RehearseOptions& options) {
                                                            : person::Objects::device);
 }
 
-std::string usual_folder(const experiment::Request& request) {
+std::string usual_folder(const session::Request& request) {
     return fmt::format("rehearsals/{}_{}", fs::path(request.file).stem().string(), request.seed);
 }
 
@@ -212,13 +199,13 @@ void rehearse(RehearseOptions& options) {
     const Shard shard = parse_shard(options.shard);
     options.request.simulate = true;
     options.request.participant = id_of(1);
-    const experiment::Plan plan = experiment::make_plan(options.request);
+    const session::Plan plan = session::make_plan(options.request);
     if (!plan.task) {
         throw Error({options.request.file, 0}, "task", "has no trials that people could do",
                     "Rehearse an experiment with 'task:', or see dihaptic run.");
     }
     print(plan.warnings);
-    print(experiment::simulated_limits(*plan.task));
+    print(person::simulated_limits(*plan.task));
     options.population = population_of(options);
     if (options.out.empty()) options.out = usual_folder(options.request);
     claim(options.out, rehearsal_of(plan, *options.population));

@@ -2,7 +2,7 @@
 
 #include "base/plural.h"
 #include "command.h"
-#include "experiment/replay.h"
+#include "session/replay.h"
 
 namespace dihaptic::cli {
 
@@ -13,11 +13,11 @@ void add_replay(CLI::App& app) {
     command->add_option("SESSION", *session, "folder of a session")->required();
     command->footer("\nExample:\n  dihaptic replay sessions/2026-11-20_101500_lift-block");
     command->callback([session] {
-        experiment::ReplayResult result;
+        session::ReplayResult result;
         {
             ProgressLine line("replaying");
-            result = experiment::replay_session(*session, stop_requested,
-                                                [&](double share) { line.show(share); });
+            result = session::replay_session(*session, stop_requested,
+                                             [&](double share) { line.show(share); });
         }
         print(result.warnings);
         for (const std::string& line : result.version) fmt::print("note: {}\n", line);

@@ -16,12 +16,12 @@ struct ResumeOptions {
 };
 
 void resume(const ResumeOptions& options) {
-    const session::Rest rest = session::rest_of(options.session, experiment::Seat::terminal, {});
+    const session::Rest rest = session::rest_of(options.session, session::Seat::terminal, {});
     const recording::SessionInfo& info = rest.before;
     print(rest.warnings);
     fmt::print("{}", rest.describe());
-    experiment::RunOptions run;
-    run.clock = info.clock == "real" ? experiment::Clock::real : experiment::Clock::virtual_clock;
+    session::RunOptions run;
+    run.clock = info.clock == "real" ? session::Clock::real : session::Clock::virtual_clock;
     run.command = command_line();
     run.sync = options.sync;
     run.participant = info.participant;

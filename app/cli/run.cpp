@@ -8,12 +8,11 @@
 #include <iostream>
 #include <optional>
 
+#include "base/figure.h"
 #include "base/plural.h"
-#include "base/table.h"
 #include "command.h"
 #include "common/stop_signals.h"
 #include "escape_key.h"
-#include "person/person.h"
 #include "person/population.h"
 #include "rig/calibration_guide.h"
 #include "summary.h"
@@ -24,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SessionOptions {
-    experiment::Request request;
-    experiment::RunOptions run;
+    session::Request request;
+    session::RunOptions run;
     std::string solver;
     std::string coupling;
     std::string proxy;
@@ -37,7 +36,7 @@ struct SessionOptions {
 
 /// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: of trials that are
 /// over.
-std::string trial_at(const experiment::Plan& plan, double share) {
+std::string trial_at(const session::Plan& plan, double share) {
     if (!plan.task) return "";
     const size_t all = plan.task->trials.size();
     const auto done = static_cast<size_t>(share * static_cast<double>(all));
@@ -47,8 +46,8 @@ std::string trial_at(const experiment::Plan& plan, double share) {
 /// The terminal during a session: reads its keys if the session runs on the real clock.
 class Console {
   public:
-    explicit Console(experiment::RunOptions& run) {
-        if (run.clock != experiment::Clock::real) return;
+    explicit Console(session::RunOptions& run) {
+        if (run.clock != session::Clock::real) return;
         escape_.emplace(stop_requested, key_);
         no_suspension_.emplace();
         run.keys = &key_;
@@ -61,7 +60,7 @@ class Console {
 
     /// Has the session check, before it costs a person an hour, whether the calibration of real
     /// devices still holds.
-    void check_calibration(const experiment::Plan& plan, experiment::RunOptions& run) {
+    void check_calibration(const session::Plan& plan, session::RunOptions& run) {
         const auto fingers = scene::finger_names(plan.scene);
         if (!escape_ || !escape_->listens() || !rig::can_check_together(plan.rig, fingers)) return;
         run.check = [&](devices::DeviceGroup& devices) { return check(plan, devices); };
@@ -69,7 +68,7 @@ class Console {
 
   private:
     /// Checks the calibration by endpoints that the person holds together; returns warnings.
-    std::vector<Problem> check(const experiment::Plan& plan, devices::DeviceGroup& devices) {
+    std::vector<Problem> check(const session::Plan& plan, devices::DeviceGroup& devices) {
         struct Skipped {};
         rig::Guide guide;
         guide.show = [](const rig::Guidance& now) {
@@ -104,9 +103,9 @@ class Console {
 
 /// Whether a file has a task, which a person does: without one the file moves the hand itself.
 bool has_task(const std::string& file) {
-    if (experiment::kind_of(file) != experiment::FileKind::experiment) return false;
+    if (task::kind_of(file) != task::FileKind::experiment) return false;
     Diagnostics ignored;  // problems are reported when the plan is made
-    return experiment::read_experiment(file, ignored).task.has_value();
+    return task::read_experiment(file, ignored).task.has_value();
 }
 
 /// Asks on the terminal for what is not known about the person yet. Answers are not checked here.
@@ -125,24 +124,25 @@ void ask(recording::Participant& participant) {
 }
 
 void run_one(const SessionOptions& options) {
-    experiment::Plan plan = experiment::make_plan(options.request);
+    session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task) {
         const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
-        person::sit_down(plan, person::draw_person(objects, plan.seed, options.run.participant.id));
+        session::sit_down(plan,
+                          person::draw_person(objects, plan.seed, options.run.participant.id));
     }
-    run_plan(plan, options.run);
+    run_plan(std::move(plan), options.run);
 }
 
 }  // namespace
 
-void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
+void run_plan(session::Plan plan, session::RunOptions run) {
+    auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "");
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
-    if (rig::is_real(plan.rig)) run.keeper = keeper::program();
     Console console(run);
     console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
-    if (run.clock == experiment::Clock::real) {
+    if (run.clock == session::Clock::real) {
         // said before the session costs a person an hour, not after
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
@@ -150,22 +150,25 @@ void run_plan(const experiment::Plan& plan, experiment::RunOptions run) {
         fmt::print("Escape or Ctrl-C switches force off at once, and ends the session.\n");
     }
     std::fflush(stdout);
-    experiment::RunResult result;
-    {
-        ProgressLine line("running");
-        try {
-            result = experiment::run_session(plan, run, stop_requested, [&](double share) {
-                line.show(share, trial_at(plan, share));
-            });
-        } catch (const rig::GivenUp&) {
-            fmt::print(stderr, "interrupted before it began: nothing was recorded\n");
-            exit_code = kFailed;
-            return;
-        }
+    ProgressLine running("running");
+    ProgressLine finishing("writing session.nwb");
+    try {
+        const session::Recorded session = session::record(
+            plan, run, stop_requested,
+            [&](double share) { running.show(share, trial_at(plan, share)); },
+            [&](const std::string&, double share) {
+                running.clear();
+                finishing.show(share);
+            },
+            std::move(devices));
+        finishing.clear();
+        print_summary(session, plan);
+        if (!session.good()) exit_code = kFailed;
+    } catch (const rig::GivenUp&) {
+        running.clear();
+        fmt::print(stderr, "interrupted before it began: nothing was recorded\n");
+        exit_code = kFailed;
     }
-    const analysis::SessionFigures figures = finish(result);
-    print_summary(figures, plan, result);
-    if (result.interrupted || figures.failed()) exit_code = kFailed;
 }
 
 namespace {
@@ -183,67 +186,87 @@ const char* outcome_of(const analysis::SessionFigures& figures, bool interrupted
     return interrupted ? "interrupted" : "done";
 }
 
-/// What happened to the object.
-struct Handling {
-    double held = 0;    ///< duration of its longest hold [s]
-    double slip = NAN;  ///< in that hold [m]
-    double slid = 0;    ///< total distance along what it lies on [m]
-    double flown = 0;   ///< total time untouched in the air [s]
+/// A movement's row of summary.csv, in SI units. One that cannot be run has no figures.
+struct MovementFigures {
+    std::string movement;
+    std::string outcome = "refused";
+    double duration = kUnmeasured, bridged_percent = kUnmeasured;
+    std::optional<bool> mostly_bridged;
+    std::optional<size_t> faults;
+    double block = kUnmeasured, mean_grip = kUnmeasured, peak_grip = kUnmeasured;
+    double peak_force = kUnmeasured;
+    std::optional<int64_t> force_limited, rate_limited;
+    double held = kUnmeasured, hold_slip = kUnmeasured, slid = kUnmeasured, flown = kUnmeasured;
+    std::string session;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("movement", f.movement, "", "file");
+        v("outcome", f.outcome, "", "done, interrupted, diverged, force off, or refused");
+        v("duration", f.duration, "s", "of the movement");
+        v("bridged_percent", f.bridged_percent, "1", "share of it that is bridged");
+        v("mostly_bridged", f.mostly_bridged, "", "more than half of it");
+        v("faults", f.faults, "1", "number of its faults");
+        v("block", f.block, "mm", "width of the block");
+        v("grasp_mean_grip", f.mean_grip, "N", "of the phase grasp");
+        v("grasp_peak_grip", f.peak_grip, "N", "of the phase grasp");
+        v("peak_force", f.peak_force, "N", "of the whole session");
+        v("force_limited_ticks", f.force_limited, "1", "in which a force was limited");
+        v("rate_limited_ticks", f.rate_limited, "1", "in which a force's rate was limited");
+        v("held", f.held, "s", "the object's longest hold");
+        v("hold_slip", f.hold_slip, "mm", "in that hold");
+        v("slid", f.slid, "mm", "along what it lies on, in all");
+        v("flown", f.flown, "s", "untouched in the air, in all");
+        v("session", f.session, "", "folder");
+    }
 };
 
-Handling handling_of(const std::vector<analysis::Episode>& episodes) {
-    Handling out;
+/// Finds what happened to the object.
+void find_handling(MovementFigures& out, const std::vector<analysis::Episode>& episodes) {
+    out.held = out.slid = out.flown = 0;
     for (const analysis::Episode& e : episodes) {
         const double lasted = e.end - e.start;
         if (e.kind == analysis::EpisodeKind::slide) out.slid += e.distance;
         if (e.kind == analysis::EpisodeKind::flight) out.flown += lasted;
         if (e.kind != analysis::EpisodeKind::hold || lasted <= out.held) continue;
         out.held = lasted;
-        out.slip = e.slip;
+        out.hold_slip = e.slip;
     }
-    return out;
 }
 
-/// Runs one movement of a batch. Returns its row of the summary.
-std::vector<Table::Cell> run_movement(const SessionOptions& options, const std::string& name) {
-    const experiment::Plan plan = experiment::make_plan(options.request);
-    const experiment::RunResult result =
-        experiment::run_session(plan, options.run, stop_requested, {});
-    const analysis::SessionFigures figures =
-        analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
-    const double force = peak_force(figures);
-    const analysis::PhaseFigures* grasp = figures.phase("grasp");
-    const double grip = grasp != nullptr ? grasp->mean_grip : NAN;
-    const double peak = grasp != nullptr ? grasp->peak_grip : NAN;
-    const Handling object = handling_of(figures.episodes);
-    const auto limited = figures.ticks_with(servo::kForceLimited);
-    const experiment::MovementReport& report = *plan.movement;
-    const bool guessed = report.bridged_share > hand::kMuchBridged;
+/// Runs one movement of a batch.
+MovementFigures run_movement(const SessionOptions& options, const std::string& name) {
+    const session::Plan plan = session::make_plan(options.request);
+    const session::Recorded session = session::record(plan, options.run, stop_requested);
+    const analysis::SessionFigures& figures = session.figures;
+    const session::MovementReport& report = *plan.movement;
+    MovementFigures out;
+    out.movement = name;
+    out.outcome = outcome_of(figures, session.interrupted);
+    out.duration = report.duration;
+    out.bridged_percent = 100 * report.bridged_share;
+    out.mostly_bridged = report.bridged_share > hand::kMuchBridged;
+    out.faults = report.faults.size();
+    out.block = report.block_width;
+    if (const analysis::PhaseFigures* grasp = figures.phase("grasp")) {
+        out.mean_grip = grasp->mean_grip;
+        out.peak_grip = grasp->peak_grip;
+    }
+    out.peak_force = peak_force(figures);
+    out.force_limited = figures.ticks_with(servo::kForceLimited);
+    out.rate_limited = figures.ticks_with(servo::kRateLimited);
+    find_handling(out, figures.episodes);
+    out.session = session.folder;
     if (figures.failed()) exit_code = kFailed;
     fmt::print("{:28s} {:7.2f} {:6.1f} %{} {:6d} {:5.1f} mm {:8.3f} {:8.3f} {:8.3f} {:8d}  {}{}\n",
-               name, report.duration, 100 * report.bridged_share, guessed ? '!' : ' ',
-               report.faults.size(), report.block_width * 1e3, grip, peak, force, limited,
+               name, out.duration, out.bridged_percent, *out.mostly_bridged ? '!' : ' ',
+               *out.faults, out.block * 1e3, out.mean_grip, out.peak_grip, out.peak_force,
+               *out.force_limited,
                figures.diverged() ? "DIVERGED "
                : figures.failed() ? "FORCE OFF "
                                   : "",
-               result.folder);
-    return {name,
-            outcome_of(figures, result.interrupted),
-            report.duration,
-            100 * report.bridged_share,
-            guessed ? "yes" : "no",
-            static_cast<double>(report.faults.size()),
-            report.block_width * 1e3,
-            grip,
-            peak,
-            force,
-            static_cast<double>(limited),
-            static_cast<double>(figures.ticks_with(servo::kRateLimited)),
-            object.held,
-            object.slip * 1e3,
-            object.slid * 1e3,
-            object.flown,
-            result.folder};
+               out.session);
+    return out;
 }
 
 std::vector<std::string> movements_in(const std::string& folder) {
@@ -259,38 +282,17 @@ std::vector<std::string> movements_in(const std::string& folder) {
     return files;
 }
 
-Table empty_summary() {
-    Table summary;
-    summary.columns = {{"movement", ""},
-                       {"outcome", "done, interrupted, diverged, force off, or refused"},
-                       {"duration_s", ""},
-                       {"bridged_percent", ""},
-                       {"mostly_bridged", ""},
-                       {"faults", ""},
-                       {"block_mm", ""},
-                       {"grasp_mean_grip_N", "of the phase grasp"},
-                       {"grasp_peak_grip_N", "of the phase grasp"},
-                       {"peak_force_N", "of the whole session"},
-                       {"force_limited_ticks", ""},
-                       {"rate_limited_ticks", ""},
-                       {"held_s", "the object's longest hold"},
-                       {"hold_slip_mm", "in that"},
-                       {"slid_mm", "along what it lies on, in all"},
-                       {"flown_s", "untouched in the air, in all"},
-                       {"session", ""}};
-    return summary;
-}
-
 /// Runs a folder of movements, with a session and a row of the summary for each. The summary is
 /// written after every movement, so that it is complete up to there if the next one fails.
 void run_batch(SessionOptions& options) {
     const Console console(options.run);
     const std::vector<std::string> files = movements_in(options.request.movement);
-    Table summary = empty_summary();
     const std::string table = options.run.out + "/summary.csv";
+    std::vector<MovementFigures> rows;
+    const auto save = [&] { write_csv(figure_table<MovementFigures>(rows), table); };
     std::error_code failed;
     fs::create_directories(options.run.out, failed);
-    write_csv(summary, table);
+    save();
     fmt::print("{:28s} {:>7s} {:>8s}  {:>6s} {:>8s} {:>8s} {:>8s} {:>8s} {:>8s}  {}\n", "movement",
                "s", "bridged", "faults", "block", "grip N", "peak N", "force N", "limited",
                "session");
@@ -301,25 +303,22 @@ void run_batch(SessionOptions& options) {
         one.request.movement = file;
         const std::string name = fs::path(file).filename().string();
         try {
-            summary.rows.push_back(run_movement(one, name));
+            rows.push_back(run_movement(one, name));
         } catch (const std::exception& e) {
             ++refused;
-            std::vector<Table::Cell> row(summary.columns.size(), NAN);
-            row.front() = name;
-            row[1] = "refused";
-            summary.rows.push_back(row);
+            rows.emplace_back().movement = name;
             fmt::print("{:28s} refused\n", name);
             fmt::print(stderr, "{}\n", e.what());
         }
         std::fflush(stdout);
-        write_csv(summary, table);
+        save();
     }
     fmt::print(
         "\ngrip, peak: mean and largest grip force of the grasp; force: largest on any finger; "
         "limited: ticks in which\na force was cut to the largest allowed; !: more than half of the "
         "movement is bridged\n");
     fmt::print("{}, {} refused; summary: {}\n",
-               counted(static_cast<int64_t>(summary.rows.size()), "movement"), refused, table);
+               counted(static_cast<int64_t>(rows.size()), "movement"), refused, table);
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
@@ -337,14 +336,14 @@ void run(SessionOptions& options) {
     if (options.simulate && options.clock == "real")
         throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
     options.request.simulate = options.simulate;
-    const bool real = experiment::on_real_devices(options.request);
+    const bool real = session::on_real_devices(options.request);
     if (real && options.clock == "virtual") {
         throw Error({"--clock", 0}, "", "real devices keep real time",
                     "Leave out --clock, or run on simulated devices: --simulate, or --rig "
                     "rigs/premium-pair.yaml.");
     }
-    options.run.clock = real || options.clock == "real" ? experiment::Clock::real
-                                                        : experiment::Clock::virtual_clock;
+    options.run.clock =
+        real || options.clock == "real" ? session::Clock::real : session::Clock::virtual_clock;
     options.run.command = command_line();
     const bool task = has_task(options.request.file);
     // only a person has these data

@@ -7,11 +7,11 @@
 #include <charconv>
 #include <filesystem>
 
-#include "experiment/phase_director.h"
-#include "experiment/plan.h"
 #include "recording/log_scene.h"
 #include "recording/session.h"
 #include "servo/displayed.h"
+#include "session/phase_director.h"
+#include "session/plan.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -52,20 +52,20 @@ Showing open_session(const std::string& file) {
 
 Showing open_plan(const std::string& file) {
     struct Run {
-        experiment::Plan plan;
+        session::Plan plan;
         std::unique_ptr<servo::Servo> servo;
-        std::optional<experiment::PhaseDirector> director;
+        std::optional<session::PhaseDirector> director;
         int64_t ticks = 0;
     };
     auto run = std::make_shared<Run>();
-    experiment::Request request;
+    session::Request request;
     request.file = file;
-    if (experiment::on_real_devices(request)) {
+    if (session::on_real_devices(request)) {
         throw Error({file, 0}, "rig", "a picture moves simulated devices only",
                     "Record a session, and give its folder.");
     }
-    run->plan = experiment::make_plan(request);
-    run->servo = experiment::make_servo(run->plan);
+    run->plan = session::make_plan(request);
+    run->servo = session::make_servo(run->plan);
     std::vector<recording::PhaseInfo> phases;
     for (const hand::Driver::Phase& phase : run->plan.driver->phases())
         phases.push_back({phase.name, phase.start, phase.end});

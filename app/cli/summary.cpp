@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "base/plural.h"
+#include "base/unit.h"
 #include "command.h"
 
 namespace dihaptic::cli {
@@ -19,7 +19,6 @@ std::string number(double value, int decimals) {
 
 /// Figures of an episode, in words.
 std::string describe(const analysis::Episode& e) {
-    constexpr double kDegrees = 180 / std::numbers::pi;
     std::string out;
     const auto add = [&](double value, const std::string& text) {
         if (!std::isnan(value)) out += (out.empty() ? "" : "; ") + text;
@@ -28,8 +27,8 @@ std::string describe(const analysis::Episode& e) {
     if (e.slip - e.least_slip >= 1e-7)
         add(e.least_slip, fmt::format("least {:.4f} mm", e.least_slip * 1e3));
     add(e.sag, fmt::format("sank {:.4f} mm", std::abs(e.sag) * 1e3));
-    if (e.hand_turn * kDegrees >= 5) {
-        add(e.turn, fmt::format("turned {:.2f} deg, {:.4f} of the hand's", e.turn * kDegrees,
+    if (e.hand_turn / kDegree >= 5) {
+        add(e.turn, fmt::format("turned {:.2f} deg, {:.4f} of the hand's", e.turn / kDegree,
                                 e.turn / e.hand_turn));
     }
     add(e.distance, fmt::format("{:.2f} mm", e.distance * 1e3));
@@ -47,9 +46,8 @@ void print_episodes(const analysis::SessionFigures& figures) {
     fmt::print("{:10s} {:>7s} {:>7s}  of the object\n", "episode", "from s", "to s");
     for (size_t i = 0; i < figures.episodes.size() && i < kMost; ++i) {
         const analysis::Episode& e = figures.episodes[i];
-        const std::string fingers = finger_list(e, figures.fingers);
-        fmt::print("{:10s} {:7.2f} {:7.2f}  {}{}{}\n", enum_name(e.kind), e.start, e.end, fingers,
-                   fingers.empty() ? "" : ": ", describe(e));
+        fmt::print("{:10s} {:7.2f} {:7.2f}  {}{}{}\n", enum_name(e.kind), e.start, e.end,
+                   e.finger_names, e.finger_names.empty() ? "" : ": ", describe(e));
     }
     if (figures.episodes.size() > kMost)
         fmt::print("and {} more, in episodes.csv\n", figures.episodes.size() - kMost);
@@ -58,13 +56,7 @@ void print_episodes(const analysis::SessionFigures& figures) {
 
 }  // namespace
 
-analysis::SessionFigures finish(const experiment::RunResult& result) {
-    ProgressLine line("writing session.nwb");
-    return analysis::finish_session(recording::SessionFolder::open(result.folder), result.info,
-                                    [&](double share) { line.show(share); });
-}
-
-void print_movement(const experiment::MovementReport& report, size_t most_lines) {
+void print_movement(const session::MovementReport& report, size_t most_lines) {
     fmt::print("movement {}: {:.2f} s, closed to {:.1f} mm at {:.2f} s, block {:.1f} mm wide\n",
                report.file, report.duration, report.site.aperture * 1e3, report.site.start,
                report.block_width * 1e3);
@@ -164,37 +156,27 @@ void print_phases(const analysis::SessionFigures& figures) {
 
 }  // namespace
 
-void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
-                   const experiment::RunResult& result) {
+void print_summary(const session::Recorded& session, const session::Plan& plan) {
+    const analysis::SessionFigures& figures = session.figures;
     if (figures.trials) {
         print_trials(*figures.trials);
     } else {
         print_phases(figures);
     }
-    servo::for_each_status(figures.status, [&](servo::Status bit) {
-        const servo::StatusText text = servo::describe(bit);
-        fmt::print("{}: in {} of {} {}{}\n", bit == servo::kNotFinite ? "WARNING" : "note",
-                   figures.ticks_with(bit), counted(figures.frames, "tick"), text.what,
-                   text.remedy.empty() ? "" : ": " + text.remedy);
-    });
-    if (!result.fault.empty()) fmt::print("WARNING: {}\n", result.fault);
-    if (!result.stall.empty()) fmt::print("WARNING: {}\n", result.stall);
-    const servo::Timing& timing = result.timing;
+    for (const std::string& note : session.notes) fmt::print("{}\n", note);
+    const servo::Timing& timing = session.timing;
     fmt::print(
         "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "
         "{:.1f} us max; period {:.0f} us\n",
-        result.simulated, result.elapsed, result.simulated / result.elapsed,
+        session.simulated, session.elapsed, session.simulated / session.elapsed,
         timing.ticks.quantile(0.5), timing.ticks.quantile(0.99), timing.ticks.quantile(1),
         plan.settings.tick() * 1e6);
     if (timing.lateness.count() > 0) {
         fmt::print("{}; {}\n", describe(timing), counted(timing.overruns, "overrun"));
     }
-    if (result.dropped > 0) fmt::print("{} not recorded\n", counted(result.dropped, "frame"));
-    if (figures.log.left_out > 0)
-        fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
-    if (result.interrupted) fmt::print("interrupted: what was done until then is complete\n");
-    fmt::print("{}\n", result.info.moved_by.describe());
-    fmt::print("session: {}\n", result.folder);
+    if (session.interrupted) fmt::print("interrupted: what was done until then is complete\n");
+    fmt::print("{}\n", session.info.moved_by.describe());
+    fmt::print("session: {}\n", session.folder);
 }
 
 }  // namespace dihaptic::cli

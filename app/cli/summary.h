@@ -1,21 +1,16 @@
 // Runs a session from the terminal, and prints its summary.
 #pragma once
 
-#include "analysis/session_report.h"
-#include "experiment/session_run.h"
+#include "session/record.h"
 
 namespace dihaptic::cli {
 
-/// Prints the table of trials or phases, limits that were met, timing, and the folder.
-void print_summary(const analysis::SessionFigures& figures, const experiment::Plan& plan,
-                   const experiment::RunResult& result);
+/// Prints the table of trials or phases, what is to be told, timing, and the folder.
+void print_summary(const session::Recorded& session, const session::Plan& plan);
 /// Prints what was wrong with a recorded movement.
-void print_movement(const experiment::MovementReport& report, size_t most_lines);
+void print_movement(const session::MovementReport& report, size_t most_lines);
 
-/// Runs a plan, finishes its session, and prints the summary.
-void run_plan(const experiment::Plan& plan, experiment::RunOptions run);
-
-/// Finishes the session's files, with progress.
-analysis::SessionFigures finish(const experiment::RunResult& result);
+/// Records a session of the plan, and prints the summary.
+void run_plan(session::Plan plan, session::RunOptions run);
 
 }  // namespace dihaptic::cli

@@ -7,13 +7,13 @@
 
 #include "base/text_file.h"
 #include "command.h"
-#include "experiment/plan.h"
+#include "session/plan.h"
 
 namespace dihaptic::cli {
 namespace {
 
 struct TuneOptions {
-    experiment::Request request;
+    session::Request request;
     std::string coupling;
     std::string map = "tune.svg";
     bool json = false;
@@ -35,21 +35,17 @@ void check_writable(const std::string& file) {
 void run(TuneOptions options) {
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
-    if (experiment::on_real_devices(options.request)) {
+    if (session::on_real_devices(options.request)) {
         throw Error({options.request.file, 0}, "rig", "has real devices, and tune shakes its own",
                     "Add --rig with simulated devices like them, e.g. rigs/premium-pair.yaml.");
     }
-    const experiment::Plan plan = experiment::make_plan(options.request);
+    const session::Plan plan = session::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
     check_writable(options.map);
-    measure::TuneResult result;
-    {
-        ProgressLine line("tune");
-        result = measure::tune(setup, stop_requested, [&](const std::string& what, double share) {
-            line.show(share, what);
-        });
-    }
+    const auto result = with_progress("tune", [&](const measure::Progress& progress) {
+        return measure::tune(setup, stop_requested, progress);
+    });
     if (result.interrupted) {
         fmt::print(stderr, "interrupted: there is no proposal\n");
         exit_code = kFailed;
@@ -86,7 +82,7 @@ void add_tune(CLI::App& app) {
                         "any other setting, e.g. rate_Hz=2000; may be repeated");
     command->add_option("--map", options->map, "picture of calm and shaking settings (SVG)")
         ->capture_default_str();
-    command->add_flag("--json", options->json, "one JSON object on standard output, nothing else");
+    add_json(*command, options->json);
     command->footer(
         "\nA simulated hand holds a block at each stiffness and damping, with what may come on "
         "top: "

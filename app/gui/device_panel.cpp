@@ -11,7 +11,7 @@ namespace {
 enum Column { kFinger, kModel, kForce, kBar, kStatus, kColumns };
 
 QString words(uint32_t status) {
-    return status == 0 ? "well" : QString::fromStdString(servo::words(status));
+    return status == 0 ? "well" : QString::fromStdString(dihaptic::words(status));
 }
 
 }  // namespace

@@ -1,22 +1,16 @@
 #include "loader.h"
 
-#include "scene/mesh.h"
-#include "scene/pieces.h"
-
 namespace dihaptic::gui {
 namespace {
 
-void ask_devices(Opened& out, const std::vector<Pose>& X_WD) {
-    const auto servo = experiment::make_servo(out.plan);
-    out.devices.emplace();
-    for (int i = 0; i < servo->devices().size(); ++i) {
-        const devices::DeviceInfo& info = servo->devices().info(i);
-        out.devices->push_back(
-            {QString::fromStdString(out.plan.scene.fingers[static_cast<size_t>(i)].name),
-             QString::fromStdString(info.model),
-             out.plan.settings.safety.largest_force(info.peak_force)});
+void describe_devices(Opened& out, const std::vector<Pose>& X_WD) {
+    for (size_t i = 0; i < out.plan.devices.size(); ++i) {
+        const devices::DeviceInfo& info = out.plan.devices[i];
+        out.devices.push_back({QString::fromStdString(out.plan.scene.fingers[i].name),
+                               QString::fromStdString(info.model),
+                               out.plan.settings.safety.largest_force(info.peak_force)});
         if (info.workspace && !out.plan.rig.wall)
-            out.workspaces.push_back({X_WD[static_cast<size_t>(i)], *info.workspace});
+            out.workspaces.push_back({X_WD[i], *info.workspace});
     }
     if (const auto& wall = out.plan.rig.wall)
         out.workspaces.push_back({{Quat::Identity(), wall->centre}, wall->size});
@@ -24,29 +18,33 @@ void ask_devices(Opened& out, const std::vector<Pose>& X_WD) {
 
 void make_plan(Opened& out, const Wanted& wanted) {
     if (wanted.resumes.empty()) {
-        out.plan = experiment::make_plan(wanted.request);
+        out.plan = session::make_plan(wanted.request);
         return;
     }
-    session::Rest rest = session::rest_of(wanted.resumes, experiment::Seat::window, {});
+    session::Rest rest = session::rest_of(wanted.resumes, session::Seat::window, {});
     out.told = QString::fromStdString(rest.describe()).split('\n', Qt::SkipEmptyParts);
     for (const Problem& warning : rest.warnings) out.told += QString::fromStdString(warning.text());
     out.participant = rest.before.participant;
     out.plan = std::move(rest.plan);
 }
 
-Opened open(const Wanted& wanted) {
+Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices) {
     Opened out;
     make_plan(out, wanted);
     const std::vector<std::string> fingers = scene::finger_names(out.plan.scene);
     const std::vector<Pose> X_WD = rig::poses(out.plan.rig, fingers);
-    if (!wanted.to_run || !rig::is_real(out.plan.rig)) ask_devices(out, X_WD);
     out.turn = servo::WorkspaceTurn(X_WD);
     // the first frame is computed on simulated devices: real ones are left alone
-    experiment::Plan still = out.plan;
+    session::Plan still = out.plan;
     still.rig = rig::simulated_rig(fingers);
-    const auto resting = experiment::make_servo(still);
+    const auto resting = session::make_servo(still);
     resting->activate();
     out.frame = resting->tick(Time(0), {});
+    if (wanted.to_run) {
+        devices =
+            session::open_devices(out.plan, rig::is_real(out.plan.rig) ? keeper::program() : "");
+    }
+    describe_devices(out, X_WD);
     return out;
 }
 
@@ -59,8 +57,7 @@ Loader::~Loader() {
 
 void Loader::cancel() {
     next_.reset();
-    scene::cancel_reading();
-    scene::cancel_cut();
+    thread_.request_stop();
 }
 
 void Loader::load(const Wanted& wanted) {
@@ -68,14 +65,18 @@ void Loader::load(const Wanted& wanted) {
         next_ = wanted;
         return;
     }
-    thread_ = std::thread([this, wanted] { run(wanted); });
+    thread_ = std::jthread([this, now = wanted](const std::stop_token& stop) mutable {
+        now.request.stop = stop;
+        run(now);
+    });
 }
 
 void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
+    devices_.reset();  // of a session that was not started after all
     try {
-        result = open(wanted);
+        result = open(wanted, devices_);
     } catch (const Error& e) {
         for (const Problem& problem : e.problems())
             problems += QString::fromStdString(problem.text());

@@ -1,4 +1,5 @@
-// Reads and checks files for the window, in a thread of its own: a mesh may take a while to cut.
+// Reads and checks files for the window, and opens the devices of its sessions, in a thread of its
+// own: a mesh may take a while to cut, and a device to answer.
 #pragma once
 
 #include <QObject>
@@ -6,7 +7,7 @@
 #include <thread>
 
 #include "device_panel.h"
-#include "experiment/plan.h"
+#include "session/plan.h"
 #include "session/resume.h"
 #include "view/scene_view.h"
 
@@ -14,10 +15,9 @@ namespace dihaptic::gui {
 
 /// A file without errors, and what can be shown of it before it runs.
 struct Opened {
-    experiment::Plan plan;
+    session::Plan plan;
     servo::Frame frame;  ///< the first one
-    /// What the devices report about themselves; nullopt when they were not asked.
-    std::optional<std::vector<DevicePanel::Device>> devices;
+    std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
     /// For a session that goes on with another one: its participant, and lines for the log.
@@ -27,8 +27,8 @@ struct Opened {
 
 /// What to open.
 struct Wanted {
-    experiment::Request request;
-    /// A session follows, which opens real devices itself: they are not opened here.
+    session::Request request;
+    /// A session follows: its devices are opened too. Otherwise none is.
     bool to_run = false;
     /// Folder of the session to go on with, in place of the request; "": none.
     std::string resumes;
@@ -44,7 +44,10 @@ class Loader : public QObject {
     /// Drops the result of a call before that is not done yet.
     void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
-    /// Ends reading and cutting of meshes; refused() says so.
+    /// The devices that were opened for the session that follows; null if none does. To be called
+    /// when opened() is emitted.
+    std::unique_ptr<devices::DeviceGroup> take_devices() { return std::move(devices_); }
+    /// Ends reading and cutting of a scene's meshes; refused() says so.
     void cancel();
 
   Q_SIGNALS:
@@ -55,8 +58,9 @@ class Loader : public QObject {
     void run(const Wanted& wanted);
     void done(const std::optional<Opened>& result, const QStringList& problems);
 
-    std::thread thread_;
+    std::jthread thread_;
     std::optional<Wanted> next_;
+    std::unique_ptr<devices::DeviceGroup> devices_;  // the thread's, while there is one
 };
 
 }  // namespace dihaptic::gui

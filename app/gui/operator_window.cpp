@@ -114,31 +114,12 @@ void OperatorWindow::connect_session() {
 }
 
 void OperatorWindow::connect_tuning() {
-    connect(tuning_, &TuningPanel::proxy_chosen, this, [this](scene::ProxyKind kind) {
-        if (!runner_.running()) return;
-        runner_.set_proxy(kind);
-        log(QString("proxy: %1, once the fingers are clear of everything")
-                .arg(enum_name(kind).data()));
-    });
-    connect(tuning_, &TuningPanel::solver_chosen, this, [this](dynamics::Solver solver) {
-        if (!runner_.running()) return;
-        runner_.set_solver(solver);
-        log(QString("contact solver: %1").arg(enum_name(solver).data()));
-    });
-    connect(tuning_, &TuningPanel::friction_scaled, this, [this](double scale) {
-        if (!runner_.running()) return;
-        runner_.set_friction_scale(scale);
-        log(QString("friction: %1 times the scene's").arg(scale));
-    });
-    connect(tuning_, &TuningPanel::tuned, this, [this](const haptics::Tuning& tuning) {
-        if (!runner_.running()) return;
-        runner_.set_tuning(tuning);
-        log(QString("coupling: %1, %2 N/m, %3, smoothing %4")
-                .arg(enum_name(tuning.kind).data())
-                .arg(tuning.stiffness)
-                .arg(tuning.damping ? QString("%1 N s/m").arg(*tuning.damping) : QString("k h / 2"))
-                .arg(tuning.smoothing));
-    });
+    connect(tuning_, &TuningPanel::turned, this,
+            [this](const servo::Knobs& knobs, const QString& what) {
+                if (!runner_.running()) return;
+                runner_.turn_knobs(knobs);
+                log(what);
+            });
 }
 
 void OperatorWindow::connect_reports() {
@@ -276,8 +257,8 @@ void OperatorWindow::choose_file() {
     if (!file.isEmpty()) open(file);
 }
 
-experiment::Request OperatorWindow::request() const {
-    experiment::Request request;
+session::Request OperatorWindow::request() const {
+    session::Request request;
     request.file = file_.toStdString();
     request.rig = session_->rig().toStdString();
     request.mouse = session_->by_mouse();
@@ -314,20 +295,22 @@ void OperatorWindow::reload() {
 }
 
 void OperatorWindow::opened(const Opened& opened) {
+    auto devices = loader_.take_devices();  // closed again, unless a session starts now
     if (runner_.running()) return;
     plan_ = opened.plan;
     frame_ = opened.frame;
     complaint_.clear();
-    if (!starts_) {
+    // of real devices that have been opened, more may be known than before
+    if (!starts_ || rig::is_real(plan_->rig)) {
         for (const Problem& warning : plan_->warnings)
             log(QString::fromStdString(warning.text()), true);
     }
-    if (opened.devices) workspaces_ = opened.workspaces;
+    workspaces_ = opened.workspaces;
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
     if (subject_) subject_->scene().set_scene(plan_->scene, frame_);
     plots_->set_scene(plan_->scene);
-    tuning_->set_settings(plan_->settings);
-    if (opened.devices) devices_->set_devices(*opened.devices);
+    tuning_->set_knobs(servo::Knobs::of(plan_->settings));
+    devices_->set_devices(opened.devices);
     camera_menu_->clear();
     for (const view::Camera& camera : scene_->cameras()) {
         camera_menu_->addAction(QString::fromStdString(camera.name), this,
@@ -339,7 +322,7 @@ void OperatorWindow::opened(const Opened& opened) {
     for (const QString& line : opened.told) log(line);
     if (starts_) {
         const recording::Participant asked = *std::exchange(starts_, std::nullopt);
-        return run(*plan_, opened.participant.value_or(asked));
+        return run(*plan_, opened.participant.value_or(asked), std::move(devices));
     }
     log(QString("opened %1: %2").arg(file_, title));
     update_state();
@@ -369,8 +352,7 @@ void OperatorWindow::start() {
 void OperatorWindow::start_trials() {
     const std::string id = session_->participant().toStdString();
     if (id != participant_.id) participant_ = {id, "", "", ""};
-    auto* dialog =
-        new ParticipantDialog(participant_, experiment::needs_number(plan_->task->task), this);
+    auto* dialog = new ParticipantDialog(participant_, task::needs_number(plan_->task->task), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QDialog::accepted, this, [this, dialog] {
         participant_ = dialog->participant();
@@ -404,15 +386,16 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
 
 void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
     if (!plan_ || runner_.running() || loader_.loading()) return;
-    experiment::Request asked = request();
+    session::Request asked = request();
     asked.participant = participant.id;
     starts_ = participant;
     loader_.load({asked, true, resumes});
     update_state();
 }
 
-void OperatorWindow::run(const experiment::Plan& made, const recording::Participant& participant) {
-    experiment::RunOptions options;
+void OperatorWindow::run(const session::Plan& made, const recording::Participant& participant,
+                         std::unique_ptr<devices::DeviceGroup> devices) {
+    session::RunOptions options;
     options.out = out_.toStdString();
     options.sync = sync_;
     options.command = "dihaptic gui " + file_.toStdString();
@@ -423,8 +406,8 @@ void OperatorWindow::run(const experiment::Plan& made, const recording::Particip
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
     changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
-    runner_.start(made, options);
-    const experiment::Plan& plan = runner_.plan();
+    runner_.start(made, options, std::move(devices));
+    const session::Plan& plan = runner_.plan();
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal());
         const bool squeezes = plan.scene.fingers.size() > 1;

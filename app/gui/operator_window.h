@@ -70,7 +70,8 @@ class OperatorWindow : public QMainWindow {
     /// `resumes`: folder of the session to go on with, whose frozen files are read instead; "":
     /// none.
     void begin(const recording::Participant& participant, const std::string& resumes = "");
-    void run(const experiment::Plan& plan, const recording::Participant& participant);
+    void run(const session::Plan& plan, const recording::Participant& participant,
+             std::unique_ptr<devices::DeviceGroup> devices);
     /// Calibrates the rig that is chosen, or else the file's.
     void calibrate();
     /// Writes the report of the last session.
@@ -96,13 +97,13 @@ class OperatorWindow : public QMainWindow {
     QString banner() const;
     void update_state();
     void log(const QString& text, bool problem = false);
-    experiment::Request request() const;
+    session::Request request() const;
 
     QString out_;
     double sync_;
     QString file_;
-    std::optional<experiment::Plan> plan_;  ///< of the last version of the file without errors
-    servo::Frame frame_;                    ///< the plan's first frame
+    std::optional<session::Plan> plan_;  ///< of the last version of the file without errors
+    servo::Frame frame_;                 ///< the plan's first frame
     std::vector<view::Workspace> workspaces_;
     int message_ = -1;                    ///< index of the task's message that is shown; -1: none
     recording::Participant participant_;  ///< who did the last trials

@@ -5,8 +5,8 @@
 #include <QIntValidator>
 #include <QLabel>
 
-#include "experiment/trials.h"
 #include "session_panel.h"
+#include "task/trials.h"
 
 namespace dihaptic::gui {
 
@@ -58,7 +58,7 @@ recording::Participant ParticipantDialog::participant() const {
 }
 
 void ParticipantDialog::check() {
-    start_->setEnabled(!needs_number_ || experiment::participant_number(participant().id) >= 0);
+    start_->setEnabled(!needs_number_ || task::participant_number(participant().id) >= 0);
 }
 
 }  // namespace dihaptic::gui

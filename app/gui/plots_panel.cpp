@@ -19,6 +19,26 @@ QColor screen_colour(const Vec3& linear) {
                             static_cast<float>(srgb(linear.z())));
 }
 
+struct TermFinder {
+    const void* member;
+    servo::Term found{};
+
+    void operator()(const auto& value, const servo::Term& term) {
+        if (&value == member) found = term;
+    }
+    void each(const auto&...) {}
+    void changed(const auto&...) {}
+};
+
+/// How the record describes a member of the Frame, or of the items of one of its lists.
+template <class Item, class T>
+servo::Term term_of(T Item::*member) {
+    const Item item;
+    TermFinder finder{&(item.*member)};
+    Item::visit(item, finder);
+    return finder.found;
+}
+
 }  // namespace
 
 PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {}
@@ -29,7 +49,7 @@ void PlotsPanel::set_scene(const scene::Scene& scene) {
     has_object_ = object >= 0;
     std::vector<StripChart::Curve> fingers;
     for (const std::string& name : scene::finger_names(scene)) {
-        if (fingers.size() == experiment::CurveSample::kFingers) break;
+        if (fingers.size() == session::CurveSample::kFingers) break;
         fingers.push_back(
             {QString::fromStdString(name), screen_colour(view::finger_colour(fingers.size()))});
     }
@@ -39,14 +59,19 @@ void PlotsPanel::set_scene(const scene::Scene& scene) {
         heights.push_back({QString::fromStdString(scene.bodies[static_cast<size_t>(object)].name),
                            screen_colour(view::body_colour(scene, static_cast<size_t>(object)))});
     }
-    grasp_ = new StripChart("Grasp", "N",
-                            {{"grip force", palette::kGrip}, {"load force", palette::kLoad}}, 1);
-    fingers_ = new StripChart("Force on the finger", "N", fingers, 1);
-    heights_ = new StripChart("Height", "mm", heights, 50);
+    const servo::Term grip = term_of(&servo::Frame::grip_force);
+    const servo::Term load = term_of(&servo::Frame::load_force);
+    const servo::Term force = term_of(&servo::FingerFrame::f_sent_W);
+    const servo::Term position = term_of(&servo::FingerFrame::p_WH);
+    grasp_ = new StripChart("Grasp", grip.unit,
+                            {{grip.name, palette::kGrip}, {load.name, palette::kLoad}}, 1);
+    fingers_ = new StripChart(QString("|%1|").arg(force.name), force.unit, fingers, 1);
+    heights_ = new StripChart(QString("%1, z").arg(position.name),
+                              QString("m%1").arg(position.unit), heights, 50);
     for (StripChart* chart : {grasp_, fingers_, heights_}) layout_->addWidget(chart, 1);
 }
 
-void PlotsPanel::add(const experiment::CurveSample& sample) {
+void PlotsPanel::add(const session::CurveSample& sample) {
     if (grasp_ == nullptr) return;
     grasp_->add(sample.time, {sample.grip_force, sample.load_force});
     const auto count = static_cast<std::ptrdiff_t>(fingers_count_);

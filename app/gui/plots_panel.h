@@ -1,8 +1,8 @@
 // The panel with live curves of grip and load force, of the force on each finger, and of heights.
 #pragma once
 
-#include "experiment/live.h"
 #include "scene/scene.h"
+#include "session/live.h"
 #include "strip_chart.h"
 
 class QVBoxLayout;
@@ -16,7 +16,7 @@ class PlotsPanel : public QWidget {
     explicit PlotsPanel(QWidget* parent = nullptr);
 
     void set_scene(const scene::Scene& scene);
-    void add(const experiment::CurveSample& sample);
+    void add(const session::CurveSample& sample);
 
   private:
     QVBoxLayout* layout_;

@@ -7,7 +7,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 
-#include "experiment/plan.h"
+#include "session/plan.h"
 
 namespace dihaptic::gui {
 

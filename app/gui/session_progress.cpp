@@ -12,10 +12,10 @@ QString duration(double seconds) {
     return QString("%1 min %2 s").arg(whole / 60).arg(whole % 60);
 }
 
-QString describe_trial(const experiment::TaskPlan& plan, const servo::Frame& frame) {
+QString describe_trial(const task::TaskPlan& plan, const servo::Frame& frame) {
     const auto trials = static_cast<int>(plan.trials.size());
     const int n = std::clamp(frame.trial, 1, trials);
-    const experiment::Trial& trial = plan.trials[static_cast<size_t>(n - 1)];
+    const task::Trial& trial = plan.trials[static_cast<size_t>(n - 1)];
     QStringList what{QString("Trial %1 of %2").arg(n).arg(trials)};
     const auto name = [&](const auto& list, int which) {
         if (static_cast<size_t>(which) < list.size())
@@ -30,7 +30,7 @@ QString describe_trial(const experiment::TaskPlan& plan, const servo::Frame& fra
 
 }  // namespace
 
-SessionProgress progress_of(const experiment::Plan& plan, const servo::Frame& frame, double done) {
+SessionProgress progress_of(const session::Plan& plan, const servo::Frame& frame, double done) {
     const double now = seconds(frame.time);
     if (plan.task) {
         // assumes that the trials left take as long as those before

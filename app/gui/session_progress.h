@@ -3,8 +3,8 @@
 
 #include <QString>
 
-#include "experiment/plan.h"
 #include "servo/frame.h"
+#include "session/plan.h"
 
 namespace dihaptic::gui {
 
@@ -15,6 +15,6 @@ struct SessionProgress {
 };
 
 /// `done`: share of the trials that are over. Without trials or a script only the time is known.
-SessionProgress progress_of(const experiment::Plan& plan, const servo::Frame& frame, double done);
+SessionProgress progress_of(const session::Plan& plan, const servo::Frame& frame, double done);
 
 }  // namespace dihaptic::gui

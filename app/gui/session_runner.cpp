@@ -1,40 +1,13 @@
 #include "session_runner.h"
 
-#include <fmt/format.h>
 #include <QCursor>
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
-#include "analysis/session_report.h"
-
 namespace dihaptic::gui {
 namespace {
-
-QStringList messages_of(const experiment::Plan& plan, const analysis::SessionFigures& figures,
-                        const experiment::RunResult& result) {
-    QStringList out;
-    if (!result.fault.empty()) out += QString::fromStdString(result.fault);
-    if (!result.stall.empty()) out += QString::fromStdString(result.stall);
-    if (result.timing.refusals.any()) {
-        out += QString::fromStdString(
-            servo::describe(result.timing.refusals, plan.settings.real_time_priority));
-    }
-    const bool stopped = figures.ticks_with(servo::kStopped) > 0;  // result.fault says so already
-    uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
-    if (stopped) told &= ~(servo::kStopped | servo::kForceOff);
-    servo::for_each_status(told, [&](servo::Status bit) {
-        const servo::StatusText text = servo::describe(bit);
-        out +=
-            QString::fromStdString(fmt::format("In {} of {} ticks {}: {}.", figures.ticks_with(bit),
-                                               figures.frames, text.what, text.remedy));
-    });
-    if (result.dropped > 0)
-        out +=
-            QString("%1 frames could not be recorded: the disk is too slow.").arg(result.dropped);
-    return out;
-}
 
 constexpr int kBeat = 100;        // a tenth of Live::kLongestSilence [ms]
 constexpr int kFirstBeat = 5000;  // latest first beat, even if there is no picture [ms]
@@ -84,10 +57,13 @@ void SessionRunner::watch() {
     alive_.start();
 }
 
-void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options) {
+void SessionRunner::start(session::Plan plan, session::RunOptions options,
+                          std::unique_ptr<devices::DeviceGroup> devices) {
     session_ = std::make_unique<Session>();
     no_suspension_.emplace();
     session_->plan = std::move(plan);
+    session_->devices = std::move(devices);
+    session_->knobs = servo::Knobs::of(session_->plan.settings);
     // if the window never beats, force goes off too
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
@@ -96,7 +72,7 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     std::atexit(end_program);
     options.live = &session_->live;
     options.keys = &session_->key;
-    options.clock = experiment::Clock::real;
+    options.clock = session::Clock::real;
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
         std::_Exit(1);  // an orderly end would wait for a thread that is stuck
@@ -119,22 +95,21 @@ void SessionRunner::start(experiment::Plan plan, experiment::RunOptions options)
     });
 }
 
-SessionEnd SessionRunner::run(Session& session, experiment::RunOptions options) {
+SessionEnd SessionRunner::run(Session& session, const session::RunOptions& options) {
     SessionEnd end;
     try {
-        if (rig::is_real(session.plan.rig)) options.keeper = keeper::program();
-        const experiment::RunResult result =
-            experiment::run_session(session.plan, options, stop_, {});
-        end.folder = QString::fromStdString(result.folder);
-        session.finishing = true;
-        const analysis::SessionFigures figures = analysis::finish_session(
-            recording::SessionFolder::open(result.folder), result.info, [this](double share) {
+        const session::Recorded recorded = session::record(
+            session.plan, options, stop_, {},
+            [&](const std::string& folder, double share) {
+                end.folder = QString::fromStdString(folder);
+                session.finishing = true;
                 QMetaObject::invokeMethod(
                     this, [this, share] { Q_EMIT finishing_progressed(share); },
                     Qt::QueuedConnection);
-            });
-        end.messages = messages_of(session.plan, figures, result);
-        end.good = !result.interrupted && !figures.failed();
+            },
+            std::move(session.devices));
+        for (const std::string& note : recorded.notes) end.messages += QString::fromStdString(note);
+        end.good = recorded.good();
     } catch (const std::exception& e) {
         end.messages += QString::fromStdString(e.what());
     }

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "common/stop_signals.h"
-#include "experiment/session_run.h"
+#include "session/record.h"
 
 namespace dihaptic::gui {
 
@@ -31,8 +31,10 @@ class SessionRunner : public QObject {
     /// Ends the session in order and waits for its files.
     ~SessionRunner() override;
 
-    /// Starts a session; one at a time. Sets `options.live` itself.
-    void start(experiment::Plan plan, experiment::RunOptions options);
+    /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
+    /// `options.live` itself.
+    void start(session::Plan plan, session::RunOptions options,
+               std::unique_ptr<devices::DeviceGroup> devices = nullptr);
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
@@ -42,18 +44,24 @@ class SessionRunner : public QObject {
     void watch();
 
     // what follows, up to end(), only while running
-    const experiment::Plan& plan() const { return session_->plan; }
+    const session::Plan& plan() const { return session_->plan; }
     const servo::Frame& frame() { return session_->live.frame.read(); }
-    std::optional<experiment::CurveSample> take_sample() { return session_->live.take_sample(); }
+    std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
     /// Why the session has paused by itself since the last call; "": it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
-    void set_solver(dynamics::Solver solver) { session_->live.solver.publish(solver); }
-    void set_friction_scale(double scale) { session_->live.friction_scale.publish(scale); }
-    void set_proxy(haptics::ProxyKind kind) { session_->live.proxy.publish(kind); }
+    /// Turns the knobs toward these, but for the workspaces.
+    void turn_knobs(servo::Knobs knobs) {
+        knobs.workspace_turn = session_->knobs.workspace_turn;
+        session_->knobs = knobs;
+        session_->live.knobs.publish(knobs);
+    }
     /// `angle`: to which the workspaces turn [rad].
-    void turn_workspaces(double angle) { session_->live.workspace.publish(angle); }
+    void turn_workspaces(double angle) {
+        session_->knobs.workspace_turn = angle;
+        session_->live.knobs.publish(session_->knobs);
+    }
     /// Skips the current trial.
     void skip() { session_->live.skip = true; }
     /// Share of the trials that are over.
@@ -61,11 +69,10 @@ class SessionRunner : public QObject {
     /// The picture of a tick was handed just now to the screen that the subject looks at. May be
     /// called at any time.
     void note_shown(int64_t tick) {
-        if (running()) session_->live.note_shown(tick, experiment::Live::Clock::now());
+        if (running()) session_->live.note_shown(tick, session::Live::Clock::now());
     }
     /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }
-    void set_tuning(const haptics::Tuning& tuning) { session_->live.tuning.publish(tuning); }
     /// Ends the session in order, even while the hand holds something.
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.
@@ -84,12 +91,14 @@ class SessionRunner : public QObject {
 
   private:
     struct Session {
-        experiment::Plan plan;
-        experiment::Live live;
+        session::Plan plan;
+        std::unique_ptr<devices::DeviceGroup> devices;
+        session::Live live;
+        servo::Knobs knobs;  ///< to be reached
         std::atomic<char> key{0};
         std::atomic<bool> finishing{false};
     };
-    SessionEnd run(Session& session, experiment::RunOptions options);
+    SessionEnd run(Session& session, const session::RunOptions& options);
 
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;

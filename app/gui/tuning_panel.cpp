@@ -1,84 +1,63 @@
 #include "tuning_panel.h"
 
-#include <QFormLayout>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <cmath>
 
 namespace dihaptic::gui {
-namespace {
 
-QDoubleSpinBox* box(double least, double most, double step, int decimals, const QString& unit) {
-    auto* out = new QDoubleSpinBox;
-    out->setRange(least, most);
-    out->setSingleStep(step);
-    out->setDecimals(decimals);
-    out->setSuffix(unit);
-    out->setKeyboardTracking(false);  // a number counts once it is typed completely
-    return out;
-}
-
-template <class Enum>
-QComboBox* choice() {
-    auto* out = new QComboBox;
-    for (const char* name : enum_names(Enum{})) out->addItem(name);
-    return out;
-}
-
-constexpr double kUnset = -0.1;  // below the least damping; shown in words
-
-}  // namespace
-
-TuningPanel::TuningPanel(QWidget* parent)
-    : QWidget(parent),
-      proxy_(choice<scene::ProxyKind>()),
-      coupling_(choice<haptics::CouplingKind>()),
-      stiffness_(box(1, 20000, 100, 0, " N/m")),
-      damping_(box(kUnset, 50, 0.1, 1, " N s/m")),
-      smoothing_(box(0.01, 1, 0.05, 2, "")),
-      solver_(choice<dynamics::Solver>()),
-      friction_(box(0, 5, 0.1, 2, " x")) {
+TuningPanel::TuningPanel(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
-    proxy_->setToolTip("changes once the fingers are clear of everything");
-    friction_->setToolTip("every coefficient of friction, times those of the scene");
-    damping_->setSpecialValueText("k h / 2");
-    smoothing_->setToolTip("share of the new force in the force sent: of the dual spring");
     auto* form = new QFormLayout(this);
-    form->addRow("&Coupling", coupling_);
-    form->addRow("Stiff&ness", stiffness_);
-    form->addRow("&Damping", damping_);
-    form->addRow("S&moothing", smoothing_);
-    form->addRow("Contact so&lver", solver_);
-    form->addRow("Frict&ion", friction_);
-    form->addRow("Pro&xy", proxy_);
-    connect(solver_, &QComboBox::activated, this,
-            [this](int index) { Q_EMIT solver_chosen(static_cast<dynamics::Solver>(index)); });
-    connect(coupling_, &QComboBox::activated, this, &TuningPanel::tune);
-    for (QDoubleSpinBox* value : {stiffness_, damping_, smoothing_})
-        connect(value, &QDoubleSpinBox::valueChanged, this, &TuningPanel::tune);
-    connect(friction_, &QDoubleSpinBox::valueChanged, this, [this](double scale) {
-        if (!setting_) Q_EMIT friction_scaled(scale);
+    servo::Knobs::visit([&](auto knob, const servo::Knob& is) {
+        if (is.label != nullptr) add(form, knob, is);
     });
-    connect(proxy_, &QComboBox::activated, this,
-            [this](int index) { Q_EMIT proxy_chosen(static_cast<scene::ProxyKind>(index)); });
 }
 
-void TuningPanel::set_settings(const servo::Settings& settings) {
-    setting_ = true;
-    const haptics::Tuning tuning = settings.coupling.tuning();
-    coupling_->setCurrentIndex(static_cast<int>(tuning.kind));
-    stiffness_->setValue(tuning.stiffness);
-    damping_->setValue(tuning.damping.value_or(kUnset));
-    smoothing_->setValue(tuning.smoothing);
-    friction_->setValue(1);
-    proxy_->setCurrentIndex(static_cast<int>(settings.proxy.kind));
-    solver_->setCurrentIndex(static_cast<int>(settings.dynamics.solver));
-    setting_ = false;
+template <NamedEnum E>
+void TuningPanel::add(QFormLayout* form, E servo::Knobs::*knob, const servo::Knob& is) {
+    auto* box = new QComboBox;
+    for (const char* name : enum_names(E{})) box->addItem(name);
+    box->setToolTip(is.what);
+    form->addRow(is.label, box);
+    connect(box, &QComboBox::activated, this,
+            [this, knob, is](int index) { turn(knob, is, static_cast<E>(index)); });
+    show_.emplace_back([this, knob, box] { box->setCurrentIndex(static_cast<int>(knobs_.*knob)); });
 }
 
-void TuningPanel::tune() {
+void TuningPanel::add(QFormLayout* form, double servo::Knobs::*knob, const servo::Knob& is) {
+    auto* box = new QDoubleSpinBox;
+    const bool may_be_unset = is.unset != nullptr;
+    // below the least value, and shown in words
+    box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);
+    if (may_be_unset) box->setSpecialValueText(is.unset);
+    box->setSingleStep(is.step);
+    box->setDecimals(std::max(0, static_cast<int>(std::ceil(-std::log10(is.step)))));
+    if (is.unit != std::string("1")) box->setSuffix(QString(" ") + is.unit);
+    box->setKeyboardTracking(false);  // a number counts once it is typed completely
+    box->setToolTip(is.what);
+    form->addRow(is.label, box);
+    connect(box, &QDoubleSpinBox::valueChanged, this, [this, knob, is](double value) {
+        turn(knob, is, value < is.least ? kUnmeasured : value);
+    });
+    show_.emplace_back([this, knob, box] {
+        box->setValue(std::isnan(knobs_.*knob) ? box->minimum() : knobs_.*knob);
+    });
+}
+
+/// Others than the one that was turned keep what they are, which a box may show rounded.
+template <class T>
+void TuningPanel::turn(T servo::Knobs::*knob, const servo::Knob& is, T value) {
     if (setting_) return;
-    const double damping = damping_->value();
-    Q_EMIT tuned({static_cast<haptics::CouplingKind>(coupling_->currentIndex()),
-                  stiffness_->value(), damping < 0 ? std::nullopt : std::optional(damping),
-                  smoothing_->value()});
+    knobs_.*knob = value;
+    Q_EMIT turned(knobs_, QString("%1: %2").arg(is.key, QString::fromStdString(words(is, value))));
+}
+
+void TuningPanel::set_knobs(const servo::Knobs& knobs) {
+    setting_ = true;
+    knobs_ = knobs;
+    for (const auto& show : show_) show();
+    setting_ = false;
 }
 
 }  // namespace dihaptic::gui

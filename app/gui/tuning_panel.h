@@ -1,11 +1,12 @@
-// The panel for what may be changed while a session runs, from one of the next ticks on, and for
-// the proxy of the next session while none runs.
+// The panel for what may be changed while a session runs, from one of the next ticks on.
 #pragma once
 
-#include <QComboBox>
-#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QWidget>
+#include <functional>
+#include <vector>
 
-#include "servo/settings.h"
+#include "servo/knobs.h"
 
 namespace dihaptic::gui {
 
@@ -15,25 +16,23 @@ class TuningPanel : public QWidget {
   public:
     explicit TuningPanel(QWidget* parent = nullptr);
 
-    /// Shows the settings with which the session starts.
-    void set_settings(const servo::Settings& settings);
+    /// Shows the knobs with which the session starts.
+    void set_knobs(const servo::Knobs& knobs);
 
   Q_SIGNALS:
-    void solver_chosen(dihaptic::dynamics::Solver solver);
-    void friction_scaled(double scale);
-    void tuned(const dihaptic::haptics::Tuning& tuning);
-    void proxy_chosen(dihaptic::scene::ProxyKind kind);
+    /// `what`: the knob that its user turned, and its value, in words.
+    void turned(const dihaptic::servo::Knobs& knobs, const QString& what);
 
   private:
-    void tune();
+    /// Adds a knob with what shows its value.
+    template <NamedEnum E>
+    void add(QFormLayout* form, E servo::Knobs::*knob, const servo::Knob& is);
+    void add(QFormLayout* form, double servo::Knobs::*knob, const servo::Knob& is);
+    template <class T>
+    void turn(T servo::Knobs::*knob, const servo::Knob& is, T value);
 
-    QComboBox* proxy_;
-    QComboBox* coupling_;
-    QDoubleSpinBox* stiffness_;
-    QDoubleSpinBox* damping_;
-    QDoubleSpinBox* smoothing_;
-    QComboBox* solver_;
-    QDoubleSpinBox* friction_;
+    servo::Knobs knobs_;
+    std::vector<std::function<void()>> show_;  // by knob: shows its value in knobs_
     bool setting_ = false;  // values are being set by the program, not by its user
 };
 

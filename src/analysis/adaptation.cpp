@@ -7,7 +7,6 @@
 #include <span>
 
 #include "analysis/report/statistics.h"
-#include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -242,56 +241,49 @@ std::string AdaptationCurve::note() const {
     return what.empty() ? "" : "not measured under " + what;
 }
 
-std::vector<Table::Cell> AdaptationCurve::landmark_cells() const {
-    const Windows w = windows();
-    const bool known = note().empty() || std::abs(perturbation()) > kSame;
-    std::vector<Table::Cell> row = {unit, known ? perturbation() : kNone};
-    for (const Window* at : {&w.baseline, &w.early, &w.late, &w.catch_trials, &w.clamp_first,
-                             &w.clamp_last, &w.washout_first, &w.savings, &w.rebound})
-        row.insert(row.end(), {at->mean, at->low, at->high});
-    return row;
+void AdaptationCurve::Window::list(FigureLister& row, const std::string& name,
+                                   const char* what) const {
+    row(name, mean, "1", what);
+    row(name + "_low", low, "1", "its 95 % interval, over these trials");
+    row(name + "_high", high, "1", "its upper end");
 }
 
-std::vector<Table::Column> landmark_columns() {
-    std::vector<Table::Column> out = {{"unit", "of what follows"}, {"perturbation", ""}};
-    const std::vector<Table::Column> windows = {
-        {"baseline", "mean before the first perturbed block"},
-        {"early", "first eight trials of the first perturbed block"},
-        {"late", "last eight of the last block that goes on with it"},
-        {"catch", "mean of the catch trials among them"},
-        {"clamp_first", "first eight of the first clamp block after it"},
-        {"clamp_last", "last eight of that block"},
-        {"washout_first", "first eight of the first washout block after it"},
-        {"savings", "learning it again: first eight trials, less those of the first time"},
-        {"rebound", "last eight of a clamp after the opposite, less the two before it"}};
-    for (const Table::Column& window : windows) {
-        out.push_back(window);
-        out.push_back({window.name + "_low", "95 %, over these trials"});
-        out.push_back({window.name + "_high", ""});
-    }
-    return out;
+void AdaptationCurve::list_landmarks(FigureLister& row) const {
+    const Windows w = windows();
+    const bool known = !trials.empty() && (note().empty() || std::abs(perturbation()) > kSame);
+    row("unit", unit, "", "of what follows");
+    row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest by size");
+    w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
+    w.early.list(row, "early", "first eight trials of the first perturbed block");
+    w.late.list(row, "late", "last eight of the last block that goes on with that perturbation");
+    w.catch_trials.list(row, "catch", "mean of the catch trials among these blocks");
+    w.clamp_first.list(row, "clamp_first", "first eight of the first clamp block after it");
+    w.clamp_last.list(row, "clamp_last", "last eight of that block");
+    w.washout_first.list(row, "washout_first", "first eight of the first washout block after it");
+    w.savings.list(row, "savings",
+                   "learning it again, after another: first eight trials, less those of the first "
+                   "time");
+    w.rebound.list(row, "rebound",
+                   "last eight of a clamp after the opposite perturbation, less the two before it");
 }
 
 Table block_table(const std::vector<AdaptationCurve>& curves) {
     Table table;
-    table.columns = {{"round", ""}, {"block", ""}, {"unit", "of what follows"}};
-    for (const char* name : {"first", "last", "catch", "inserted_clamps"}) {
-        const std::string window = name;
-        const bool eight = window == "first" || window == "last";
-        table.columns.push_back({window, eight ? "mean of eight trials at most" : "mean"});
-        table.columns.push_back({window + "_low", "95 %"});
-        table.columns.push_back({window + "_high", ""});
-        table.columns.push_back({window + "_trials", "that were measured"});
-    }
     for (const AdaptationCurve& curve : curves) {
         for (const AdaptationCurve::Block& block : curve.blocks()) {
-            std::vector<Table::Cell>& row = table.rows.emplace_back();
-            row = {curve.round, block.name, curve.unit};
-            for (const Window* at :
-                 {&block.first, &block.last, &block.catch_trials, &block.inserted_clamps}) {
-                row.insert(row.end(),
-                           {at->mean, at->low, at->high, static_cast<double>(at->trials)});
-            }
+            FigureLister row;
+            row("round", curve.round, "", "name");
+            row("block", block.name, "", "name");
+            row("unit", curve.unit, "", "of what follows");
+            const auto list = [&](const std::string& name, const Window& of, const char* what) {
+                of.list(row, name, what);
+                row(name + "_trials", of.trials, "1", "that were measured");
+            };
+            list("first", block.first, "mean of the first eight trials at most");
+            list("last", block.last, "mean of the last eight trials at most");
+            list("catch", block.catch_trials, "mean of the catch trials");
+            list("inserted_clamps", block.inserted_clamps, "mean of clamps among other trials");
+            add_row(table, row);
         }
     }
     return table;
@@ -358,6 +350,40 @@ std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
     fits.single_rate = fit_single_rate(compensation, schedule);
     fits.two_rate = fit_two_rate(compensation, schedule);
     return fits;
+}
+
+std::vector<FittedParameter> parameters(const std::optional<AdaptationFits>& fits) {
+    const TwoRateFit two = fits ? fits->two_rate : TwoRateFit{};
+    const SingleRateFit one = fits ? fits->single_rate : SingleRateFit{};
+    std::vector<FittedParameter> out;
+    const auto add = [&](const char* name, const char* what, double value, const Interval& of) {
+        out.push_back({name, what});
+        if (fits) out.back() = {name, what, value, in_words(of)};
+    };
+    const auto& [fast, slow] = two.rates;
+    add("A_fast", "two-rate: fast retention", fast.retention, two.retention_fast);
+    add("B_fast", "two-rate: fast learning", fast.learning, two.learning_fast);
+    add("A_slow", "two-rate: slow retention", slow.retention, two.retention_slow);
+    add("B_slow", "two-rate: slow learning", slow.learning, two.learning_slow);
+    add("A", "single-rate: retention", one.rate.retention, one.retention);
+    add("B", "single-rate: learning", one.rate.learning, one.learning);
+    return out;
+}
+
+void list_fits(FigureLister& row, const std::optional<AdaptationFits>& fits, bool in_full) {
+    const std::vector<FittedParameter> all = parameters(fits);
+    constexpr size_t kTwoRate = 4;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (i == kTwoRate)
+            row("two_rate_sd", fits ? fits->two_rate.residual_sd : kUnmeasured, "1",
+                "of the residuals");
+        row(all[i].name, all[i].value, "1", all[i].what);
+        if (in_full && i < kTwoRate)
+            row(all[i].name + std::string("_95"), all[i].interval, "", "its profile interval");
+    }
+    if (in_full)
+        row("single_rate_sd", fits ? fits->single_rate.residual_sd : kUnmeasured, "1",
+            "of the residuals");
 }
 
 }  // namespace dihaptic::analysis

@@ -8,14 +8,13 @@
 // doubling is 69 %).
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/fits/two_rate_fit.h"
 #include "analysis/perturbations.h"
-#include "base/table.h"
+#include "base/figure.h"
 
 namespace dihaptic::analysis {
 
@@ -32,8 +31,6 @@ struct AdaptationCurve {
         /// compensation are then NaN. Empty if there was none.
         std::string under;
     };
-
-    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
     std::string round;         ///< name of the round; empty without rounds
     std::string unit = "deg";  ///< unit of f and x; "%" for extents
@@ -53,10 +50,12 @@ struct AdaptationCurve {
     std::vector<model::AdaptationTrial> schedule() const;
     /// A mean over some trials, with its 95 % interval (Student's, of the spread of these trials).
     struct Window {
-        double mean = kNone;
-        double low = kNone;
-        double high = kNone;
+        double mean = kUnmeasured;
+        double low = kUnmeasured;
+        double high = kUnmeasured;
         int trials = 0;
+
+        void list(FigureLister& row, const std::string& name, const char* what) const;
     };
     /// Means of one block's measured trials.
     struct Block {
@@ -67,21 +66,8 @@ struct AdaptationCurve {
     };
     std::vector<Block> blocks() const;
 
-    /// The means that papers report; empty where there are no such trials:
-    ///
-    /// baseline       all baseline trials before the first perturbed block
-    /// early          the first eight trials of the first perturbed block
-    /// late           the last eight trials of the last block that follows with that perturbation
-    /// catch          all catch trials from the first of these blocks to the last
-    /// clamp          the first and the last eight trials of the first later clamp block
-    /// washout_first  the first eight trials of the first later washout block
-    ///
-    /// And, positive in the direction that was learned first:
-    ///
-    /// savings   the first eight trials of the first later block with the same perturbation, after
-    ///           another, less those of the block that had it first
-    /// rebound   the last eight trials of a clamp that follows a block with the opposite
-    ///           perturbation, less that block's last two: what was learned first comes back
+    /// The means that papers report, which list_landmarks() describes; empty where there are no
+    /// such trials. Savings and rebound are positive in the direction that was learned first.
     struct Windows {
         Window baseline, early, late, catch_trials, clamp_first, clamp_last, washout_first, savings,
             rebound;
@@ -89,11 +75,9 @@ struct AdaptationCurve {
     Windows windows() const;
     /// Why learning is not measured, or only in part; empty if it is measured.
     std::string note() const;
-    /// The perturbation and the windows, for a table with landmark_columns().
-    std::vector<Table::Cell> landmark_cells() const;
+    /// Lists the unit, the perturbation, and the windows with their intervals.
+    void list_landmarks(FigureLister& row) const;
 };
-
-std::vector<Table::Column> landmark_columns();
 
 /// Table with a row for each of blocks().
 Table block_table(const std::vector<AdaptationCurve>& curves);
@@ -110,5 +94,18 @@ struct AdaptationFits {
 };
 /// Returns nullopt when too little was measured or nothing was perturbed.
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve);
+
+/// A parameter of one of the models.
+struct FittedParameter {
+    const char* name;
+    const char* what;
+    double value = kUnmeasured;
+    std::optional<std::string> interval = {};  ///< 95 %, in words
+};
+/// The two-rate model's four parameters, then the single-rate model's two; without fits they have
+/// no values.
+std::vector<FittedParameter> parameters(const std::optional<AdaptationFits>& fits);
+/// Lists them; `in_full`: with the two-rate model's intervals, and what the single rate leaves.
+void list_fits(FigureLister& row, const std::optional<AdaptationFits>& fits, bool in_full);
 
 }  // namespace dihaptic::analysis

@@ -100,8 +100,8 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
         if (s.support < 0) continue;  // the object left its support for less than an episode
         Vec3 load = object.mass * object.gravity;
         for (const size_t finger : out.fingers) load -= s.f_sent_W[finger];
-        const double mu = object.friction.empty() ? Episode::kNone
-                                                  : object.friction[static_cast<size_t>(s.support)];
+        const double mu =
+            object.friction.empty() ? kUnmeasured : object.friction[static_cast<size_t>(s.support)];
         work += h * load.dot(v);
         closed_form += h * mu * std::max(0.0, -load.dot(s.n_support)) * v.norm();
     }

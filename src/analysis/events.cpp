@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <iterator>
-
-#include "servo/settings.h"
-
 namespace dihaptic::analysis {
 namespace {
 
@@ -15,37 +10,6 @@ std::string listed(const std::vector<std::string>& names, int32_t i) {
     return at < names.size() ? names[at] : std::to_string(i);
 }
 
-template <class E>
-std::string choice(double value) {
-    return std::string(enum_name(static_cast<E>(static_cast<int>(value))));
-}
-
-std::string number(double value) {
-    return fmt::format("{:g}", value);
-}
-
-/// A setting that can be changed while a session runs.
-struct Knob {
-    const char* key;
-    double (*of)(const servo::Frame& frame);  ///< value; an enum gives its index
-    std::string (*said)(double value);
-};
-const Knob kKnobs[] = {
-    {"coupling.kind", [](const servo::Frame& f) { return static_cast<double>(f.coupling); },
-     choice<haptics::CouplingKind>},
-    {"coupling.stiffness_N_m", [](const servo::Frame& f) { return f.stiffness; }, number},
-    // the damping is NaN where it is k h / 2, and would look like a change in each tick
-    {"coupling.damping_Ns_m",
-     [](const servo::Frame& f) { return std::isnan(f.damping) ? -1 : f.damping; },
-     [](double value) { return value < 0 ? "k h / 2" : number(value); }},
-    {"coupling.smoothing", [](const servo::Frame& f) { return f.smoothing; }, number},
-    {"dynamics.solver", [](const servo::Frame& f) { return static_cast<double>(f.solver); },
-     choice<dynamics::Solver>},
-    {"proxy.kind", [](const servo::Frame& f) { return static_cast<double>(f.proxy); },
-     choice<scene::ProxyKind>},
-    {"friction, times the scene's", [](const servo::Frame& f) { return f.friction_scale; }, number},
-};
-
 }  // namespace
 
 EventFinder::EventFinder(const recording::LogHead& head, int object,
@@ -53,8 +17,7 @@ EventFinder::EventFinder(const recording::LogHead& head, int object,
     : head_(head),
       object_(object),
       phases_(std::move(phases)),
-      touching_(head.fingers.size() * (head.bodies.size() + head.fingers.size()), 0),
-      tuned_(std::size(kKnobs)) {}
+      touching_(head.fingers.size() * (head.bodies.size() + head.fingers.size()), 0) {}
 
 std::string EventFinder::name(int body) const {
     const auto i = static_cast<size_t>(body);
@@ -146,28 +109,26 @@ void EventFinder::add_support(const servo::Frame& frame) {
 }
 
 void EventFinder::add_settings(const servo::Frame& frame) {
-    for (size_t i = 0; i < tuned_.size(); ++i) {
-        const Knob& knob = kKnobs[i];
-        const double value = knob.of(frame);
-        Tuned& tuned = tuned_[i];
-        if (!seen_) tuned = {value, value};  // the first ticks may be lost
+    if (!seen_) told_ = last_ = frame;  // the first ticks may be lost
+    servo::Knobs::visit([&](auto knob, const servo::Knob& is) {
+        const auto value = frame.*knob;
+        auto& told = told_.*knob;
         // a change that is eased in is reported once the value has stopped changing
-        if (value == tuned.last && value != tuned.told) {
-            say(frame, "setting",
-                fmt::format("{}: {} -> {}", knob.key, knob.said(tuned.told), knob.said(value)));
-            tuned.told = value;
-        }
-        tuned.last = value;
-    }
+        const bool stays = servo::Knobs::same(value, last_.*knob);
+        if (is.key == nullptr || !stays || servo::Knobs::same(value, told)) return;
+        say(frame, "setting",
+            fmt::format("{}: {} -> {}", is.key, words(is, told), words(is, value)));
+        told = value;
+    });
+    last_ = frame;
 }
 
 void EventFinder::add_status(const servo::Frame& frame) {
     if ((frame.status & servo::kPaused) != 0) say(frame, "paused", "force off");
     if ((frame.status & servo::kResumed) != 0) say(frame, "went on", "after a pause");
     constexpr uint32_t kLimits = ~uint32_t{servo::kPaused | servo::kResumed};
-    servo::for_each_status(frame.status & ~status_ & kLimits, [&](servo::Status bit) {
-        say(frame, "limit", servo::describe(bit).what);
-    });
+    for_each_status(frame.status & ~status_ & kLimits,
+                    [&](Status bit) { say(frame, "limit", std::string(describe(bit).what)); });
     status_ = frame.status;
 }
 

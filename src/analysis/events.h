@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/unmeasured.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::analysis {
@@ -16,7 +17,17 @@ struct Event {
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
                        ///< "went on"; with a task "trial", "perturbation", "marker", "message",
                        ///< "put back", "outcome"
-    std::string detail;  ///< fingers, bodies or values concerned
+    std::string detail;          ///< fingers, bodies or values concerned
+    double shown = kUnmeasured;  ///< [s]
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("time", f.time, "s", "of its tick");
+        v("trial", f.trial, "1", "number, from 1");
+        v("event", f.name, "", "what happened");
+        v("detail", f.detail, "", "to whom, or what");
+        v("shown", f.shown, "s", "when the first picture of it came to the screen; empty: none");
+    }
 };
 
 class EventFinder {
@@ -54,11 +65,8 @@ class EventFinder {
     bool perturbed_ = false;
     int phase_ = -1;
     uint32_t status_ = 0;
-    struct Tuned {
-        double told = 0;  // value in the last event
-        double last = 0;  // value in the last frame
-    };
-    std::vector<Tuned> tuned_;  // settings that can be changed while a session runs
+    servo::Knobs told_;  // values in the last events
+    servo::Knobs last_;  // values in the last frame
     std::vector<Event> events_;
 };
 

@@ -1,7 +1,8 @@
 #include "analysis/fault_record.h"
 
 #include <initializer_list>
-#include <numbers>
+
+#include "base/unit.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -61,8 +62,8 @@ Table FaultRecord::table() const {
                              "torque_asked_%_Nm", "torque_sent_%_Nm"});
     }
     for (const servo::Frame& frame : faults_) {
-        std::vector<Table::Cell> row{seconds(frame.time), servo::words(frame.status),
-                                     frame.lateness * 1e3, frame.tick_duration * 1e3};
+        std::vector<Table::Cell> row{seconds(frame.time), words(frame.status), frame.lateness * 1e3,
+                                     frame.tick_duration * 1e3};
         for (const servo::FingerFrame& finger : frame.fingers) {
             add_vector(row, finger.p_DH, 1e3);
             add_vector(row, finger.v_DH, 1);
@@ -70,8 +71,7 @@ Table FaultRecord::table() const {
             add_vector(row, finger.f_sent_W, 1);
         }
         for (const servo::TurnFrame& turn : frame.turns) {
-            constexpr double kDegrees = 180 / std::numbers::pi;
-            add_vector(row, rotation_vector(turn.R_DH), kDegrees);
+            add_vector(row, rotation_vector(turn.R_DH), 1 / kDegree);
             add_vector(row, turn.w_DH, 1);
             add_vector(row, turn.t_asked_W, 1);
             add_vector(row, turn.t_sent_W, 1);

@@ -36,26 +36,21 @@ struct Round {
 };
 
 /// Unit vector of the reach that a trial asks for; `number`: the trial's in the session, from 1.
-Vec3 direction_of(const CsvFile& list, int number) {
+Vec3 direction_of(const std::vector<task::ReachPlan>& reaches, int number) {
     const auto i = static_cast<size_t>(number - 1);
-    if (number < 1 || i >= list.rows()) return Vec3::Constant(kUnmeasured);
-    Vec3 way;
-    for (int k = 0; k < 3; ++k) {
-        const std::string axis(1, "xyz"[k]);
-        way[k] = list.number(i, "reach_to_" + axis + "_mm") -
-                 list.number(i, "reach_from_" + axis + "_mm");
-    }
-    return way.normalized();
+    if (number < 1 || i >= reaches.size()) return Vec3::Constant(kUnmeasured);
+    return (reaches[i].to_W - reaches[i].from_W).normalized();
 }
 
-std::map<std::string, Round> rounds_of(const CsvFile& trials, const CsvFile& list) {
+std::map<std::string, Round> rounds_of(const CsvFile& trials,
+                                       const std::vector<task::ReachPlan>& reaches) {
     std::map<std::string, Round> rounds;
     for (size_t i = 0; i < trials.rows(); ++i) {
         Round& round = rounds[trials.text(i, "round")];
         const std::string kind = trials.text(i, "kind");
         const double compensation = -trials.number(i, "hand_angle_deg");
         Direction& direction = round.directions[trials.text(i, "condition")];
-        direction.along_W = direction_of(list, static_cast<int>(trials.number(i, "trial_num")));
+        direction.along_W = direction_of(reaches, static_cast<int>(trials.number(i, "trial_num")));
         if (kind == "perturbed") {
             direction.trained = true;
             round.trained = true;
@@ -98,16 +93,17 @@ std::vector<Generalisation> generalisation_of(const std::string& name, const Rou
                        compensation / at_trained.value(), direction.probes.count});
     }
     std::stable_sort(out.begin(), out.end(), [](const Generalisation& a, const Generalisation& b) {
-        return a.angle < b.angle;
+        return a.angle_deg < b.angle_deg;
     });
     return out;
 }
 
 }  // namespace
 
-std::vector<Generalisation> find_generalisation(const CsvFile& trials, const CsvFile& list) {
+std::vector<Generalisation> find_generalisation(const CsvFile& trials,
+                                                const std::vector<task::ReachPlan>& reaches) {
     std::vector<Generalisation> out;
-    for (const auto& [name, round] : rounds_of(trials, list)) {
+    for (const auto& [name, round] : rounds_of(trials, reaches)) {
         const std::vector<Generalisation> of_round = generalisation_of(name, round);
         out.insert(out.end(), of_round.begin(), of_round.end());
     }

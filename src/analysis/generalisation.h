@@ -6,20 +6,32 @@
 #include <vector>
 
 #include "base/table.h"
+#include "task/reach_plan.h"
 
 namespace dihaptic::analysis {
 
 struct Generalisation {
     std::string round;
     std::string condition;
-    double angle = 0;         ///< angle from the nearest trained direction [deg]
-    double compensation = 0;  ///< mean over these trials, less the baseline's mean [deg]
-    double share = 0;  ///< compensation over that in trained directions; NaN if none was probed
+    double angle_deg = 0;
+    double compensation_deg = 0;
+    double share = 0;
     int trials = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("round", f.round, "", "name");
+        v("condition", f.condition, "", "name");
+        v("angle_deg", f.angle_deg, "deg", "from the nearest trained direction");
+        v("compensation_deg", f.compensation_deg, "deg", "mean, less the baseline's");
+        v("share", f.share, "1", "of that in the trained directions; empty if none was probed");
+        v("trials", f.trials, "1", "in which no error was seen");
+    }
 };
 
 /// Results by round, then angle; empty if no untrained condition was probed. `trials`: trials.csv;
-/// `list`: trial-list.csv, which has the reaches' directions.
-std::vector<Generalisation> find_generalisation(const CsvFile& trials, const CsvFile& list);
+/// `reaches`: by trial.
+std::vector<Generalisation> find_generalisation(const CsvFile& trials,
+                                                const std::vector<task::ReachPlan>& reaches);
 
 }  // namespace dihaptic::analysis

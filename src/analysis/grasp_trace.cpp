@@ -11,7 +11,7 @@ namespace dihaptic::analysis {
 namespace {
 
 Vec3 axis_of(const GraspTrace::Sample& sample) {
-    return model::grasp_axis({sample.p_WP.data(), sample.p_WP.size()});
+    return model::grasp_axis(sample.p_WP.size(), [&](size_t i) { return sample.p_WP[i]; });
 }
 
 Vec3 velocity_at(const servo::BodyFrame& body, const Vec3& p_W) {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "analysis/savitzky_golay.h"
-#include "base/field.h"
 #include "model/grasp.h"
 
 namespace dihaptic::analysis {
@@ -62,7 +61,7 @@ double correlation(const Signal& x, const Signal& y, Range range, int lag) {
         xx += dx * dx;
         yy += dy * dy;
     }
-    return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : Lift::kNone;
+    return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : kUnmeasured;
 }
 
 /// The attempt's signals, sample by sample.
@@ -207,7 +206,7 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
         sum += sample.friction_scale * friction[f];
         ++count;
     }
-    return count > 0 ? sum / count : Lift::kNone;
+    return count > 0 ? sum / count : kUnmeasured;
 }
 
 /// Whether the object presses on another body than a finger. A sleeping object stands too, though
@@ -496,75 +495,6 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
     find_end(lift, trace, events);
     if (lift.complete() && !hold) lift.mark = "no hold";
     return lift;
-}
-
-Table lift_table(std::span<const Lift> lifts) {
-    Table table;
-    table.columns = {{"trial_num", "number in the session, from 1"},
-                     {"attempt", "of the trial, from 1"},
-                     {"lift", "complete, or what is not there"},
-                     {"events_by", "contact, or force: what the times are found by"},
-                     {"touch_s", "first digit"},
-                     {"load_onset_s", "first digit"},
-                     {"lift_off_s", ""},
-                     {"replacement_s", ""},
-                     {"release_s", "last digit"},
-                     {"preload_s", "touch to load onset"},
-                     {"loading_s", "last digit's load onset to lift-off"},
-                     {"releasing_s", "replacement to release"},
-                     {"peak_grip_N", "mean of the digits"},
-                     {"peak_grip_time_s", "from lift-off"},
-                     {"peak_load_N", "sum of the digits"},
-                     {"peak_grip_rate_N_s", "before lift-off"},
-                     {"peak_load_rate_N_s", "before lift-off"},
-                     {"lift_off_grip_N", ""},
-                     {"static_grip_N", "600 to 200 ms before lowering"},
-                     {"static_load_N", "the same"},
-                     {"static_ratio", "grip over load"},
-                     {"safety_margin", "share of the grip beyond what friction needs"},
-                     {"coupling", "r of the rates of grip and load while loading"},
-                     {"coupling_peak", "with the grip shifted by up to 100 ms"},
-                     {"coupling_lag_s", "that shift; positive: grip follows load"},
-                     {"slope", "grip over load while loading"},
-                     {"offset_N", "of that line"},
-                     {"height_mm", "in the hold"},
-                     {"overshoot_mm", "largest height beyond that"},
-                     {"slip_mm", "largest of a digit from lift-off to lowering"},
-                     {"slips", "times that a digit slid faster than 5 mm/s"}};
-    for (const Lift& l : lifts) {
-        table.rows.push_back({static_cast<double>(l.trial),
-                              static_cast<double>(l.attempt),
-                              l.mark,
-                              std::string(enum_name(l.rule)),
-                              l.touch,
-                              l.load_onset,
-                              l.lift_off,
-                              l.replacement,
-                              l.release,
-                              l.preload,
-                              l.loading,
-                              l.releasing,
-                              l.peak_grip,
-                              l.peak_grip_time,
-                              l.peak_load,
-                              l.peak_grip_rate,
-                              l.peak_load_rate,
-                              l.lift_off_grip,
-                              l.static_grip,
-                              l.static_load,
-                              l.static_ratio,
-                              l.safety_margin,
-                              l.coupling,
-                              l.coupling_peak,
-                              l.coupling_lag,
-                              l.slope,
-                              l.offset,
-                              l.height * 1e3,
-                              l.overshoot * 1e3,
-                              l.slip * 1e3,
-                              static_cast<double>(l.slips)});
-    }
-    return table;
 }
 
 }  // namespace dihaptic::analysis

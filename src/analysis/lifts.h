@@ -34,7 +34,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,7 +41,7 @@
 
 #include "analysis/episodes.h"
 #include "analysis/grasp_trace.h"
-#include "base/table.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
 
@@ -52,44 +51,62 @@ constexpr auto enum_names(EventRule) {
     return std::array{"contact", "force"};
 }
 
-/// The figures of one lift; NaN where an event that a figure needs did not happen.
+/// The figures of one lift, in SI units; NaN where an event that a figure needs did not happen.
 struct Lift {
-    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
     int trial = 0;
     int attempt = 0;
-    /// complete, or what is missing: no touch, not lifted, dropped, no hold, not put down, not
-    /// released; or paused; or place not known, if ticks are missing.
     std::string mark;
     EventRule rule = EventRule::force;
-    double touch = kNone;  ///< by the first digit; these are times in the session [s]
-    double load_onset = kNone;
-    double lift_off = kNone;
-    double replacement = kNone;
-    double release = kNone;  ///< by the last digit
+    double touch = kUnmeasured, load_onset = kUnmeasured, lift_off = kUnmeasured;
+    double replacement = kUnmeasured, release = kUnmeasured;
+    double preload = kUnmeasured, loading = kUnmeasured, releasing = kUnmeasured;
+    double peak_grip = kUnmeasured, peak_grip_time = kUnmeasured, peak_load = kUnmeasured;
+    double peak_grip_rate = kUnmeasured, peak_load_rate = kUnmeasured, lift_off_grip = kUnmeasured;
+    double static_grip = kUnmeasured, static_load = kUnmeasured, static_ratio = kUnmeasured;
+    double safety_margin = kUnmeasured;
+    double coupling = kUnmeasured, coupling_peak = kUnmeasured, coupling_lag = kUnmeasured;
+    double slope = kUnmeasured, offset = kUnmeasured;
+    double height = kUnmeasured, overshoot = kUnmeasured, slip = kUnmeasured;
+    int slips = 0;
 
-    double preload = kNone;  ///< these are durations [s]
-    double loading = kNone;
-    double releasing = kNone;
-    double peak_grip = kNone;       ///< between touch and the object's lowering [N]
-    double peak_grip_time = kNone;  ///< from lift-off [s]
-    double peak_load = kNone;       ///< [N]
-    double peak_grip_rate = kNone;  ///< between touch and lift-off [N/s]
-    double peak_load_rate = kNone;  ///< [N/s]
-    double lift_off_grip = kNone;   ///< [N]
-    double static_grip = kNone;     ///< mean in the hold [N]
-    double static_load = kNone;
-    double static_ratio = kNone;   ///< static grip over static load
-    double safety_margin = kNone;  ///< share of the static grip beyond what friction needs
-    double coupling = kNone;       ///< r of the rates of grip and load from load onset to lift-off
-    double coupling_peak = kNone;  ///< largest r with the grip shifted by up to 100 ms
-    double coupling_lag = kNone;   ///< that shift: positive where grip follows load [s]
-    double slope = kNone;          ///< of the line grip = offset + slope load, while loading
-    double offset = kNone;         ///< of that line [N]
-    double height = kNone;         ///< mean in the hold, above where the object lay [m]
-    double overshoot = kNone;      ///< largest height beyond that [m]
-    double slip = kNone;           ///< a digit's largest on the object, lift-off to lowering [m]
-    int slips = 0;                 ///< times that a digit slid on the object faster than 5 mm/s
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("trial_num", f.trial, "1", "number in the session, from 1");
+        v("attempt", f.attempt, "1", "at the trial, from 1");
+        v("lift", f.mark, "",
+          "complete, or what is missing: no touch, not lifted, dropped, no hold, not put down, not "
+          "released; paused; place not known, if ticks are missing");
+        v("events_by", f.rule, "", "rule by which the times were found: contact or force");
+        v("touch", f.touch, "s", "of the first digit, in the session");
+        v("load_onset", f.load_onset, "s", "of the first digit");
+        v("lift_off", f.lift_off, "s", "when the object left what it stood on");
+        v("replacement", f.replacement, "s", "when the object stood again");
+        v("release", f.release, "s", "by the last digit");
+        v("preload", f.preload, "s", "from touch to load onset");
+        v("loading", f.loading, "s", "from the last digit's load onset to lift-off");
+        v("releasing", f.releasing, "s", "from replacement to release");
+        v("peak_grip", f.peak_grip, "N", "mean of the digits, from touch to lowering");
+        v("peak_grip_time", f.peak_grip_time, "s", "from lift-off");
+        v("peak_load", f.peak_load, "N", "sum of the digits, from touch to lowering");
+        v("peak_grip_rate", f.peak_grip_rate, "N/s", "before lift-off");
+        v("peak_load_rate", f.peak_load_rate, "N/s", "before lift-off");
+        v("lift_off_grip", f.lift_off_grip, "N", "at lift-off");
+        v("static_grip", f.static_grip, "N",
+          "mean in the hold: from 600 to 200 ms before lowering");
+        v("static_load", f.static_load, "N", "mean in the hold");
+        v("static_ratio", f.static_ratio, "1", "static grip over static load");
+        v("safety_margin", f.safety_margin, "1",
+          "share of the static grip beyond what friction needs");
+        v("coupling", f.coupling, "1", "r of the rates of grip and load while loading");
+        v("coupling_peak", f.coupling_peak, "1", "largest r with the grip shifted by up to 100 ms");
+        v("coupling_lag", f.coupling_lag, "s", "that shift; positive: grip follows load");
+        v("slope", f.slope, "1", "of the line grip = offset + slope load, while loading");
+        v("offset", f.offset, "N", "of that line");
+        v("height", f.height, "mm", "mean in the hold, above where the object lay");
+        v("overshoot", f.overshoot, "mm", "largest height beyond that");
+        v("slip", f.slip, "mm", "of the digit that slipped most, from lift-off to lowering");
+        v("slips", f.slips, "1", "times that a digit slid faster than 5 mm/s");
+    }
 
     bool complete() const { return mark == "complete"; }
 };
@@ -99,7 +116,5 @@ struct Lift {
 /// contacts that show when the object stands, otherwise by force.
 Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
                std::optional<EventRule> rule = std::nullopt);
-
-Table lift_table(std::span<const Lift> lifts);
 
 }  // namespace dihaptic::analysis

@@ -1,20 +1,21 @@
 #include "analysis/session_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
+#include <ranges>
 
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
 #include "analysis/lifts.h"
 #include "analysis/trials.h"
+#include "base/figure.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/unmeasured.h"
@@ -101,15 +102,15 @@ struct SessionReader::Pass {
     Pass(const recording::SessionFolder& folder, const recording::SessionInfo& info,
          const recording::LogHead& head)
         : names(names_of(info)),
+          fingers(head.fingers),
           object(object_of(info, head)),
           tick(head.tick),
           facts(facts_of(info.object, folder, head, reading.why_no_facts)),
           events(head, object, names),
           trace(object, tick),
           fault(head.fingers, head.turning_fingers()) {
-        reading.figures.status_ticks.assign(servo::kStatusBits, 0);
+        reading.figures.status_ticks.assign(kStatusBits, 0);
         reading.figures.tick = tick;
-        reading.figures.fingers = head.fingers;
         if (has_trials(folder)) reading.trials.emplace(folder, head.fingers);
     }
 
@@ -125,9 +126,12 @@ struct SessionReader::Pass {
 
     void end_trial() {
         if (object >= 0 && !trace.samples().empty()) {
-            const std::vector<Episode> episodes = find_episodes(trace, facts);
-            auto& all = reading.figures.episodes;
-            all.insert(all.end(), episodes.begin(), episodes.end());
+            for (Episode& episode : find_episodes(trace, facts)) {
+                std::vector<std::string> own;
+                for (const size_t finger : episode.fingers) own.push_back(fingers[finger]);
+                episode.finger_names = fmt::format("{}", fmt::join(own, ", "));
+                reading.figures.episodes.push_back(std::move(episode));
+            }
             // a task's phase 0 is between its trials
             if (trace.fingers() > 1 && !(reading.trials && phase == 0)) {
                 Lift lift = find_lift(trace, facts.gravity, facts.finger_friction);
@@ -168,7 +172,7 @@ struct SessionReader::Pass {
         ++figures.frames;
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
-        servo::for_each_status(frame.status, [&](servo::Status bit) { ++figures.ticks_with(bit); });
+        for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
     }
 
     void end(const recording::LogHealth& log) {
@@ -180,6 +184,7 @@ struct SessionReader::Pass {
     }
 
     std::vector<std::string> names;  // names of the phases
+    std::vector<std::string> fingers;
     int object;
     double tick;
     Reading reading;
@@ -206,122 +211,44 @@ void SessionReader::add(const servo::Frame& frame) {
 
 namespace {
 
-Table phase_table(const SessionFigures& figures) {
-    Table table;
-    table.columns = {
-        {"start_time", "s"},
-        {"stop_time", "s"},
-        {"trial", "number, from 1"},
-        {"phase", "name"},
-        {"mean_grip_N", "pinch component of the normal forces, mean of the digits"},
-        {"peak_grip_N", "largest grip force"},
-        {"mean_load_N", "tangential contact forces along gravity, summed over the digits"},
-        {"mean_force_N", "mean force on the busiest finger"},
-        {"peak_force_N", "largest force on any finger"},
-        {"slip_mm", "largest slip of a finger on the object; empty unless all held it throughout"},
-        {"weight_felt", "vertical handle forces over the object's weight; empty unless carried"},
-        {"mean_torque_Nm", "largest torque on any handle, mean; empty without orientation"},
-        {"peak_torque_Nm", "largest torque on any handle"}};
-    for (const PhaseFigures& p : figures.phases) {
-        table.rows.push_back({p.start, p.end, static_cast<double>(p.trial), p.name, p.mean_grip,
-                              p.peak_grip, p.mean_load, p.mean_force, p.peak_force, p.slip * 1e3,
-                              p.weight_felt, p.mean_torque, p.peak_torque});
-    }
-    return table;
-}
-
-Table episode_table(const SessionFigures& figures) {
-    Table table;
-    table.columns = {
-        {"start_time", "s"},
-        {"stop_time", "s"},
-        {"episode", "hold, slide or flight of the object"},
-        {"fingers", "that pressed it, or let it go"},
-        {"slip_mm", "hold: largest slip of these fingers on it"},
-        {"least_slip_mm", "hold: of the finger that slipped least, as the one that takes it over"},
-        {"sag_mm", "hold: its lowest height, from that at the start"},
-        {"turn_deg", "hold: of the object, when the line between the fingers had turned most"},
-        {"hand_turn_deg", "hold: of that line"},
-        {"distance_mm", "slide"},
-        {"friction_ratio", "slide: work of friction over its closed form"},
-        {"release_speed_m_s", "flight: when let go"},
-        {"release_ratio", "flight: its velocity along the hand's, over that"},
-        {"rise_mm", "flight: above where it was let go"},
-        {"off_path_mm", "flight: largest distance from the ballistic path"}};
-    constexpr double kDegrees = 180 / std::numbers::pi;
-    for (const Episode& e : figures.episodes) {
-        table.rows.push_back({e.start, e.end, std::string(enum_name(e.kind)),
-                              finger_list(e, figures.fingers), e.slip * 1e3, e.least_slip * 1e3,
-                              e.sag * 1e3, e.turn * kDegrees, e.hand_turn * kDegrees,
-                              e.distance * 1e3, e.friction_ratio, e.release_speed, e.release_ratio,
-                              e.rise * 1e3, e.off_path * 1e3});
-    }
-    return table;
-}
-
 Table trial_table(const SessionFigures& figures, const recording::SessionInfo& info) {
-    Table table;
-    table.columns = {{"start_time", "s"},
-                     {"stop_time", "s"},
-                     {"experiment", "title"},
-                     {"ppid", "participant"},
-                     {"session_num", "number, from 1"},
-                     {"trial_num", "number in the session, from 1"},
-                     {"block_num", "number, from 1"},
-                     {"trial_num_in_block", "number, from 1"},
-                     {"outcome", "done, interrupted, diverged, or force off"},
-                     {"peak_grip_N", "largest grip force"},
-                     {"peak_force_N", "largest force on any finger"}};
-    std::map<int, std::vector<const PhaseFigures*>> by_trial;
-    for (const PhaseFigures& phase : figures.phases) by_trial[phase.trial].push_back(&phase);
-    for (const auto& [trial, phases] : by_trial) {
-        double grip = kUnmeasured;
-        double force = 0;
-        for (const PhaseFigures* phase : phases) {
-            grip = std::fmax(grip, phase->peak_grip);
-            force = std::max(force, phase->peak_force);
-        }
+    std::map<int, PlainTrial> trials;
+    for (const PhaseFigures& phase : figures.phases) {
+        const auto [found, is_new] = trials.try_emplace(phase.trial);
+        PlainTrial& trial = found->second;
+        if (is_new) trial.head = {phase.start, 0, info.title, info.participant.id};
+        trial.trial = phase.trial;
+        trial.head.end = phase.end;
+        trial.peak_grip = std::fmax(trial.peak_grip, phase.peak_grip);
+        trial.peak_force = std::max(trial.peak_force, phase.peak_force);
         const bool ended = figures.log.complete || figures.log.last_tick + 1 == info.ticks;
         const bool done = ended && !info.interrupted && !info.phases.empty() &&
-                          phases.back()->name == info.phases.back().name;
-        table.rows.push_back({phases.front()->start, phases.back()->end, info.title,
-                              info.participant.id, 1.0, static_cast<double>(trial), 1.0,
-                              static_cast<double>(trial),
-                              figures.diverged() ? "diverged"
-                              : figures.failed() ? "force off"
-                              : done             ? "done"
-                                                 : "interrupted",
-                              grip, force});
+                          phase.name == info.phases.back().name;
+        trial.outcome = figures.diverged() ? "diverged"
+                        : figures.failed() ? "force off"
+                        : done             ? "done"
+                                           : "interrupted";
     }
-    return table;
+    return figure_table<PlainTrial>(std::views::values(trials));
 }
 
-Table event_table(const std::vector<Event>& events, const recording::Showings& showings) {
-    Table table;
-    table.columns = {{"time_s", "of its tick"},
-                     {"trial", "number, from 1"},
-                     {"event", "what happened"},
-                     {"detail", "to whom, or what"},
-                     {"shown_s", "when the first picture of it came to the screen; empty: none"}};
+/// Finds when each event was first seen on the screen.
+void find_shown(std::vector<Event>& events, const recording::Showings& showings) {
     // a message is seen only in pictures from before the next message
     int64_t gone = recording::Showings::kStays;
     for (size_t i = events.size(); i-- > 0;) {
-        const Event& event = events[i];
+        Event& event = events[i];
         const bool message = event.name == "message";
-        const double shown =
+        event.shown =
             showings.onset(event.tick, event.time, message ? gone : recording::Showings::kStays);
         if (message) gone = event.tick;
-        table.rows.push_back(
-            {event.time, static_cast<double>(event.trial), event.name, event.detail, shown});
     }
-    std::reverse(table.rows.begin(), table.rows.end());
-    return table;
 }
 
 /// The table of events in NWB's form: intervals, with a start and an end.
 Table as_intervals(const Table& events) {
     Table table;
-    table.columns = {{"start_time", "s"}, {"stop_time", "s"}};
+    table.columns = {{"start_time", "in the session", "s"}, {"stop_time", "in the session", "s"}};
     table.columns.insert(table.columns.end(), events.columns.begin() + 1, events.columns.end());
     for (const std::vector<Table::Cell>& event : events.rows) {
         std::vector<Table::Cell> row{event[0]};
@@ -421,12 +348,6 @@ Table read_settings(const recording::SessionFolder& folder) {
     return table;
 }
 
-std::string finger_list(const Episode& episode, const std::vector<std::string>& names) {
-    std::string out;
-    for (const size_t finger : episode.fingers) out += (out.empty() ? "" : ", ") + names[finger];
-    return out;
-}
-
 const PhaseFigures* SessionFigures::phase(const std::string& name) const {
     for (const PhaseFigures& phase : phases) {
         if (phase.name == name) return &phase;
@@ -445,8 +366,9 @@ SessionFigures write_tables(const recording::SessionFolder& folder,
     write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
     write_csv(content.phases, folder.file("phases.csv"));
     const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
-    write_csv(by(episode_table(out)), folder.file("episodes.csv"));
-    if (!reading.lifts.empty()) write_csv(by(lift_table(reading.lifts)), folder.file("lifts.csv"));
+    write_csv(by(figure_table<Episode>(out.episodes)), folder.file("episodes.csv"));
+    if (!reading.lifts.empty())
+        write_csv(by(figure_table<Lift>(reading.lifts)), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     folder.sync();  // all files are on the disk before the state says so
@@ -462,14 +384,15 @@ recording::NwbContent content_of(const Reading& reading, const recording::Sessio
     content.trials =
         by(reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info));
     if (reading.trials) number_session(content.trials, folder);
-    content.phases = by(phase_table(reading.figures));
+    content.phases = by(figure_table<PhaseFigures>(reading.figures.phases));
     return content;
 }
 
 Table events_of(const Reading& reading, const recording::SessionFolder& folder,
                 const recording::SessionInfo& info) {
-    return recording::marked(event_table(reading.events, recording::Showings(folder)),
-                             info.moved_by);
+    std::vector<Event> events = reading.events;
+    find_shown(events, recording::Showings(folder));
+    return recording::marked(figure_table<Event>(events), info.moved_by);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "base/field.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -82,6 +83,11 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
 PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
                                           uint64_t seed) {
     return bootstrap(count(track.answers), fit, track.model, kResamples, seed);
+}
+
+model::Psychometric ThresholdFit::function() const {
+    if (fit) return fit->function;
+    return {.threshold = kUnmeasured, .shape = kUnmeasured, .lapse = kUnmeasured};
 }
 
 }  // namespace dihaptic::analysis

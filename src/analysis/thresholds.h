@@ -34,6 +34,9 @@ struct ThresholdFit {
     /// if there is nothing to note.
     std::string note;
     bool outside = false;  ///< the threshold lies outside of the levels that were shown
+
+    /// The fitted function; without a fit its parameters are NaN.
+    model::Psychometric function() const;
 };
 /// There is no fit for fewer than ten answers, for a single level, or for levels that the sigmoid
 /// cannot take.

@@ -8,21 +8,12 @@
 #include <vector>
 
 #include "base/table.h"
+#include "base/unmeasured.h"
 #include "recording/session.h"
 #include "servo/frame.h"
+#include "task/reach_plan.h"
 
 namespace dihaptic::analysis {
-
-/// How one trial's reach is measured.
-struct ReachPlan {
-    size_t finger = 0;
-    int phase = 0;               ///< phase in which it is measured
-    double distance = 0;         ///< distance from from_W at which the angle is measured [m]
-    Vec3 from_W = Vec3::Zero();  ///< [m]
-    Vec3 to_W = Vec3::Zero();
-    Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
-    bool extent = false;          ///< the extent is measured, in place of the angle
-};
 
 /// Finds the end of a movement's first stroke along a line: when its speed has fallen to a fifth of
 /// its peak. The least peak is above noise and tremor.
@@ -47,6 +38,70 @@ class FirstStroke {
 /// NaN if one of them lies along it.
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to);
 
+/// What a row of trials.csv begins with.
+struct TrialHead {
+    double start = 0, end = 0;
+    std::string experiment;
+    std::string participant;
+    int session = 1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("start_time", f.start, "s", "in the session");
+        v("stop_time", f.end, "s", "in the session");
+        v("experiment", f.experiment, "", "title");
+        v("ppid", f.participant, "", "participant");
+        v("session_num", f.session, "1",
+          "number, from 1; a session that goes on with another has the next");
+    }
+};
+
+/// A trial of a session without a task.
+struct PlainTrial {
+    TrialHead head;
+    int trial = 0;
+    std::string outcome;
+    double peak_grip = kUnmeasured;
+    double peak_force = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        TrialHead::visit(f.head, v);
+        v("trial_num", f.trial, "1", "number in the session, from 1");
+        v("block_num", 1, "1", "number, from 1");
+        v("trial_num_in_block", f.trial, "1", "number, from 1");
+        v("outcome", f.outcome, "", "done, interrupted, diverged, or force off");
+        v("peak_grip", f.peak_grip, "N", "largest grip force");
+        v("peak_force", f.peak_force, "N", "largest force on any finger");
+    }
+};
+
+/// What is measured in an attempt at a task's trial, in SI units.
+struct TrialMeasures {
+    int attempt = 0;
+    std::string outcome;
+    double peak_grip = kUnmeasured;
+    double peak_force = 0;
+    double reach_time = kUnmeasured, hand_angle = kUnmeasured, shown_angle = kUnmeasured;
+    double hand_extent = kUnmeasured, shown_extent = kUnmeasured, wanted_extent = kUnmeasured;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("attempt", f.attempt, "1", "at the trial, from 1");
+        v("outcome", f.outcome, "", "what ended it; interrupted: nothing did");
+        v("peak_grip", f.peak_grip, "N", "largest grip force");
+        v("peak_force", f.peak_force, "N", "largest force on any finger");
+        v("reach_time", f.reach_time, "s", "from its start until the reach was measured");
+        v("hand_angle", f.hand_angle, "deg",
+          "of the handle then, from the target's direction, about the axis");
+        v("shown_angle", f.shown_angle, "deg", "the same of where the handle was shown");
+        v("hand_extent", f.hand_extent, "mm", "of the handle's first stroke, toward the target");
+        v("shown_extent", f.shown_extent, "mm", "the same of where the handle was shown");
+        v("wanted_extent", f.wanted_extent, "mm",
+          "that would have led to the target, from where the handle was first shown");
+    }
+};
+
 class TrialFinder {
   public:
     /// Throws Error when the session's list of trials cannot be read.
@@ -58,28 +113,24 @@ class TrialFinder {
   private:
     struct Row {
         int trial = 0;
-        int attempt = 0;
         int outcome = -1;
         double start = 0;  ///< [s]
         double end = 0;
         double share = 0;  ///< share of the perturbation
-        double peak_grip;
-        double peak_force = 0;
-        double hand_angle;  ///< [rad]
-        double shown_angle;
-        double reach_time;   ///< when the handle was at `distance`, or its first stroke ended [s]
-        double hand_extent;  ///< [m]
-        double shown_extent;
-        double wanted_extent;  ///< from where the handle was first shown
+        TrialMeasures measures;
         FirstStroke stroke;
         std::optional<Vec3> hand_start_W;
         Vec3 shown_start_W = Vec3::Zero();
     };
-    void measure_angle(Row& row, const ReachPlan& reach, const servo::Frame& frame) const;
-    void measure_extent(Row& row, const ReachPlan& reach, const servo::Frame& frame) const;
+    struct Reach {
+        task::ReachPlan plan;
+        size_t finger = 0;
+    };
+    void measure_angle(Row& row, const Reach& reach, const servo::Frame& frame) const;
+    void measure_extent(Row& row, const Reach& reach, const servo::Frame& frame) const;
 
     std::vector<std::vector<std::string>> list_;  // trial-list.csv, with its header
-    std::vector<ReachPlan> reaches_;              // by trial; empty if none is measured
+    std::vector<Reach> reaches_;                  // by trial; empty if none is measured
     std::vector<Row> rows_;
 };
 

@@ -17,21 +17,11 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <mutex>
 
 namespace dihaptic {
 namespace {
 
 constexpr int kOutOfMemory = 3;  // exit status
-
-/// The companions that are running. The list is guarded, so that cancelling never ends a program
-/// that was given the number of an ended companion.
-struct Running {
-    std::string name;
-    pid_t process;
-};
-std::mutex running_guard;
-std::vector<Running> running;
 
 /// A file in memory, which needs neither a name nor a folder.
 class MemoryFile {
@@ -143,21 +133,18 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
     };
     pid_t process = 0;
     Ended ended;
-    bool limited = false;
+    if (const int error = start(path, task, in, out, process); error != 0) throw failed(error);
+    const bool limited = limit(process, task.limits);
     {
-        const std::lock_guard lock(running_guard);
-        if (const int error = start(path, task, in, out, process); error != 0) throw failed(error);
-        limited = limit(process, task.limits);
-        running.push_back({task.program, process});
+        const std::stop_callback stopped(task.stop, [process] { kill(process, SIGTERM); });
+        if (limited) ended.late = !wait_for(process, task.limits.time);
+        if (!limited || ended.late) kill(process, SIGKILL);
+        siginfo_t ignored{};
+        while (waitid(P_PID, static_cast<id_t>(process), &ignored, WEXITED | WNOWAIT) < 0 &&
+               errno == EINTR)
+            continue;
     }
-    if (limited) ended.late = !wait_for(process, task.limits.time);
-    if (!limited || ended.late) kill(process, SIGKILL);
-    siginfo_t ignored{};
-    while (waitid(P_PID, static_cast<id_t>(process), &ignored, WEXITED | WNOWAIT) < 0 &&
-           errno == EINTR)
-        continue;
-    const std::lock_guard lock(running_guard);
-    std::erase_if(running, [&](const Running& one) { return one.process == process; });
+    // only now may another program be given its number
     while (waitpid(process, &ended.status, 0) < 0 && errno == EINTR) continue;
     if (!limited) throw failed(EPERM);
     return ended;
@@ -216,13 +203,6 @@ std::optional<std::string> run_companion(const CompanionTask& task, const std::s
     if (const std::string why = failure(task, ended); !why.empty())
         throw Error(task.place, task.key, task.what + " " + why, task.remedy);
     return std::nullopt;
-}
-
-void cancel_companions(const std::string& name) noexcept {
-    const std::lock_guard lock(running_guard);
-    for (const Running& one : running) {
-        if (one.name == name) kill(one.process, SIGTERM);
-    }
 }
 
 }  // namespace dihaptic

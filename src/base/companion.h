@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,14 @@ struct CompanionTask {
     std::string remedy;  ///< what to do about input that makes it crash or exceed its limits
     Place place;         ///< where the input was named
     std::string key;
+    std::stop_token stop = {};  ///< ends the companion
 };
 
 /// Runs a companion on `input`, which it reads from its standard input, and returns what it writes
 /// to its standard output. Returns nullopt when it refuses the input, by an exit status other than
 /// 0; the exit status 3 is an error instead, and means that memory ran out. Throws Error when the
-/// companion is missing, cannot be started, crashes, exceeds its limits or is cancelled. The
+/// companion is missing, cannot be started, crashes, exceeds its limits or is stopped. The
 /// companion has ended whenever this function returns or throws.
 std::optional<std::string> run_companion(const CompanionTask& task, const std::string& input);
-
-/// Ends all running companions of this name; each run_companion() that waits for one throws Error.
-/// Does nothing if none is running. May be called from any thread.
-void cancel_companions(const std::string& name) noexcept;
 
 }  // namespace dihaptic

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace dihaptic {
 namespace {
 
@@ -13,6 +15,7 @@ Node exact(double value) {
 }  // namespace
 
 void FieldWriter::operator()(std::string_view name, const double& value, Field field) {
+    if (std::isinf(value)) return;
     mapping_.set(si_key(name, field.quantity), exact(value));
 }
 

@@ -1,5 +1,6 @@
 // Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
-// sessions keep their inputs in this form. Reading the result gives the same struct, to the bit.
+// sessions keep their inputs in this form. Reading the result gives the same struct, to the bit. An
+// infinite value, which no file can have, is left out: it has to be its field's default.
 #pragma once
 
 #include <optional>

@@ -1,14 +1,15 @@
 #include "base/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "base/diagnostics.h"
 #include "base/text_file.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic {
 
@@ -55,6 +56,32 @@ std::string to_csv(const Table& table) {
     for (const auto& row : table.rows)
         line(row, [](const Table::Cell& cell) { return to_csv(cell); });
     return out;
+}
+
+std::string to_text(const Table::Cell& cell) {
+    const double* number = std::get_if<double>(&cell);
+    if (number == nullptr) return std::get<std::string>(cell);
+    return std::isnan(*number) ? "-" : fmt::format("{:.6g}", *number);
+}
+
+std::string to_text(const Table& table) {
+    std::vector<std::string> lines(table.rows.size() + 1);
+    for (size_t c = 0; c < table.columns.size(); ++c) {
+        std::vector<std::string> words{table.columns[c].name};
+        bool numbers = true;
+        for (const auto& row : table.rows) {
+            words.push_back(to_text(row[c]));
+            numbers = numbers && std::holds_alternative<double>(row[c]);
+        }
+        size_t width = 0;
+        for (const std::string& word : words) width = std::max(width, word.size());
+        for (size_t i = 0; i < words.size(); ++i) {
+            const std::string space(width - words[i].size(), ' ');
+            if (c > 0) lines[i] += "  ";
+            lines[i] += numbers ? space + words[i] : words[i] + space;
+        }
+    }
+    return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 void write_csv(const Table& table, const std::string& file) {
@@ -120,7 +147,7 @@ double CsvFile::number(size_t row, const std::string& column) const {
     const std::string cell = text(row, column);
     char* end = nullptr;
     const double value = std::strtod(cell.c_str(), &end);
-    return !cell.empty() && *end == '\0' ? value : std::numeric_limits<double>::quiet_NaN();
+    return !cell.empty() && *end == '\0' ? value : kUnmeasured;
 }
 
 }  // namespace dihaptic

@@ -11,6 +11,11 @@ struct Table {
     struct Column {
         std::string name;  ///< with its unit, e.g. "peak_grip_N"
         std::string description;
+        std::string unit = {};  ///< e.g. "N/s"; empty for pure numbers and texts
+
+        std::string in_words() const {
+            return unit.empty() ? description : description + " [" + unit + "]";
+        }
     };
     using Cell = std::variant<std::string, double>;  ///< NaN: unmeasured, written as an empty cell
 
@@ -24,6 +29,10 @@ Table transposed(const Table& table);
 /// One cell as CSV: text is quoted where RFC 4180 needs it.
 std::string to_csv(const Table::Cell& cell);
 std::string to_csv(const Table& table);
+
+/// For people: numbers have six digits, what is unmeasured is "-", columns are aligned.
+std::string to_text(const Table::Cell& cell);
+std::string to_text(const Table& table);
 
 /// Writes the table, replacing the file as a whole. Throws Error when it cannot be written.
 void write_csv(const Table& table, const std::string& file);

@@ -1,12 +1,9 @@
 #include "base/unit.h"
 
 #include <array>
-#include <numbers>
 
 namespace dihaptic {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr std::array kLength{Unit{"m", 1}, Unit{"mm", 1e-3}, Unit{"cm", 1e-2}, Unit{"um", 1e-6}};
 constexpr std::array kAngle{Unit{"rad", 1}, Unit{"deg", kDegree}};
@@ -72,6 +69,14 @@ const Kind& kind(Quantity quantity) {
 
 std::span<const Unit> units(Quantity quantity) {
     return kind(quantity).units;
+}
+const Unit* find_unit(std::string_view suffix) {
+    for (const Kind& kind : kKinds) {
+        for (const Unit& unit : kind.units) {
+            if (unit.suffix == suffix) return &unit;
+        }
+    }
+    return nullptr;
 }
 std::string_view name(Quantity quantity) {
     return kind(quantity).name;

@@ -2,11 +2,14 @@
 // value names its unit: size_mm, mass_g, stiffness_N_m; any unit of the right kind is accepted.
 #pragma once
 
+#include <numbers>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace dihaptic {
+
+constexpr double kDegree = std::numbers::pi / 180;  ///< [rad]
 
 /// The kind of quantity that a value is. Values are written in the first unit of their kind.
 enum class Quantity {
@@ -38,6 +41,9 @@ struct Unit {
 
 /// The units that a quantity may be given in, the SI unit first; empty for Quantity::none.
 std::span<const Unit> units(Quantity quantity);
+
+/// The unit of any quantity that has this suffix; null if there is none.
+const Unit* find_unit(std::string_view suffix);
 
 /// "length", "stiffness", ...: for messages.
 std::string_view name(Quantity quantity);

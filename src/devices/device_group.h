@@ -8,9 +8,7 @@
 #include <cassert>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,71 +16,28 @@
 #include "base/clock.h"
 #include "base/field_reader.h"
 #include "base/geometry.h"
+#include "base/status.h"
+#include "devices/device_info.h"
 #include "hand/driver.h"
 #include "hand/spec.h"
-#include "model/phantom_arm.h"
 
 namespace dihaptic::devices {
-
-/// What can be wrong with a device in one tick, and the remedy: bits of Reading::status.
-enum DeviceStatus : uint32_t {
-    /// The endpoint is outside the device's workspace: move the hand, or the device in the rig.
-    kOutsideWorkspace = 1u << 0,
-    kForceClamped = 1u << 1,  ///< asked for more than its peak force: soften the coupling
-    kNoMoreData = 1u << 2,    ///< the recording has ended
-    kNotAnswering = 1u << 3,  ///< no state came: the rest of the reading means nothing
-    /// The device switched its force off by itself, because of a force, speed or heat beyond its
-    /// limits, and force can be switched on again: soften the coupling, move more slowly, let its
-    /// motors cool.
-    kForceDropped = 1u << 4,
-    kNeedsCalibration = 1u << 5,  ///< its positions mean nothing until it is calibrated again
-    kDeviceFault = 1u << 6,       ///< something in it is broken: explain() may say what
-};
 
 /// State of one device, in its base frame D.
 struct Reading {
     Vec3 p_DH = Vec3::Zero();  ///< endpoint [m]
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
-    uint32_t status = 0;  ///< DeviceStatus
+    /// Bits of kStatusByDevice. With kNotAnswering the rest of the reading means nothing,
+    /// with kUncalibrated its positions; kForceDropped is for a force that can be switched on
+    /// again.
+    uint32_t status = 0;
     /// Rotation of the endpoint from the device's neutral orientation, and its angular velocity
     /// [rad/s]; for devices that measure orientation.
     Quat R_DH = Quat::Identity();
     Vec3 w_DH = Vec3::Zero();
     /// Angles of the arm's joints [rad]; for devices with a DeviceInfo::arm.
     Vec3 joints = Vec3::Zero();
-};
-
-/// What a device can do.
-struct DeviceInfo {
-    std::string model;
-    std::string serial;  ///< "" if the device does not report one
-    /// The device does not move a person's hand: a late force harms nobody.
-    bool simulated = false;
-    double peak_force = std::numeric_limits<double>::infinity();  ///< [N]
-    /// Force that the device can hold for long [N].
-    double continuous_force = std::numeric_limits<double>::infinity();
-    /// Damping of handle and hand together, which limits the stable stiffness [N*s/m].
-    double damping = 0;
-    double mass = 0;                ///< of handle and hand together; 0: not known [kg]
-    double delay = 0;               ///< from write to force [s]
-    std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
-    /// Factor by which readings exceed the hand's movement, and the forces here those in the hand.
-    double scale = 1;
-    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its maker
-    /// states them: settings given as shares of a maximum refer to these.
-    std::optional<double> max_stiffness;
-    std::optional<double> max_damping;
-
-    /// Links of a Premium that reports its joint angles: p_DH is where the angles put the endpoint.
-    std::optional<model::PhantomLinks> arm;
-
-    bool measures_orientation = false;
-    double peak_torque = 0;  ///< 0: the device renders no torque [N*m]
-    /// Torque that the device can hold for long [N*m].
-    double continuous_torque = std::numeric_limits<double>::infinity();
-    double turn_damping = 0;  ///< of handle and hand together, against turning [N*m*s/rad]
-    double inertia = 0;       ///< of handle and hand together; 0: not known [kg*m^2]
 };
 
 /// One device, as the rig file describes it.
@@ -101,8 +56,12 @@ struct Context {
     hand::Impedance impedance;
     hand::TremorSpec tremor;
     uint64_t seed = 0;
-    /// Gives the recorded readings of a tick, for replay; false after the last.
-    std::function<bool(Time, std::span<Reading>)> recording;
+    /// For replay: the recorded devices, and the readings of a tick; false after the last.
+    struct Recording {
+        std::vector<DeviceInfo> devices;
+        std::function<bool(Time, std::span<Reading>)> read;
+    };
+    Recording recording;
 };
 
 /// All devices of one backend.
@@ -113,6 +72,7 @@ class DeviceGroup {
     bool active() const { return active_; }
     int size() const { return static_cast<int>(infos_.size()); }
     const DeviceInfo& info(int device) const { return infos_[static_cast<size_t>(device)]; }
+    const std::vector<DeviceInfo>& descriptions() const { return infos_; }
 
     void activate() {
         assert(!active_);
@@ -201,8 +161,10 @@ std::string in_words(const Error& error);
 /// An entry of the table of backends, one for each subfolder of this folder.
 struct Backend {
     const char* name;
-    /// Checks the options of a device, without touching hardware.
-    void (*check)(const DeviceConfig& config, Diagnostics& diagnostics);
+    /// Reads and checks the options of devices, without touching hardware, and returns what these
+    /// say of them. What only an open device can say keeps its default.
+    std::vector<DeviceInfo> (*describe)(const std::vector<DeviceConfig>& configs,
+                                        const Context& context, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
                                          const Context& context);
     /// Whether its devices are real: they move a person's hand, and run only in real time.

@@ -14,7 +14,7 @@ class ForceDrops {
     static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart are single
     static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 
-    /// The DeviceStatus of a tick at `now`; `dropped`: whether force was cut in it.
+    /// The Status of a tick at `now`; `dropped`: whether force was cut in it.
     uint32_t status(Time now, bool dropped) noexcept {
         if (!dropped) return 0;
         if (!first_ || now - last_ > kApart) first_ = now;

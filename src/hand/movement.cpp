@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/plural.h"
+#include "base/statistics.h"
 #include "base/text_file.h"
 #include "base/unit.h"
 #include "base/unmeasured.h"
@@ -349,6 +350,12 @@ void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
     pick(movement.fingers);
     pick(movement.columns);
     for (Movement::Frame& frame : movement.frames) pick(frame.p_WH);
+}
+
+double Movement::frame_time() const {
+    std::vector<double> steps;
+    for (size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i].time - frames[i - 1].time);
+    return quantile(std::move(steps), 0.5);
 }
 
 }  // namespace dihaptic::hand

@@ -33,6 +33,9 @@ struct Movement {
         std::vector<Vec3> p_WH;  ///< by finger, world axes; NaN where the file has no value [m]
     };
     std::vector<Frame> frames;
+
+    /// Median of the times between frames [s].
+    double frame_time() const;
 };
 
 /// Limits of a plausible recording: beyond them a time stamp, or its unit, is wrong.

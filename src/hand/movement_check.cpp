@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/unmeasured.h"
 
 namespace dihaptic::hand {
 namespace {
@@ -22,7 +23,7 @@ double typical_extent(const Movement& movement, size_t finger) {
         for (const Movement::Frame& frame : movement.frames) {
             if (frame.p_WH[finger].allFinite()) values.push_back(frame.p_WH[finger][axis]);
         }
-        if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+        if (values.empty()) return kUnmeasured;
         std::sort(values.begin(), values.end());
         const size_t trim = std::min(values.size() / 4, 5 + values.size() / 100);
         extent = std::max(extent, values[values.size() - 1 - trim] - values[trim]);
@@ -30,19 +31,11 @@ double typical_extent(const Movement& movement, size_t finger) {
     return extent;
 }
 
-double median_step(const std::vector<Movement::Frame>& frames) {
-    std::vector<double> steps;
-    for (size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i].time - frames[i - 1].time);
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return *middle;
-}
-
 /// Reports an error and returns false if no tracker records at the movement's rate.
 bool check_rate(const Movement& movement, Diagnostics& problems) {
     const std::string& key = movement.time_column;
     const std::string unit = unit_of(key);
-    const double step = median_step(movement.frames);
+    const double step = movement.frame_time();
     if (step > 1 / kSlowestTracker) {
         problems.error({movement.file, 1}, key,
                        fmt::format("the lines are {:.6g} s apart, where at least {:g} frames a "

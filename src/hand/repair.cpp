@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/field.h"
 #include "base/unmeasured.h"
@@ -17,15 +16,6 @@ constexpr double kGap = 1.75;     // frame times; if two frames are further apar
 constexpr size_t kFrozenRun = 5;  // equal positions in a row, then a step: a frozen marker
 constexpr double kFrozenStep = 0.003;  // [m]
 constexpr size_t kWildRun = 5;         // longest run of wild positions [frames]
-
-double frame_time(const Movement& movement) {
-    std::vector<double> steps;
-    for (size_t i = 1; i < movement.frames.size(); ++i)
-        steps.push_back(movement.frames[i].time - movement.frames[i - 1].time);
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                     steps.end());
-    return steps[steps.size() / 2];
-}
 
 /// Judges one finger's positions frame by frame.
 class FingerRepair {
@@ -272,7 +262,7 @@ double Path::bridged_share() const {
 Path repair(const Movement& movement) {
     Path path;
     path.fingers = movement.fingers;
-    const double frame = frame_time(movement);
+    const double frame = movement.frame_time();
     const double t0 = movement.frames.front().time;
     const double t1 = movement.frames.back().time;
     const auto samples = static_cast<size_t>(std::floor((t1 - t0) * Path::kRate)) + 1;

@@ -51,7 +51,7 @@ class BodyCoupling {
     Pull pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
               const Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
+    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
 
   protected:
     BodyCoupling(const CouplingSettings& settings, double mass)
@@ -115,7 +115,7 @@ class DualSpring {
     /// Starts with the proxy at the handle, where the spring is not stretched.
     void place() noexcept { f_H_W_.setZero(); }
     Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { settings_.set(tuning); }
+    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
 
   private:
     CouplingSettings settings_;

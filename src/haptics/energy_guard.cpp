@@ -41,7 +41,7 @@ void EnergyGuard::count_windows(bool stepped, double h) noexcept {
 }
 
 Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W,
-                          double stored, bool stepped, double h, unsigned& flags) noexcept {
+                          double stored, bool stepped, double h, uint32_t& status) noexcept {
     const bool finite = asked_W.force.allFinite() && asked_W.torque.allFinite();
     if (!finite) return {};
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
@@ -78,11 +78,11 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     if (mode_ == EnergyGuardMode::off) generated_ = {};  // feeding() counts on
     const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
-    flags |= kEnergyGenerated;
+    status |= kEnergyGenerated;
     if (mode_ != EnergyGuardMode::act) return damper_;
     damper_.force = braking(handle.v_WH, excess, h, kMostEnergyDamping);
     damper_.torque = braking(handle.w_WH, excess, h, kMostEnergyTurnDamping);
-    if (!damper_.is_zero()) flags |= kEnergyDamped;
+    if (!damper_.is_zero()) status |= kEnergyDamped;
     return damper_;
 }
 

@@ -6,15 +6,10 @@
 #include <algorithm>
 #include <array>
 
+#include "base/status.h"
 #include "haptics/coupling.h"
 
 namespace dihaptic::haptics {
-
-/// What the guard reports in a tick; see also LimitFlags.
-enum EnergyFlags : unsigned {
-    kEnergyGenerated = 1u << 8,  ///< the hand got more than kEnergyBudget that nobody put in
-    kEnergyDamped = 1u << 9,     ///< and a damper took some of it back
-};
 
 /// Energy that a coupling may generate before it counts as active [J]: that of a handle of 75 g at
 /// 0.5 m/s. Touching, letting go and encoder steps generate up to half of it.
@@ -40,9 +35,10 @@ class EnergyGuard {
     /// Called once in a tick of h [s] with the handle, the proxy after the tick's step, the wrench
     /// that the coupling wants to exert on the handle from now on, and the energy of its springs at
     /// that time, acting or not [J]. `stepped`: whether the world stepped in this tick; what
-    /// happens between two steps is judged as a whole. Returns the wrench to add.
+    /// happens between two steps is judged as a whole. Returns the wrench to add, and adds to
+    /// `status`.
     Wrench watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W, double stored,
-                 bool stepped, double h, unsigned& flags) noexcept;
+                 bool stepped, double h, uint32_t& status) noexcept;
 
     /// Energy that the coupling generated in the last windows if it exceeded the budget in at least
     /// kActiveWindows in a row, else 0 [J].

@@ -24,7 +24,7 @@ void Finger::retune(const CouplingSettings& coupling) noexcept {
             coupling_ = VelocityImpulse(coupling, mass_, max_force_);
         kind_ = coupling.kind;
     } else {
-        std::visit([&](auto& of) { of.retune(coupling.tuning()); }, coupling_);
+        std::visit([&](auto& of) { of.retune(coupling); }, coupling_);
     }
     if (turn_) turn_->retune(coupling);
 }

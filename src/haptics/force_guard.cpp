@@ -2,40 +2,43 @@
 
 namespace dihaptic::haptics {
 
-ForceGuard::ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick)
+ForceGuard::ForceGuard(const SafetySettings& settings, const devices::DeviceInfo& device,
+                       const std::optional<WorkspaceBox>& box, double tick)
     : tick_(tick),
-      energy_(settings.energy_guard, limits.scale * limits.scale * kEnergyBudget),
-      wall_(limits.workspace, settings.workspace_stiffness, tick),
-      limiter_(settings.largest_force(limits.peak_force, limits.scale),
-               settings.max_force_rate * limits.scale,
-               Heating(limits.peak_force, limits.continuous_force, settings.heating_time)) {
-    if (limits.peak_torque <= 0) return;
+      energy_(settings.energy_guard, device.scale * device.scale * kEnergyBudget),
+      wall_(box, settings.workspace_stiffness, tick),
+      limiter_(settings.largest_force(device.peak_force, device.scale),
+               settings.max_force_rate * device.scale,
+               Heating(device.peak_force, device.continuous_force, settings.heating_time)) {
+    if (device.peak_torque <= 0) return;
     torque_limiter_.emplace(
-        settings.largest_torque(limits.peak_torque), settings.max_torque_rate,
-        Heating(limits.peak_torque, limits.continuous_torque, settings.heating_time));
+        settings.largest_torque(device.peak_torque), settings.max_torque_rate,
+        Heating(device.peak_torque, device.continuous_torque, settings.heating_time));
 }
 
 Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP,
-                         double stored, bool stepped, unsigned& flags) noexcept {
-    const Wrench damper = energy_.watch(handle, X_WP, asked_W, stored, stepped, tick_, flags);
+                         double stored, bool stepped, uint32_t& status) noexcept {
+    const Wrench damper = energy_.watch(handle, X_WP, asked_W, stored, stepped, tick_, status);
     Wrench felt_W{asked_W.force + damper.force, Vec3::Zero()};
     if (torque_limiter_) felt_W.torque = asked_W.torque + damper.torque;
     return felt_W;
 }
 
-Vec3 ForceGuard::push(const Handle& handle, unsigned& flags) const noexcept {
+Vec3 ForceGuard::push(const Handle& handle, uint32_t& status) const noexcept {
     const Vec3 push_W = wall_.force(handle.p_WH, handle.v_WH);
-    if (push_W != Vec3::Zero()) flags |= kPushedInward;
+    if (push_W != Vec3::Zero()) status |= kPushedInward;
     return push_W;
 }
 
-Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept {
-    if (allowed && share < 1 && !felt.is_zero()) flags |= kSoftStarted;
-    Wrench limited{limiter_.limit(share * felt.force, tick_, flags), Vec3::Zero()};
-    if (torque_limiter_) limited.torque = torque_limiter_->limit(share * felt.torque, tick_, flags);
+Wrench ForceGuard::limit(const Wrench& felt, bool allowed, double share,
+                         uint32_t& status) noexcept {
+    if (allowed && share < 1 && !felt.is_zero()) status |= kSoftStarted;
+    Wrench limited{limiter_.limit(share * felt.force, tick_, status), Vec3::Zero()};
+    if (torque_limiter_)
+        limited.torque = torque_limiter_->limit(share * felt.torque, tick_, status);
     chatter_.add(limited.force, tick_);
     if (allowed) return limited;
-    flags |= kSwitchedOff;
+    status |= kSwitchedOff;
     drop();
     return {};
 }

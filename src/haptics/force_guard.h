@@ -7,8 +7,7 @@
 // the workspace turns (servo/workspace_turn.h), in those of the world without the turn.
 #pragma once
 
-#include <limits>
-
+#include "devices/device_info.h"
 #include "haptics/chatter.h"
 #include "haptics/energy_guard.h"
 #include "haptics/limiter.h"
@@ -16,39 +15,23 @@
 
 namespace dihaptic::haptics {
 
-/// Capabilities of a device, for its limits; if its movement is scaled, in the world's measure.
-struct DeviceLimits {
-    double peak_force;                      ///< [N]
-    double continuous_force;                ///< that it can hold for ever; infinite: not known [N]
-    std::optional<WorkspaceBox> workspace;  ///< that the handle is kept in
-    double peak_torque = 0;                 ///< 0: it renders no torque [N*m]
-    double continuous_torque = std::numeric_limits<double>::infinity();  ///< [N*m]
-    double scale = 1;  ///< of forces and lengths here over those of the hand
-};
-
-/// What the guard had to do; see also LimitFlags and EnergyFlags.
-enum GuardFlags : unsigned {
-    kPushedInward = 1u << 16,  ///< the handle was pushed back into the workspace
-    kSoftStarted = 1u << 17,   ///< the force was still rising
-    kSwitchedOff = 1u << 18,   ///< nobody held the dead-man switch
-    kRiseBounded = 1u << 19,   ///< the force was kept from rising while ticks were late
-};
-
+/// What it has to do, it adds to `status`.
 class ForceGuard {
   public:
-    /// `tick`: duration of a tick [s].
-    ForceGuard(const SafetySettings& settings, const DeviceLimits& limits, double tick);
+    /// `box`: that the handle is kept in; `tick`: duration of a tick [s].
+    ForceGuard(const SafetySettings& settings, const devices::DeviceInfo& device,
+               const std::optional<WorkspaceBox>& box, double tick);
 
     /// Wrench that the handle is to feel from its coupling, which asks for `asked_W`. `X_WP`: its
     /// proxy after the tick's step; `stored`: energy in the coupling's springs [J]; `stepped`:
     /// whether the world stepped in this tick. The torque is zero if the device renders none.
     Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
-                 bool stepped, unsigned& flags) noexcept;
+                 bool stepped, uint32_t& status) noexcept;
     /// Force of the workspace wall on the handle [N].
-    Vec3 push(const Handle& handle, unsigned& flags) const noexcept;
+    Vec3 push(const Handle& handle, uint32_t& status) const noexcept;
     /// The part of both together that the device may be sent. `allowed`: by the dead-man switch,
     /// without which it is zero at once; `share`: that of SoftStart.
-    Wrench limit(const Wrench& felt, bool allowed, double share, unsigned& flags) noexcept;
+    Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the result of limit(): force rises again from there.
     void drop() noexcept;
     /// Begins anew after a pause: force begins at zero, and energy generated before is forgotten.

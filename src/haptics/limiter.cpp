@@ -6,29 +6,29 @@
 
 namespace dihaptic::haptics {
 
-Vec3 Limiter::limit(const Vec3& asked, double h, unsigned& flags) noexcept {
+Vec3 Limiter::limit(const Vec3& asked, double h, uint32_t& status) noexcept {
     if (!asked.allFinite()) faulted_ = true;
     if (faulted_) {
         // straight to zero: only in a fault may force drop faster than the limit
-        flags |= kNotFinite;
+        status |= kNotFinite;
         last_.setZero();
         return last_;
     }
     Vec3 force = asked;
     if (const double size = force.norm(); size > max_force_) {
         force *= max_force_ / size;
-        flags |= kForceLimited;
+        status |= kForceLimited;
     }
     if (const double size = force.norm(), most = heating_.most_force(); size > most) {
         force *= most / size;
-        flags |= kHeatLimited;
+        status |= kHeatLimited;
     }
     const Vec3 change = force - last_;
     const bool falls = force.squaredNorm() < last_.squaredNorm();
     const double most = h * (falls ? std::max(max_rate_, max_force_ / kLongestFall) : max_rate_);
     if (const double size = change.norm(); size > most) {
         force = last_ + change * (most / size);
-        flags |= kRateLimited;
+        status |= kRateLimited;
     }
     last_ = force;
     heating_.add(force, h);

@@ -3,18 +3,10 @@
 // bear.
 #pragma once
 
+#include "base/status.h"
 #include "haptics/heating.h"
 
 namespace dihaptic::haptics {
-
-/// What the limiter had to do.
-enum LimitFlags : unsigned {
-    kForceLimited =
-        1u << 0,  ///< the magnitude was cut; a softer coupling or a gentler hand avoids it
-    kRateLimited = 1u << 1,  ///< the change was cut: contact was fast or the coupling is stiff
-    kNotFinite = 1u << 2,    ///< NaN or infinity was asked for: no force until the session goes on
-    kHeatLimited = 1u << 3,  ///< the magnitude was cut to what the motors can bear by now
-};
 
 class Limiter {
   public:
@@ -23,8 +15,9 @@ class Limiter {
     Limiter(double max_force, double max_rate, const Heating& heating = {})
         : max_force_(max_force), max_rate_(max_rate), heating_(heating) {}
 
-    /// The force that may be sent after a tick of h [s]. Sets `flags` to what had to be done.
-    Vec3 limit(const Vec3& asked, double h, unsigned& flags) noexcept;
+    /// The force that may be sent after a tick of h [s]. Adds to `status` what had to be done.
+    /// After a force that is not finite there is none until restart().
+    Vec3 limit(const Vec3& asked, double h, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the last force: force rises again from there.
     void drop() noexcept { last_.setZero(); }
     bool faulted() const noexcept { return faulted_; }

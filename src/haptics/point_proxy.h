@@ -34,7 +34,7 @@ class PointProxy {
     }
 
     Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
+    void retune(const CouplingSettings& settings) noexcept { coupling_ = settings; }
     void set_friction_scale(double scale) noexcept { point_.set_friction_scale(scale); }
 
   private:

@@ -8,28 +8,12 @@
 #include <string>
 
 #include "base/clock.h"
+#include "base/status.h"
 #include "haptics/coupling.h"
 
 namespace dihaptic::haptics {
 
-enum class FaultKind {
-    none,
-    bad_reading,      ///< a position or velocity that is not a number
-    not_answering,    ///< the device does not respond
-    uncalibrated,     ///< the device lost its calibration
-    device_fault,     ///< the device reports that something in it is broken
-    too_fast,         ///< the handle moved faster than `max_speed`, or jumped
-    turned_too_fast,  ///< the handle turned faster than kMostTurning
-    late,        ///< no force was computed for longer than `max_pause`, or a tick was later than
-                 ///< `max_late`
-    keeps_late,  ///< so many ticks were late that the loop can hold no useful stiffness
-    not_finite,  ///< the force that was computed is not a number
-    diverged,    ///< a position or velocity in the world is not a number, or is absurd
-    active,      ///< a coupling kept feeding energy into a hand
-    chatters,    ///< a force kept alternating from tick to tick
-    abandoned,   ///< the window that watches the session no longer responds
-    stopped,     ///< the operator switched force off
-};
+using dihaptic::FaultKind;
 
 /// The first fault of a session: what, which device, when.
 struct Fault {

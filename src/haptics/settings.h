@@ -22,16 +22,6 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
-/// Coupling settings that may change while a session runs.
-struct Tuning {
-    CouplingKind kind = CouplingKind::implicit;
-    double stiffness = 0;           ///< k [N/m]
-    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2
-    double smoothing = 0;           ///< alpha
-
-    bool operator==(const Tuning&) const = default;
-};
-
 /// How a handle and its proxy pull at each other; README.md has the equations.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
@@ -76,14 +66,6 @@ struct CouplingSettings {
           Field::of(Quantity::damping).within(0, kMostDamping));
         v("free_stiffening", free_stiffening, Field::number().within(1, 100));
         v("smoothing", smoothing, Field::number().within(0.001, 1));
-    }
-
-    Tuning tuning() const { return {kind, stiffness, damping, smoothing}; }
-    void set(const Tuning& tuning) {
-        kind = tuning.kind;
-        stiffness = tuning.stiffness;
-        damping = tuning.damping;
-        smoothing = tuning.smoothing;
     }
 
   private:

@@ -29,7 +29,7 @@ class SolvedPoint {
     Pull pull(World& world, const Handle& handle, double h) noexcept;
 
     Onset& onset() noexcept { return onset_; }
-    void retune(const Tuning& tuning) noexcept { coupling_.set(tuning); }
+    void retune(const CouplingSettings& settings) noexcept { coupling_ = settings; }
 
   private:
     struct Press {

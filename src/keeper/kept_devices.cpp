@@ -224,7 +224,7 @@ class KeptDevices final : public devices::DeviceGroup {
                            await_answer(limit_);
         for (size_t i = 0; i < readings.size(); ++i) {
             if (answers) readings[i] = process_->page().readings[i];
-            if (!answers) readings[i].status = devices::kNotAnswering;
+            if (!answers) readings[i].status = kNotAnswering;
         }
     }
 

@@ -5,35 +5,19 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
+
+#include "base/field_writer.h"
 
 namespace dihaptic::keeper {
 namespace {
 
 using nlohmann::json;
 
-/// JSON has no infinity: null stands for an infinite limit.
-json limit(double value) {
-    return std::isfinite(value) ? json(value) : json();
-}
-double limit_of(const json& value) {
-    return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
-}
-
 json vector(const Vec3& v) {
     return {v.x(), v.y(), v.z()};
 }
 Vec3 vector_of(const json& v) {
     return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
-}
-
-template <class T>
-json maybe(const std::optional<T>& value) {
-    return value ? json(*value) : json();
-}
-std::optional<double> number_of(const json& value) {
-    if (value.is_null()) return std::nullopt;
-    return value.get<double>();
 }
 
 json place(const Place& at) {
@@ -74,52 +58,6 @@ Node node_of(const json& in) {
             node.entries.push_back({entry.at(0).get<std::string>(), node_of(entry.at(1))});
     }
     return node;
-}
-
-json info(const devices::DeviceInfo& in) {
-    json out{{"model", in.model},
-             {"serial", in.serial},
-             {"simulated", in.simulated},
-             {"peak_force", limit(in.peak_force)},
-             {"continuous_force", limit(in.continuous_force)},
-             {"damping", in.damping},
-             {"mass", in.mass},
-             {"delay", in.delay},
-             {"scale", in.scale},
-             {"max_stiffness", maybe(in.max_stiffness)},
-             {"max_damping", maybe(in.max_damping)},
-             {"measures_orientation", in.measures_orientation},
-             {"peak_torque", in.peak_torque},
-             {"continuous_torque", limit(in.continuous_torque)},
-             {"turn_damping", in.turn_damping},
-             {"inertia", in.inertia}};
-    if (in.workspace) out["workspace"] = vector(*in.workspace);
-    if (in.arm) out["arm"] = {in.arm->thigh, in.arm->shin};
-    return out;
-}
-
-devices::DeviceInfo info_of(const json& in) {
-    devices::DeviceInfo out;
-    in.at("model").get_to(out.model);
-    in.at("serial").get_to(out.serial);
-    in.at("simulated").get_to(out.simulated);
-    out.peak_force = limit_of(in.at("peak_force"));
-    out.continuous_force = limit_of(in.at("continuous_force"));
-    in.at("damping").get_to(out.damping);
-    in.at("mass").get_to(out.mass);
-    in.at("delay").get_to(out.delay);
-    in.at("scale").get_to(out.scale);
-    out.max_stiffness = number_of(in.at("max_stiffness"));
-    out.max_damping = number_of(in.at("max_damping"));
-    in.at("measures_orientation").get_to(out.measures_orientation);
-    in.at("peak_torque").get_to(out.peak_torque);
-    out.continuous_torque = limit_of(in.at("continuous_torque"));
-    in.at("turn_damping").get_to(out.turn_damping);
-    in.at("inertia").get_to(out.inertia);
-    if (in.contains("workspace")) out.workspace = vector_of(in["workspace"]);
-    if (in.contains("arm"))
-        out.arm = {in["arm"].at(0).get<double>(), in["arm"].at(1).get<double>()};
-    return out;
 }
 
 }  // namespace
@@ -166,13 +104,17 @@ Order order_of(const json& in) {
 
 json to_json(const devices::DeviceGroup& devices) {
     json infos = json::array();
-    for (int i = 0; i < devices.size(); ++i) infos.push_back(info(devices.info(i)));
+    for (const devices::DeviceInfo& info : devices.descriptions())
+        infos.push_back(tree(write_fields(info)));
     return {{"devices", infos}, {"paces", devices.paces()}};
 }
 
 std::vector<devices::DeviceInfo> infos_of(const json& in) {
     std::vector<devices::DeviceInfo> out;
-    for (const json& one : in.at("devices")) out.push_back(info_of(one));
+    Diagnostics diagnostics;
+    for (const json& one : in.at("devices"))
+        read_fields(out.emplace_back(), node_of(one), diagnostics);
+    diagnostics.throw_if_errors();
     return out;
 }
 

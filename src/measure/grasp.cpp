@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "base/figure.h"
 #include "model/grasp.h"
 #include "model/gravity.h"
 #include "model/minimum_jerk.h"
@@ -66,6 +67,22 @@ double closed_form_grip(const BenchSetup& setup) {
     BenchSetup along = setup;
     along.squeeze = (contacts.norm() - targets.norm()) / 2;
     return slant * slant * press_force(along);
+}
+
+/// Figures that say what is measured, and no more yet.
+GraspFigures described(const BenchSetup& base) {
+    const servo::Settings& settings = base.settings;
+    GraspFigures out;
+    out.coupling = settings.coupling.kind;
+    out.solver = settings.dynamics.solver;
+    out.proxy = settings.proxy.kind;
+    out.point_friction = settings.proxy.friction;
+    out.damping = fmt::format("{:g} s * K",
+                              haptics::damping(with(base, 1).settings.coupling, settings.step()));
+    out.mass = base.mass;
+    out.friction = base.friction;
+    out.rate = settings.rate;
+    return out;
 }
 
 }  // namespace
@@ -253,8 +270,7 @@ double highest_calm(const std::function<bool(double k)>& calm) {
 }
 
 GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
-    GraspFigures out;
-    out.damping_per_k = haptics::damping(with(base, 1).settings.coupling, base.settings.step());
+    GraspFigures out = described(base);
     constexpr std::array kHoldK{300.0, 600.0, 1000.0, 2000.0, 4000.0};
     const double steps = 3 * kHoldK.size() + 4 + 6 + 9 + 2;
     double done = 0;
@@ -311,144 +327,8 @@ GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
     return out;
 }
 
-std::string to_json(const GraspFigures& figures, const BenchSetup& setup) {
-    nlohmann::ordered_json out;
-    out["coupling"] = enum_name(setup.settings.coupling.kind);
-    out["solver"] = enum_name(setup.settings.dynamics.solver);
-    out["proxy"] = enum_name(setup.settings.proxy.kind);
-    out["damping"] = fmt::format("{:g} s * K", figures.damping_per_k);
-    for (const HoldFigures& h : figures.hold) {
-        out["hold"].push_back({{"k", h.k},
-                               {"fingering", enum_name(h.fingering)},
-                               {"held", h.held},
-                               {"lift_slip_mm", h.lift_slip_mm},
-                               {"slip_mm", h.slip_mm},
-                               {"z_rms_um", h.z_rms_um},
-                               {"z_pp_um", h.z_pp_um},
-                               {"tilt_rms_deg", h.tilt_rms_deg},
-                               {"turn_deg", h.turn_deg},
-                               {"hf_force_n", h.hf_force_n},
-                               {"weight_ratio", h.weight_ratio},
-                               {"grip_ratio", h.grip_ratio}});
-    }
-    for (const SlowFigures& s : figures.slow_dynamics) {
-        out["slow_dynamics"].push_back(
-            {{"k", s.k}, {"held", s.held}, {"slip_mm", s.slip_mm}, {"hf_force_n", s.hf_force_n}});
-    }
-    out["calm_k"] = figures.calm_k;
-    out["calm_k_delay"] = figures.calm_k_delay;
-    out["calm_k_premium"] = figures.calm_k_premium;
-    out["wall_k"] = figures.wall_k;
-    out["wall_k_delay"] = figures.wall_k_delay;
-    out["wall_k_premium"] = figures.wall_k_premium;
-    out["torque_turn_deg"] = figures.torque_turn_deg;
-    out["torque_turn_after_deg"] = figures.torque_turn_after_deg;
-    out["torsion_limit_ratio"] = nullptr;
-    if (figures.torsion_limit_ratio) out["torsion_limit_ratio"] = *figures.torsion_limit_ratio;
-    for (const KickFigures& kick : figures.kick) {
-        out["kick"].push_back({{"k", kick.k},
-                               {"speed_m_s", kick.speed},
-                               {"kick_ratio", kick.kick_ratio},
-                               {"touch_step_n", kick.touch_step_n},
-                               {"leave_pull_n", kick.leave_pull_n}});
-    }
-    out["drag_n"] = figures.drag_n;
-    return out.dump(2) + "\n";
-}
-
-namespace {
-
-using Results = std::vector<GraspResult>;
-
-std::string_view coupling_name(const GraspResult& result) {
-    const servo::Settings& settings = result.setup.settings;
-    return settings.proxy.kind == haptics::ProxyKind::point ? enum_name(settings.proxy.friction)
-                                                            : enum_name(settings.coupling.kind);
-}
-
-std::string hold_table(const Results& results) {
-    std::string out =
-        "coupling          K  fingering   held  lift slip      slip     z RMS     z p-p  tilt RMS  "
-        "   turn   >5 Hz  weight    grip\n"
-        "                N/m                          mm        mm        um        um       deg   "
-        "   deg       N   ratio   ratio\n";
-    for (const GraspResult& result : results) {
-        for (const HoldFigures& h : result.figures.hold) {
-            out += fmt::format(
-                "{:12s} {:6.0f}  {:10s}  {:4s}  {:9.5f} {:9.5f} {:9.3f} {:9.3f}  {:8.5f} {:8.4f} "
-                "{:7.4f} {:7.4f} {:7.4f}\n",
-                coupling_name(result), h.k, enum_name(h.fingering), h.held ? "yes" : "NO",
-                h.lift_slip_mm, h.slip_mm, h.z_rms_um, h.z_pp_um, h.tilt_rms_deg, h.turn_deg,
-                h.hf_force_n, h.weight_ratio, h.grip_ratio);
-        }
-    }
-    return out;
-}
-
-std::string slow_table(const Results& results) {
-    std::string out = "dynamics every 10 ticks\ncoupling          K  held    slip mm   >5 Hz N\n";
-    for (const GraspResult& result : results) {
-        for (const SlowFigures& s : result.figures.slow_dynamics) {
-            out += fmt::format("{:12s} {:6.0f}  {:4s}  {:9.5f} {:9.4f}\n", coupling_name(result),
-                               s.k, s.held ? "yes" : "NO", s.slip_mm, s.hf_force_n);
-        }
-    }
-    return out;
-}
-
-std::string calm_table(const Results& results) {
-    std::string out =
-        "highest calm K, N/m    held block                  fixed wall\n"
-        "coupling          ideal   delay  premium     ideal   delay  premium\n";
-    for (const GraspResult& result : results) {
-        const GraspFigures& f = result.figures;
-        out += fmt::format("{:12s}    {:7.0f} {:7.0f}  {:7.0f}   {:7.0f} {:7.0f}  {:7.0f}\n",
-                           coupling_name(result), f.calm_k, f.calm_k_delay, f.calm_k_premium,
-                           f.wall_k, f.wall_k_delay, f.wall_k_premium);
-    }
-    return out;
-}
-
-std::string kick_table(const Results& results) {
-    std::string out =
-        "touching and leaving a wall\ncoupling          K   speed  kick ratio  touch step N  "
-        "leave pull N\n";
-    for (const GraspResult& result : results) {
-        for (const KickFigures& kick : result.figures.kick) {
-            out += fmt::format("{:12s} {:6.0f} {:7.1f} {:11.4f} {:13.5f} {:13.5f}\n",
-                               coupling_name(result), kick.k, kick.speed, kick.kick_ratio,
-                               kick.touch_step_n, kick.leave_pull_n);
-        }
-    }
-    return out;
-}
-
-std::string drag_and_turn_table(const Results& results) {
-    std::string out =
-        "coupling     drag in free motion N   turn by 0.02 N*m for 0.2 s, deg   1 s later\n";
-    for (const GraspResult& result : results) {
-        const GraspFigures& f = result.figures;
-        out += fmt::format("{:12s} {:21.5f}   {:31.5f}   {:9.5f}\n", coupling_name(result),
-                           f.drag_n, f.torque_turn_deg, f.torque_turn_after_deg);
-        if (f.torsion_limit_ratio) {
-            out += fmt::format(
-                "\nsoft fingers of {:g} mm let go at the closed form's torque times {:.4f}\n",
-                kSoftRadius * 1e3, *f.torsion_limit_ratio);
-        }
-    }
-    return out;
-}
-
-}  // namespace
-
-std::string to_table(const std::vector<GraspResult>& results) {
-    const BenchSetup& setup = results.front().setup;
-    const std::string head = fmt::format(
-        "solver {}, damping {:g} s * K, block {:g} g, friction {:g}, {:g} Hz\n",
-        enum_name(setup.settings.dynamics.solver), results.front().figures.damping_per_k,
-        setup.mass * 1e3, setup.friction, setup.settings.rate);
-    return head + "\n" + hold_table(results) + "\n" + slow_table(results) + "\n" +
-           calm_table(results) + "\n" + kick_table(results) + "\n" + drag_and_turn_table(results);
+std::string to_json(const GraspFigures& figures) {
+    return FigureJson<nlohmann::ordered_json>::of(figures).dump(2) + "\n";
 }
 
 }  // namespace dihaptic::measure

@@ -24,6 +24,22 @@ struct HoldFigures {
     double hf_force_n = 0;
     double weight_ratio = 0;
     double grip_ratio = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("k", f.k, "", "stiffness of the coupling [N/m]");
+        v("fingering", f.fingering, "", "how the fingers hold the block");
+        v("held", f.held, "", "from lift-off to opening");
+        v("lift_slip_mm", f.lift_slip_mm, "mm", "of a finger in the lift");
+        v("slip_mm", f.slip_mm, "mm", "of a finger in the hold");
+        v("z_rms_um", f.z_rms_um, "um", "RMS of the block's height");
+        v("z_pp_um", f.z_pp_um, "um", "peak to peak of the block's height");
+        v("tilt_rms_deg", f.tilt_rms_deg, "deg", "of the grasp axis about its mean");
+        v("turn_deg", f.turn_deg, "deg", "of the block about the grasp axis");
+        v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
+        v("weight_ratio", f.weight_ratio, "1", "vertical handle forces over the weight");
+        v("grip_ratio", f.grip_ratio, "1", "pinch force over its closed form");
+    }
 };
 
 struct SlowFigures {
@@ -31,6 +47,14 @@ struct SlowFigures {
     bool held = false;
     double slip_mm = 0;
     double hf_force_n = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("k", f.k, "", "stiffness of the coupling [N/m]");
+        v("held", f.held, "", "from lift-off to opening");
+        v("slip_mm", f.slip_mm, "mm", "of a finger in the hold");
+        v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
+    }
 };
 
 struct KickFigures {
@@ -39,10 +63,28 @@ struct KickFigures {
     double kick_ratio = 0;
     double touch_step_n = 0;
     double leave_pull_n = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("k", f.k, "", "stiffness of the coupling [N/m]");
+        v("speed", f.speed, "m/s", "of the hand");
+        v("kick_ratio", f.kick_ratio, "1", "peak force over that of a spring in continuous time");
+        v("touch_step_n", f.touch_step_n, "N", "force in the first tick beyond the spring's");
+        v("leave_pull_n", f.leave_pull_n, "N", "largest pull toward the wall on leaving it");
+    }
 };
 
 struct GraspFigures {
-    double damping_per_k = 0;  ///< default damping over K [s]
+    // what was measured
+    haptics::CouplingKind coupling{};
+    dynamics::Solver solver{};
+    haptics::ProxyKind proxy{};
+    haptics::PointFriction point_friction{};
+    std::string damping;  ///< default damping, with its share of K
+    double mass = 0;      ///< [kg]
+    double friction = 0;
+    double rate = 0;  ///< [Hz]
+
     std::vector<HoldFigures> hold;
     std::vector<SlowFigures> slow_dynamics;
     double calm_k = 0, calm_k_delay = 0, calm_k_premium = 0;
@@ -53,6 +95,31 @@ struct GraspFigures {
     std::optional<double> torsion_limit_ratio;
     std::vector<KickFigures> kick;
     double drag_n = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("coupling", f.coupling, "", "of handle and proxy");
+        v("solver", f.solver, "", "of contacts");
+        v("proxy", f.proxy, "", "what a finger is");
+        v("point_friction", f.point_friction, "", "where a point's friction is computed");
+        v("damping", f.damping, "", "of the coupling, by its stiffness");
+        v("mass", f.mass, "g", "of the block");
+        v("friction", f.friction, "1", "coefficient");
+        v("rate_hz", f.rate, "Hz", "ticks a second");
+        v("hold", f.hold, "", "lifting and holding a block");
+        v("slow_dynamics", f.slow_dynamics, "", "the same with the world stepped every 10 ticks");
+        v("calm_k", f.calm_k, "", "highest K that holds the block calmly [N/m]");
+        v("calm_k_delay", f.calm_k_delay, "", "the same with a tick of delay [N/m]");
+        v("calm_k_premium", f.calm_k_premium, "", "the same on a Premium [N/m]");
+        v("wall_k", f.wall_k, "", "highest K that is calm on a wall [N/m]");
+        v("wall_k_delay", f.wall_k_delay, "", "the same with a tick of delay [N/m]");
+        v("wall_k_premium", f.wall_k_premium, "", "the same on a Premium [N/m]");
+        v("torque_turn_deg", f.torque_turn_deg, "deg", "by 0.02 N*m for 0.2 s");
+        v("torque_turn_after_deg", f.torque_turn_after_deg, "deg", "1 s later");
+        v("torsion_limit_ratio", f.torsion_limit_ratio, "1", "over the closed form");
+        v("kick", f.kick, "", "touching and leaving a wall");
+        v("drag_n", f.drag_n, "N", "in free motion");
+    }
 };
 
 /// Measures one lift and hold, with setup.settings.coupling.stiffness.
@@ -85,12 +152,6 @@ using Progress = std::function<void(const std::string& what, double share)>;
 /// Measures all figures. `setup` gives solver, coupling, mass, friction and rate.
 GraspFigures bench_grasp(const BenchSetup& setup, const Progress& progress);
 
-std::string to_json(const GraspFigures& figures, const BenchSetup& setup);
-struct GraspResult {
-    BenchSetup setup;
-    GraspFigures figures;
-};
-/// One table, with the measured couplings beside each other.
-std::string to_table(const std::vector<GraspResult>& results);
+std::string to_json(const GraspFigures& figures);
 
 }  // namespace dihaptic::measure

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/figure.h"
 #include "model/grasp.h"
 #include "model/gravity.h"
 
@@ -82,7 +83,7 @@ void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
     const auto n = static_cast<double>(points.size());
     in_parallel(
         points.size(), setup.threads, stop,
-        [&](size_t i) { points[i].verdicts[0] = judge(setup, points[i], Burden::none); },
+        [&](size_t i) { points[i].verdicts[Burden::none] = judge(setup, points[i], Burden::none); },
         [&](size_t ended) { share(static_cast<double>(ended) / (n * kBurdens)); });
     std::vector<TunePoint*> calm;
     for (TunePoint& point : points) {
@@ -95,7 +96,7 @@ void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
         [&](size_t i) {
             TunePoint& point = *calm[i / kOthers];
             const Burden burden = kAllBurdens[1 + i % kOthers];
-            point.verdicts[static_cast<size_t>(burden)] = judge(setup, point, burden);
+            point.verdicts[burden] = judge(setup, point, burden);
         },
         [&](size_t ended) {
             share((1 + (kBurdens - 1) * static_cast<double>(ended) / static_cast<double>(count)) /
@@ -302,18 +303,6 @@ std::string settings_block(const TuneResult& result, const TuneSetup& setup) {
 
 std::string to_json(const TuneResult& result, const TuneSetup& setup) {
     using Json = nlohmann::ordered_json;
-    const auto point = [](const TunePoint& p) {
-        Json verdicts;
-        for (const Burden burden : kAllBurdens) {
-            const auto& verdict = p.verdicts[static_cast<size_t>(burden)];
-            verdicts[std::string(enum_name(burden))] =
-                verdict ? Json(std::string(enum_name(*verdict))) : Json(nullptr);
-        }
-        return Json{{"stiffness_n_m", p.k},
-                    {"damping_ns_m", p.c},
-                    {"smoothing", p.smoothing},
-                    {"verdicts", verdicts}};
-    };
     Json out;
     out["coupling"] = enum_name(setup.settings.coupling.kind);
     out["solver"] = enum_name(setup.settings.dynamics.solver);
@@ -321,10 +310,7 @@ std::string to_json(const TuneResult& result, const TuneSetup& setup) {
     out["rate_hz"] = setup.settings.rate;
     out["grip_n"] = setup.grip;
     out["hand"] = {{"stiffness_n_m", setup.hand.stiffness}, {"damping_ns_m", setup.hand.damping}};
-    out["proposal"] = result.proposal ? point(*result.proposal) : Json(nullptr);
-    out["stiffer"] = result.stiffer ? point(*result.stiffer) : Json(nullptr);
-    out["map"] = Json::array();
-    for (const TunePoint& p : result.map) out["map"].push_back(point(p));
+    out.update(FigureJson<Json>::of(result));
     return out.dump(2) + "\n";
 }
 
@@ -358,7 +344,7 @@ std::string to_table(const TuneResult& result, const TuneSetup& setup) {
     const TunePoint& stiffer = *result.stiffer;
     out += fmt::format("  at {:.6g} N/m:", stiffer.k);
     for (const Burden burden : kAllBurdens) {
-        const auto& verdict = stiffer.verdicts[static_cast<size_t>(burden)];
+        const auto& verdict = stiffer.verdicts[burden];
         if (verdict) out += fmt::format(" {}: {};", enum_name(burden), enum_name(*verdict));
     }
     out.back() = '\n';

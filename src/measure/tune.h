@@ -49,17 +49,38 @@ struct TuneSetup {
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
                      const servo::Settings& settings, const hand::Impedance& hand);
 
+/// Verdicts by burden; those beyond `none` are only measured if `none` is calm.
+struct Verdicts {
+    std::array<std::optional<Verdict>, kBurdens> all;
+
+    std::optional<Verdict>& operator[](Burden burden) { return all[static_cast<size_t>(burden)]; }
+    std::optional<Verdict> operator[](Burden burden) const {
+        return all[static_cast<size_t>(burden)];
+    }
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        for (size_t i = 0; i < kBurdens; ++i)
+            v(enum_name(static_cast<Burden>(i)), f.all[i], "", "");
+    }
+};
+
 struct TunePoint {
     double k = 0;
     double c = 0;
     double smoothing = 1;
-    /// Verdicts by Burden; those beyond `none` are only measured if `none` is calm.
-    std::array<std::optional<Verdict>, kBurdens> verdicts;
+    Verdicts verdicts;
 
-    bool calm(Burden burden) const {
-        return verdicts[static_cast<size_t>(burden)] == Verdict::calm;
-    }
+    bool calm(Burden burden) const { return verdicts[burden] == Verdict::calm; }
     bool calm_with_margin() const;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("stiffness_n_m", f.k, "N/m", "");
+        v("damping_ns_m", f.c, "N*s/m", "");
+        v("smoothing", f.smoothing, "1", "of dual springs");
+        v("verdicts", f.verdicts, "", "by burden");
+    }
 };
 
 struct TuneResult {
@@ -69,6 +90,13 @@ struct TuneResult {
     /// A point 1.5 times as stiff as the proposal, to show what limits it.
     std::optional<TunePoint> stiffer;
     bool interrupted = false;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("proposal", f.proposal, "", "the stiffest that is calm with every burden");
+        v("stiffer", f.stiffer, "", "1.5 times as stiff");
+        v("map", f.map, "", "every setting of the search");
+    }
 };
 
 /// Setup of a hold at one point of the map.

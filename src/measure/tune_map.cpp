@@ -45,7 +45,7 @@ std::string lacking(const TunePoint& point) {
 }
 
 void draw_point(Picture& picture, double x, double y, const TunePoint& point) {
-    const Verdict verdict = point.verdicts[0].value_or(Verdict::dropped);
+    const Verdict verdict = point.verdicts[Burden::none].value_or(Verdict::dropped);
     const std::string where = fmt::format("{:g} N/m, {:g} N*s/m: ", point.k, point.c);
     if (verdict == Verdict::shaking) {
         picture.cell(x, y, "#e69f00", where + "shaking");

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <span>
 
 #include "base/geometry.h"
 
@@ -21,12 +20,18 @@ constexpr double series_spring_stretch(double force, double k_hand, double k) {
     return force * (k_hand + k) / (k_hand * k);
 }
 
-/// Unit vector of the pinch of two or more fingers, from the first to the mean position of the
-/// others.
-inline Vec3 grasp_axis(std::span<const Vec3> p_WP) {
+/// Mean position of all of two or more fingers but the first. `p_WP(i)`: position of finger i.
+template <class Positions>
+Vec3 opposing_point(size_t fingers, const Positions& p_WP) {
     Vec3 others = Vec3::Zero();
-    for (size_t i = 1; i < p_WP.size(); ++i) others += p_WP[i];
-    return (others / static_cast<double>(p_WP.size() - 1) - p_WP[0]).normalized();
+    for (size_t i = 1; i < fingers; ++i) others += p_WP(i);
+    return others / static_cast<double>(fingers - 1);
+}
+
+/// Unit vector of the pinch of two or more fingers, from the first to the opposing point.
+template <class Positions>
+Vec3 grasp_axis(size_t fingers, const Positions& p_WP) {
+    return (opposing_point(fingers, p_WP) - p_WP(0)).normalized();
 }
 
 /// Smallest grip force that holds a load with two digits: load / (2 mu) [N].

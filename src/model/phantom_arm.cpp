@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/unit.h"
 #include "model/gravity.h"
 
 namespace dihaptic::model {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Distance of the endpoint from the turret's axis [m].
 double rho(const PhantomLinks& links, const Vec3& q) {

@@ -7,6 +7,7 @@
 // the endpoint in the reset pose, x right, y up, z toward the person. README.md has the equations.
 #pragma once
 
+#include "base/field.h"
 #include "base/geometry.h"
 
 namespace dihaptic::model {
@@ -15,6 +16,11 @@ struct PhantomLinks {
     double thigh = 0.14;  ///< l1 [m]
     double shin = 0.14;   ///< l2 [m]
 
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("thigh", thigh, Field::length().within(0.05, 1));
+        v("shin", shin, Field::length().within(0.05, 1));
+    }
     bool operator==(const PhantomLinks&) const = default;
 };
 

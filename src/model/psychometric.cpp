@@ -2,8 +2,9 @@
 
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "base/unmeasured.h"
 
 namespace dihaptic::model {
 namespace {
@@ -19,7 +20,7 @@ double sigmoid_at(const Psychometric& f, double x) {
         case Sigmoid::weibull_log10:
             return -std::expm1(-std::pow(10, f.shape * (x - f.threshold)));
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kUnmeasured;
 }
 
 /// The level at which the sigmoid has the value F in (0, 1).
@@ -34,7 +35,7 @@ double sigmoid_inverse(const Psychometric& f, double F) {
         case Sigmoid::weibull_log10:
             return f.threshold + std::log10(-std::log1p(-F)) / f.shape;
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kUnmeasured;
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ double Psychometric::probability(double level) const {
 
 double Psychometric::level(double probability) const {
     const double F = (probability - guess) / (1 - guess - lapse);
-    if (!(F > 0 && F < 1)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(F > 0 && F < 1)) return kUnmeasured;
     return sigmoid_inverse(*this, F);
 }
 
@@ -63,7 +64,7 @@ double Psychometric::sd() const {
             // the logarithm of an exponential variable has the standard deviation pi / sqrt 6
             return std::numbers::pi / (std::sqrt(6.0) * std::numbers::ln10 * shape);
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    return kUnmeasured;
 }
 
 }  // namespace dihaptic::model

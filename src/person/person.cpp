@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/field_writer.h"
-#include "experiment/simulated_limits.h"
 #include "hand/places.h"
 
 namespace dihaptic::person {
 namespace {
 
-using experiment::TaskPlan;
-using experiment::When;
+using task::TaskPlan;
+using task::When;
 
 constexpr double kUsualDensity = 1000;  // expected of objects that were not lifted yet [kg/m^3]
 constexpr double kReach = 0.03;         // least length of a movement that teaches rotations [m]
@@ -90,21 +88,20 @@ Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
 
 }  // namespace
 
-Person::Person(const Traits& traits, const experiment::Plan& plan)
+Person::Person(const Traits& traits, const Situation& situation)
     : traits_(traits),
-      plan_(plan.task),
-      places_(hand::finger_places(plan.hand, scene::finger_names(plan.scene))),
-      impedance_(plan.hand.impedance),
-      start_{plan.hand.centre, plan.hand.aperture, 0},
-      seed_(plan.seed),
+      plan_(situation.task),
+      places_(hand::finger_places(situation.hand, scene::finger_names(situation.scene))),
+      impedance_(situation.hand.impedance),
+      start_{situation.hand.centre, situation.hand.aperture, 0},
+      seed_(situation.seed),
       random_(seed_, fmt::format("person {}", traits.id)),
-      eyes_(traits.visual_delay, plan.settings.tick()),
-      touch_(sides_of(places_), frictions_of(plan.scene), plan.settings.tick()),
-      known_(plan.task->task.regions.size(), Vec3::Zero()),
-      rotations_(plan.task->stages.size(),
-                 RotationMemory(traits.rotation(), traits.generalisation)),
-      gains_(plan.task->stages.size(), GainMemory(traits.gain())),
-      grip_(traits, looks_of(plan.scene, traits, plan.seed), plan.settings.tick()) {
+      eyes_(traits.visual_delay, situation.tick),
+      touch_(sides_of(places_), frictions_of(situation.scene), situation.tick),
+      known_(plan_->task.regions.size(), Vec3::Zero()),
+      rotations_(plan_->stages.size(), RotationMemory(traits.rotation(), traits.generalisation)),
+      gains_(plan_->stages.size(), GainMemory(traits.gain())),
+      grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     restart();
 }
@@ -222,7 +219,7 @@ void Person::see_targets(const Sight& sight) noexcept {
 /// Follows a new state, which is seen by its targets and its message. A state that asks for no
 /// movement leaves the current movement going.
 void Person::follow_cues(const Sight& sight) noexcept {
-    if (sight.trial < 1 || sight.phase == experiment::kBetween) return await_trial();
+    if (sight.trial < 1 || sight.phase == task::kBetween) return await_trial();
     between_ = false;
     see_targets(sight);
     const bool new_attempt = sight.trial != trial_ || sight.attempt != attempt_;
@@ -495,18 +492,6 @@ void Person::answer(const Sight& sight) noexcept {
         }
     }
     key_ = yes || second == 0 ? first : second;
-}
-
-void sit_down(experiment::Plan& plan, const Traits& traits) {
-    for (const Problem& limit : experiment::simulated_limits(*plan.task))
-        plan.warnings.push_back(limit);
-    plan.person = to_yaml(write_fields(traits));
-    plan.seeing = std::make_shared<Person>(traits, plan);
-    plan.driver = plan.seeing;
-    plan.moved_by = {
-        recording::Mover::simulated_person, recording::program_version(),
-        traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,
-        std::to_string(plan.seed)};
 }
 
 }  // namespace dihaptic::person

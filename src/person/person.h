@@ -5,30 +5,35 @@
 
 #include <memory>
 
-#include "experiment/plan.h"
-#include "experiment/seeing_driver.h"
 #include "person/eyes.h"
 #include "person/gain_memory.h"
 #include "person/grip.h"
 #include "person/rotation_memory.h"
 #include "person/traits.h"
+#include "scene/scene.h"
+#include "task/seeing_driver.h"
+#include "task/task_plan.h"
 
 namespace dihaptic::person {
 
-class Person final : public experiment::SeeingDriver {
+/// What a simulated person sits down to.
+struct Situation {
+    std::shared_ptr<const task::TaskPlan> task;
+    const scene::Scene& scene;
+    const hand::HandSpec& hand;
+    double tick;  ///< [s]
+    uint64_t seed;
+};
+
+class Person final : public task::SeeingDriver {
   public:
-    /// For a plan with trials. Throws Error when a task cannot move the plan's hand.
-    Person(const Traits& traits, const experiment::Plan& plan);
+    /// Throws Error when a task cannot move the situation's hand.
+    Person(const Traits& traits, const Situation& situation);
 
     double duration() const override { return hand::kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
     void restart() override;
 
-    /// Rotation vector by which the person expects reaches toward d to be shown turned, in a state
-    /// of the task [rad].
-    Vec3 expected_rotation(size_t state, const Vec3& d) const {
-        return rotations_[state].expected(d);
-    }
     const Grip& grip() const { return grip_; }
 
   private:
@@ -55,14 +60,14 @@ class Person final : public experiment::SeeingDriver {
     bool from_above(const Vec3& displacement) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
-    Vec3 target(const Sight& sight, const experiment::TaskPlan::Step& step) const noexcept;
+    Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
     double stiffness() const noexcept;
     double noisy(double value, double share) noexcept;
-    const std::vector<experiment::TaskPlan::Step>& steps() const noexcept;
+    const std::vector<task::TaskPlan::Step>& steps() const noexcept;
 
     Traits traits_;
-    std::shared_ptr<const experiment::TaskPlan> plan_;
+    std::shared_ptr<const task::TaskPlan> plan_;
     std::vector<hand::FingerPlace> places_;
     hand::Impedance impedance_;
     Aim start_;
@@ -120,8 +125,5 @@ class Person final : public experiment::SeeingDriver {
     double answer_at_ = -1;           // [s]; negative: nothing is asked
     char key_ = 0;
 };
-
-/// Puts a simulated person in place of the plan's hand.
-void sit_down(experiment::Plan& plan, const Traits& traits);
 
 }  // namespace dihaptic::person

@@ -21,34 +21,36 @@ class Writer {
     Writer(std::span<std::byte> out, Bodies bodies) : out_(out), bodies_(bodies) {}
 
     template <class T>
-    void operator()(const char*, const T& value, const char*) {
-        static_assert(kIsField<T>);
-        put(&value, sizeof(T));
+    void operator()(const T& value, const servo::Term&) {
+        put(value);
     }
     template <class T>
-    void each(const char*, const std::vector<T>& list) {
-        (*this)("", static_cast<uint16_t>(list.size()), "");
+    void each(const char*, const std::vector<T>& list, const char*) {
+        put(static_cast<uint16_t>(list.size()));
         for (const T& item : list) T::visit(item, *this);
     }
     template <class T>
-    void changed(const char*, const std::vector<T>& list, const std::vector<uint16_t>& which) {
+    void changed(const char*, const std::vector<T>& list, const std::vector<uint16_t>& which,
+                 const char*) {
         const bool all = bodies_ == Bodies::all;
         const auto count = static_cast<uint16_t>(all ? list.size() : which.size());
-        (*this)("", count, "");
+        put(count);
         for (uint16_t n = 0; n < count; ++n) {
             const uint16_t i = all ? n : which[n];
-            (*this)("", i, "");
+            put(i);
             T::visit(list[i], *this);
         }
     }
     size_t size() const { return fits_ ? used_ : 0; }
 
   private:
-    void put(const void* data, size_t size) {
-        if (used_ + size > out_.size()) fits_ = false;
+    template <class T>
+    void put(const T& value) {
+        static_assert(kIsField<T>);
+        if (used_ + sizeof(T) > out_.size()) fits_ = false;
         if (!fits_) return;
-        std::memcpy(out_.data() + used_, data, size);
-        used_ += size;
+        std::memcpy(out_.data() + used_, &value, sizeof(T));
+        used_ += sizeof(T);
     }
     std::span<std::byte> out_;
     Bodies bodies_;

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <string_view>
-#include <utility>
 
+#include "base/status.h"
 #include "contact/route.h"
-#include "contact/solver_settings.h"
-#include "haptics/settings.h"
-#include "servo/frame.h"
+#include "servo/knobs.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -29,9 +27,8 @@ std::string listed() {
 
 std::string bits() {
     std::vector<std::string> texts;
-    servo::for_each_status(servo::kAllStatus, [&](servo::Status bit) {
-        texts.push_back(
-            fmt::format("{}: {}", static_cast<uint32_t>(bit), servo::describe(bit).what));
+    for_each_status(kAllStatus, [&](Status bit) {
+        texts.push_back(fmt::format("{}: {}", static_cast<uint32_t>(bit), describe(bit).what));
     });
     return fmt::format("a sum of {}", fmt::join(texts, "; "));
 }
@@ -55,18 +52,18 @@ constexpr Coded kCoded[] = {
     {"outcome", [](const LogHead& head) { return listed_or_none(head.outcomes); }},
     {"message", [](const LogHead& head) { return listed_or_none(head.messages); }},
     {"status", [](const LogHead&) { return bits(); }},
-    {"solver", [](const LogHead&) { return listed<contact::Solver>(); }},
-    {"coupling", [](const LogHead&) { return listed<haptics::CouplingKind>(); }},
-    {"proxy", [](const LogHead&) { return listed<haptics::ProxyKind>(); }},
     {"solver_route", [](const LogHead&) { return listed<contact::Route>(); }},
 };
-constexpr std::pair<std::string_view, const char*> kAlwaysCoded[] = {
-    {"solver_fallback", "0: the solver answered, 1: another one did"},
-    {"marker", "0: none"},
-    {"trial", "0: none"},
-    {"awake", "0: the body sleeps, 1: it does not"},
-    {"buttons", "a sum of: 1, 2, 4, ... a button that is pressed"},
-};
+
+std::string codes_of_knob(const std::string& name) {
+    std::string out;
+    servo::Knobs::visit([&]<class T>(T servo::Knobs::*, const servo::Knob& knob) {
+        if constexpr (NamedEnum<T>) {
+            if (name == knob.name) out = listed<T>();
+        }
+    });
+    return out;
+}
 
 }  // namespace
 
@@ -74,10 +71,7 @@ std::string codes_of(const std::string& name, const LogHead& head) {
     for (const Coded& coded : kCoded) {
         if (coded.name == name) return coded.codes(head);
     }
-    for (const auto& [coded, codes] : kAlwaysCoded) {
-        if (coded == name) return codes;
-    }
-    return "";
+    return codes_of_knob(name);
 }
 
 }  // namespace dihaptic::recording

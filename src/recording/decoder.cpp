@@ -72,15 +72,16 @@ class FrameDecoder::Members {
     std::vector<OfList> lists;
 
     template <class T>
-    void operator()(const char* name, const T& value, const char* unit) {
-        into_->push_back({schema_line<T>(name, unit), offset(value)});
+    void operator()(const T& value, const servo::Term& term) {
+        into_->push_back({schema_line<T>(term), offset(value)});
     }
     template <class T>
-    void each(const char* name, const std::vector<T>& list) {
+    void each(const char* name, const std::vector<T>& list, const char*) {
         add_list(schema_line(name, false), list, 0);
     }
     template <class T>
-    void changed(const char* name, const std::vector<T>& list, const std::vector<uint16_t>& which) {
+    void changed(const char* name, const std::vector<T>& list, const std::vector<uint16_t>& which,
+                 const char*) {
         add_list(schema_line(name, true), list, offset(which));
     }
 

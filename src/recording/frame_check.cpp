@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "contact/route.h"
-#include "contact/solver_settings.h"
-#include "haptics/settings.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -17,6 +15,15 @@ bool is_index(int32_t i, size_t count) noexcept {
 template <class Enum>
 bool names(int32_t value) noexcept {
     return value >= 0 && static_cast<size_t>(value) < enum_names(Enum{}).size();
+}
+
+bool is_possible(const servo::Knobs& knobs) noexcept {
+    bool possible = true;
+    servo::Knobs::visit([&]<class T>(T servo::Knobs::*knob, const servo::Knob&) {
+        if constexpr (NamedEnum<T>)
+            possible = possible && names<T>(static_cast<int32_t>(knobs.*knob));
+    });
+    return possible;
 }
 
 bool is_possible(const servo::ContactFrame& contact, size_t all) noexcept {
@@ -44,8 +51,8 @@ bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
     const size_t all = layout.bodies + layout.fingers;
     return frame.sequence >= 0 && frame.sequence < kMostTicks && frame.time >= Time{0} &&
            frame.time < kLongest && frame.trial >= 0 && frame.phase >= -1 &&
-           names<haptics::CouplingKind>(frame.coupling) && names<haptics::ProxyKind>(frame.proxy) &&
-           names<contact::Solver>(frame.solver) && names<contact::Route>(frame.solver_route) &&
+           is_possible(static_cast<const servo::Knobs&>(frame)) &&
+           names<contact::Route>(frame.solver_route) &&
            is_possible(frame.task, layout.bodies, all) &&
            std::all_of(
                frame.contacts.begin(), frame.contacts.end(),

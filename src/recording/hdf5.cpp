@@ -1,18 +1,19 @@
 #include "recording/hdf5.h"
 
+#include <optional>
+
 namespace dihaptic::recording::hdf5 {
 namespace {
 
 constexpr hsize_t kChunkRows = 4096;
 constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
 
-bool failed = false;  // whether a call has failed since the last create_file()
-std::string failure;  // why it failed
+/// Why a call of this thread has failed since its last create_file(), if one has.
+thread_local std::optional<std::string> failure;
 
 /// Keeps the system's message from HDF5's stack of errors, e.g. "No space left on device".
 void note_failure() {
-    if (failed) return;
-    failed = true;
+    if (failure) return;
     failure = "HDF5 gives no reason";
     const auto look = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
         const std::string text = error->desc == nullptr ? "" : error->desc;
@@ -23,12 +24,12 @@ void note_failure() {
         *static_cast<std::string*>(data) = text.substr(begin, text.find('\'', begin) - begin);
         return 1;
     };
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &failure);
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &*failure);
 }
 
 void check(herr_t status) {
     if (status < 0) note_failure();
-    if (failed) throw WriteFailure(failure);
+    if (failure) throw WriteFailure(*failure);
 }
 
 Id string_type() {
@@ -72,7 +73,7 @@ Id::Id(hid_t id) : id_(id) {
 }
 
 Id::~Id() {
-    if (id_ >= 0 && !failed && H5Idec_ref(id_) < 0) note_failure();
+    if (id_ >= 0 && !failure && H5Idec_ref(id_) < 0) note_failure();
 }
 
 Id& Id::operator=(Id&& other) noexcept {
@@ -82,7 +83,7 @@ Id& Id::operator=(Id&& other) noexcept {
 
 Id create_file(const std::string& path) {
     H5dont_atexit();
-    failed = false;
+    failure.reset();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed
     return Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
 }

@@ -1,7 +1,6 @@
 #include "recording/nwb.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -96,7 +95,7 @@ class Series {
 class Row {
   public:
     template <class T>
-    void operator()(const char*, const T& value, const char*) {
+    void operator()(const T& value, const servo::Term&) {
         if constexpr (std::is_same_v<T, Vec3>) {
             numbers.insert(numbers.end(), value.data(), value.data() + 3);
         } else if constexpr (std::is_same_v<T, Quat>) {
@@ -108,17 +107,27 @@ class Row {
     std::vector<double> numbers;
 };
 
+/// What a quantity is, and in whose axes.
+std::string words_of(const servo::Term& term) {
+    const std::string frame = term.frame;
+    const char* const axes = frame == "W"   ? " In the world's axes."
+                             : frame == "D" ? " In the device's axes."
+                                            : "";
+    return std::string(term.meaning) + axes;
+}
+
 /// What these numbers are, in words.
-class RowNames {
+class RowText {
   public:
     template <class T>
-    void operator()(const char* name, const T&, const char* unit) {
-        std::string text = unit == std::string("1") ? name : fmt::format("{} [{}]", name, unit);
+    void operator()(const T&, const servo::Term& term) {
+        text += fmt::format(" {}", term.name);
+        if (term.unit != std::string("1")) text += fmt::format(" [{}]", term.unit);
         if constexpr (std::is_same_v<T, Vec3>) text += " x y z";
         if constexpr (std::is_same_v<T, Quat>) text += " w x y z";
-        names.push_back(text);
+        text += ": " + words_of(term);
     }
-    std::vector<std::string> names;
+    std::string text;
 };
 
 /// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
@@ -145,55 +154,33 @@ class FrameExporter {
 
     // as a visitor
     template <class T>
-    void operator()(const char* name, const T& value, const char* unit) {
-        if constexpr (std::is_same_v<T, Vec3>) {
-            put(name, value.data(), 3, unit, hdf5::Numbers::real);
-        } else if constexpr (std::is_same_v<T, Quat>) {
-            const double wxyz[4] = {value.w(), value.x(), value.y(), value.z()};
-            put(name, wxyz, 4, unit, hdf5::Numbers::real);
-        } else if constexpr (!std::is_same_v<T, Time>) {
-            const auto number = static_cast<double>(value);
-            constexpr bool whole = std::is_integral_v<T>;
-            put(name, &number, 1, unit, whole ? hdf5::Numbers::whole : hdf5::Numbers::real);
+    void operator()(const T& value, const servo::Term& term) {
+        if constexpr (!std::is_same_v<T, Time>) {
+            row_.numbers.clear();
+            row_(value, term);
+            constexpr bool whole = std::is_integral_v<T> || std::is_enum_v<T>;
+            put(term, whole ? hdf5::Numbers::whole : hdf5::Numbers::real);
         }
     }
-    void each(const char* name, const std::vector<servo::FingerFrame>& fingers) {
-        list_ = name;
-        for (size_t i = 0; i < fingers.size(); ++i) {
-            prefix_ = head_.fingers[i] + "_";
-            servo::FingerFrame::visit(fingers[i], *this);
-        }
-        prefix_.clear();
-        list_ = nullptr;
+    void each(const char* name, const std::vector<servo::FingerFrame>& fingers, const char*) {
+        each_of(head_.fingers, name, fingers);
     }
-    void each(const char* name, const std::vector<servo::TurnFrame>& turns) {
-        list_ = name;
-        for (size_t i = 0; i < turns.size(); ++i) {
-            prefix_ = turning_[i] + "_";
-            servo::TurnFrame::visit(turns[i], *this);
-        }
-        prefix_.clear();
-        list_ = nullptr;
+    void each(const char* name, const std::vector<servo::TurnFrame>& turns, const char*) {
+        each_of(turning_, name, turns);
     }
     void changed(const char* name, const std::vector<servo::BodyFrame>& bodies,
-                 const std::vector<uint16_t>&) {
-        list_ = name;
-        for (size_t i = 0; i < bodies.size(); ++i) {
-            prefix_ = head_.bodies[i] + "_";
-            servo::BodyFrame::visit(bodies[i], *this);
-        }
-        prefix_.clear();
-        list_ = nullptr;
+                 const std::vector<uint16_t>&, const char*) {
+        each_of(head_.bodies, name, bodies);
     }
     /// Lists of any length: a series each, with a row an item, once there is one.
     template <class T>
-    void each(const char* name, const std::vector<T>& items) {
+    void each(const char* name, const std::vector<T>& items, const char* meaning) {
         for (const T& item : items) {
             row_.numbers.clear();
             T::visit(item, row_);
             auto found = lists_.find(name);
             if (found == lists_.end())
-                found = lists_.emplace(name, List{begin_list<T>(name), {}}).first;
+                found = lists_.emplace(name, List{begin_list<T>(name, meaning), {}}).first;
             found->second.series.add(row_.numbers.data());
             found->second.times.push_back(times_.back());
         }
@@ -201,46 +188,46 @@ class FrameExporter {
 
   private:
     template <class T>
-    Series begin_list(const std::string& name) const {
-        RowNames columns;
+    void each_of(const std::vector<std::string>& names, const char* list,
+                 const std::vector<T>& items) {
+        list_ = list;
+        for (size_t i = 0; i < items.size(); ++i) {
+            item_ = &names[i];
+            T::visit(items[i], *this);
+        }
+        list_ = nullptr;
+    }
+    template <class T>
+    Series begin_list(const std::string& name, const std::string& meaning) const {
+        RowText columns;
         const T item{};
         T::visit(item, columns);
         const bool of_contacts = std::is_same_v<T, servo::ContactFrame>;
-        std::string what = fmt::format("A row for each of the tick's {}: {}.", name,
-                                       fmt::join(columns.names, ", "));
-        if (of_contacts) {
-            what +=
-                " Bodies are counted from 0: the scene's in order, then the fingers. The "
-                "position is the centre of pressure, the normal points from a to b, the gap is "
-                "the smallest. In the world's axes.";
-        }
         return Series(acquisition_, of_contacts ? name : "task_" + name, row_.numbers.size(), "n/a",
-                      what, "");
+                      meaning + " Columns:" + columns.text, "");
     }
-    void put(const std::string& name, const double* value, size_t columns, const char* unit,
-             hdf5::Numbers numbers) {
+    /// Adds the row to the next series.
+    void put(const servo::Term& term, hdf5::Numbers numbers) {
         if (next_ == series_.size()) {
-            const bool spatial = columns == 3 && name.ends_with("position");
-            series_.emplace_back(acquisition_, prefix_ + name, columns, unit,
-                                 describe(name, columns), spatial ? frame_of(name) : "", numbers);
+            const size_t columns = row_.numbers.size();
+            const bool spatial = columns == 3 && term.unit == std::string("m");
+            series_.emplace_back(acquisition_, list_ ? *item_ + "_" + term.name : term.name,
+                                 columns, term.unit, describe(term, columns),
+                                 spatial ? reference_frame(term.frame) : "", numbers);
         }
-        series_[next_++].add(value);
+        series_[next_++].add(row_.numbers.data());
     }
-    /// In whose axes a field is: its name begins with what it is of.
-    static std::string frame_of(const std::string& name) {
-        if (name.starts_with("device_")) {
+    static std::string reference_frame(const std::string& frame) {
+        if (frame == "D") {
             return "Device: its own axes, from its own origin; general/devices and the rig in the "
                    "session's folder say where that stands in the world.";
         }
         return "World: x right, y away from the person, z up; origin on the table top.";
     }
-    std::string describe(const std::string& name, size_t columns) const {
-        std::string words = prefix_.empty() ? name : prefix_ + name;
-        for (char& c : words) c = c == '_' ? ' ' : c;
-        words += ", every tick of the servo.";
-        if (columns > 1)
-            words +=
-                name.starts_with("device_") ? " In the device's axes." : " In the world's axes.";
+    std::string describe(const servo::Term& term, size_t columns) const {
+        const std::string name = term.name;
+        std::string words = list_ ? *item_ + ": " : "";
+        words += words_of(term);
         if (columns == 4) words += " Columns: w, x, y, z.";
         const std::string codes = codes_of(name, head_);
         if (!codes.empty()) words += " " + codes + ".";
@@ -254,8 +241,8 @@ class FrameExporter {
     const LogHead& head_;
     std::vector<std::string> not_recorded_;
     std::vector<std::string> turning_;
-    std::string prefix_;
-    const char* list_ = nullptr;  // that is visited
+    const char* list_ = nullptr;         // that is visited
+    const std::string* item_ = nullptr;  // name of its item
     std::vector<Series> series_;
     size_t next_ = 0;
     std::vector<double> times_;
@@ -306,7 +293,7 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     for (size_t c = 0; c < table.columns.size(); ++c) {
         const Id column = write_column(group, names[c], table, c);
         mark(column, "VectorData", "hdmf-common");
-        write_attribute(column, "description", table.columns[c].description);
+        write_attribute(column, "description", table.columns[c].in_words());
     }
 }
 

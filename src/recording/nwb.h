@@ -1,14 +1,10 @@
 // session.nwb: the session as an NWB 2 file (Neurodata Without Borders, HDF5), which h5py, MATLAB's
 // h5read and NWB tools open without this program. Made from raw.log, which stays as it is.
 //
-//   acquisition/<finger>_handle_position, _proxy_position   SpatialSeries [time, 3], meters
-//   acquisition/<finger>_force_sent, _force_asked, ...      TimeSeries [time, 3], newtons
-//   acquisition/<body>_position, <body>_orientation, ...    TimeSeries
-//   acquisition/grip_force, load_force, status, phase, ...  TimeSeries [time]
-//   acquisition/contacts                                    TimeSeries [contact, 14]
-//   intervals/trials, phases, events                        TimeIntervals
+//   acquisition/                       SpatialSeries and TimeSeries, see docs/quantities.md
+//   intervals/trials, phases, events   TimeIntervals
 //   general/subject, general/devices
-//   scratch/settings                                        settings, each with its origin
+//   scratch/settings                   settings, each with its origin
 //
 // The schema is not within it (/specifications): readers use their own copy of that version.
 #pragma once

@@ -39,13 +39,14 @@ struct LogHead : Setup {
     std::vector<std::string> turning_fingers() const {
         std::vector<std::string> out;
         for (const DeviceRecord& device : devices) {
-            if (device.orientation) out.push_back(device.finger);
+            if (device.measures_orientation) out.push_back(device.finger);
         }
         return out;
     }
     Layout layout() const {
-        const auto turns = std::count_if(devices.begin(), devices.end(),
-                                         [](const DeviceRecord& d) { return d.orientation; });
+        const auto turns = std::count_if(devices.begin(), devices.end(), [](const DeviceRecord& d) {
+            return d.measures_orientation;
+        });
         return {fingers.size(), bodies.size(), static_cast<size_t>(turns)};
     }
     template <class Visitor>

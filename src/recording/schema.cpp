@@ -9,15 +9,16 @@ namespace {
 class Lister {
   public:
     template <class T>
-    void operator()(const char* name, const T&, const char* unit) {
-        text_ += prefix_ + schema_line<T>(name, unit) + "\n";
+    void operator()(const T&, const servo::Term& term) {
+        text_ += prefix_ + schema_line<T>(term) + "\n";
     }
     template <class T>
-    void each(const char* name, const std::vector<T>&) {
+    void each(const char* name, const std::vector<T>&, const char*) {
         item<T>(schema_line(name, false));
     }
     template <class T>
-    void changed(const char* name, const std::vector<T>&, const std::vector<uint16_t>&) {
+    void changed(const char* name, const std::vector<T>&, const std::vector<uint16_t>&,
+                 const char*) {
         item<T>(schema_line(name, true));
     }
     std::string take() { return std::move(text_); }

@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "base/geometry.h"
+#include "servo/term.h"
 
 namespace dihaptic::recording {
 
@@ -23,6 +24,7 @@ constexpr const char* kChangedFollow =
 
 template <class T>
 constexpr const char* type_name() {
+    if constexpr (std::is_enum_v<T>) return type_name<std::underlying_type_t<T>>();
     if constexpr (std::is_same_v<T, double>) return "float64";
     if constexpr (std::is_same_v<T, Vec3>) return "float64[3]";
     if constexpr (std::is_same_v<T, Quat>) return "float64[4] (x, y, z, w)";
@@ -35,8 +37,8 @@ constexpr const char* type_name() {
 
 /// The line of a field, and of a list, without its indentation.
 template <class T>
-std::string schema_line(const char* name, const char* unit) {
-    return std::string(name) + " " + type_name<T>() + " " + unit;
+std::string schema_line(const servo::Term& term) {
+    return std::string(term.name) + " " + type_name<T>() + " " + term.unit;
 }
 inline std::string schema_line(const char* list, bool changed) {
     return std::string(list) + " " + (changed ? kChangedFollow : kEachFollows);

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "base/study.h"
+#include "devices/device_info.h"
 #include "recording/moved_by.h"
-#include "recording/study.h"
 
 namespace dihaptic::recording {
 
@@ -26,36 +27,18 @@ struct PhaseInfo {
     }
 };
 
-/// The device that held a finger, and its limits of force.
-struct DeviceRecord {
+/// The device that held a finger.
+struct DeviceRecord : devices::DeviceInfo {
     std::string finger;
-    std::string model;
-    double peak_force = 0;                    ///< [N]
-    std::optional<double> continuous_force;   ///< unset: can hold its peak force for long [N]
-    std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
-    bool orientation = false;                 ///< whether orientation is measured
-    double peak_torque = 0;                   ///< [N*m]
-    std::optional<double> continuous_torque;  ///< [N*m]
-    double scale =
-        1;  ///< movement in the world over the hand's; the forces and lengths above have it
-    bool simulated = false;  ///< late ticks were then no fault
-    /// Damping of handle and hand, from which the softening of the coupling by late ticks follows;
-    /// unset: late ticks softened nothing [N*s/m].
-    std::optional<double> damping;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
-        v("model", model);
-        v("peak_force", peak_force, Field::of(Quantity::force));
-        v("continuous_force", continuous_force, Field::of(Quantity::force));
-        v("workspace", workspace, Field::length());
-        v("orientation", orientation);
-        v("peak_torque", peak_torque, Field::of(Quantity::torque));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque));
-        v("scale", scale);
-        v("simulated", simulated);
-        v("damping", damping, Field::of(Quantity::damping));
+        // recorded without it, late ticks softened nothing
+        if constexpr (requires { v.mentions("damping"); }) {
+            if (!v.mentions("damping")) damping = std::numeric_limits<double>::infinity();
+        }
+        DeviceInfo::visit(v);
     }
 };
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "base/regular_file.h"
 #include "base/table.h"
+#include "base/unmeasured.h"
 
 namespace dihaptic::recording {
 
@@ -40,7 +40,7 @@ double Showings::onset(int64_t tick, double time, int64_t until) const {
         std::lower_bound(showings_.begin(), showings_.end(), tick,
                          [](const Showing& showing, int64_t t) { return showing.tick < t; });
     if (first == showings_.end() || first->tick >= until || first->time - time > kSeen)
-        return std::numeric_limits<double>::quiet_NaN();
+        return kUnmeasured;
     return first->time;
 }
 

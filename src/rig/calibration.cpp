@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "base/unit.h"
 #include "rig/calibration_solver.h"
 
 namespace dihaptic::rig {
@@ -350,15 +350,14 @@ std::string describe(const CalibrationResult& result) {
     } else {
         out += "no jig: the world stays as the rig file has it\n";
     }
-    constexpr double kDegree = 180 / std::numbers::pi;
     for (const DeviceCalibration& d : c.devices) {
         out +=
             fmt::format("{:8} shift [{:.2f}, {:.2f}, {:.2f}] mm, turn [{:.2f}, {:.2f}, {:.2f}] deg",
                         d.finger, mm(d.shift.x()), mm(d.shift.y()), mm(d.shift.z()),
-                        d.turn.x() * kDegree, d.turn.y() * kDegree, d.turn.z() * kDegree);
+                        d.turn.x() / kDegree, d.turn.y() / kDegree, d.turn.z() / kDegree);
         if (d.joint_offset) {
-            out += fmt::format(", joints {:.2f} and {:.2f} deg", d.joint_offset->y() * kDegree,
-                               d.joint_offset->z() * kDegree);
+            out += fmt::format(", joints {:.2f} and {:.2f} deg", d.joint_offset->y() / kDegree,
+                               d.joint_offset->z() / kDegree);
         } else {
             out += fmt::format(
                 ", stretch [{:.4f}, {:.4f}, {:.4f}]; without joint angles, bends of its space "

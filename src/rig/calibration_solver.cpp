@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/statistics.h"
+
 namespace dihaptic::rig {
 namespace {
 
@@ -17,13 +19,6 @@ constexpr double kStretch = 0.1;
 constexpr double kLeastSpread = 2e-6;  // below any device's encoders [m]
 constexpr int kHuberSteps = 12;
 constexpr int kMostSteps = 80;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Weight of a misfit; `ratio`: misfit over spread. `redescending`: Tukey's, else Huber's.
 double weight(double ratio, bool redescending) {
@@ -66,7 +61,7 @@ CalibrationSolution CalibrationSolver::nominal() const {
     std::vector<double> distances;
     for (const CalibrationInput::LinkSample& sample : input_.link_samples)
         distances.push_back(link_misfit(out, sample));
-    out.length = median(distances);
+    if (!distances.empty()) out.length = quantile(distances, 0.5);
     return out;
 }
 
@@ -128,12 +123,12 @@ struct CalibrationSolver::Step {
                 misfits.push_back(
                     std::abs(solver.link_misfit(solution, solver.input_.link_samples[k])));
         // 0.6745 and 1.538: medians of a standard normal's magnitude in one and in three dimensions
-        solution.link_spread = std::max(kLeastSpread, median(misfits) / 0.6745);
+        solution.link_spread = std::max(kLeastSpread, quantile(misfits, 0.5) / 0.6745);
         misfits.clear();
         for (size_t k = 0; k < jig.size(); ++k)
             if (jig[k])
                 misfits.push_back(solver.jig_misfit(solution, solver.input_.jig_samples[k]).norm());
-        solution.jig_spread = std::max(kLeastSpread, median(misfits) / 1.538);
+        solution.jig_spread = std::max(kLeastSpread, quantile(misfits, 0.5) / 1.538);
     }
 
     void add(const CalibrationInput::LinkSample& sample) {

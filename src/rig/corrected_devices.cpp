@@ -6,15 +6,8 @@ namespace {
 std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& devices,
                                        const std::vector<Adjustment>& adjustments) {
     std::vector<devices::DeviceInfo> out;
-    for (int i = 0; i < devices.size(); ++i) {
-        const double s = adjustments[static_cast<size_t>(i)].scale;
-        devices::DeviceInfo info = devices.info(i);
-        info.scale = s;
-        info.peak_force *= s;
-        info.continuous_force *= s;
-        if (info.workspace) *info.workspace *= s;
-        out.push_back(info);
-    }
+    for (size_t i = 0; i < adjustments.size(); ++i)
+        out.push_back(devices.descriptions()[i].scaled(adjustments[i].scale));
     return out;
 }
 

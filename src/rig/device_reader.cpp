@@ -21,7 +21,7 @@ void DeviceReader::tick(Time now) noexcept {
 void DeviceReader::check() const {
     for (size_t i = 0; i < readings_.size(); ++i) {
         const devices::Reading& reading = readings_[i];
-        const bool silent = (reading.status & devices::kNotAnswering) != 0;
+        const bool silent = (reading.status & kNotAnswering) != 0;
         if (!silent && reading.p_DH.allFinite() && reading.joints.allFinite()) continue;
         throw Error(fmt::format("the {}'s device does not answer", fingers_[i]),
                     "Look at its power and its cables, and begin again.");

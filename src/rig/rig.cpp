@@ -20,6 +20,10 @@ std::vector<std::string> backend_names() {
     return names;
 }
 
+devices::DeviceConfig config_of(const Device& device) {
+    return {device.finger, device.X_WD(), device.options, device.place, device.scale};
+}
+
 void check(const Rig& rig, Diagnostics& diagnostics) {
     std::set<std::string> fingers;
     for (const Device& device : rig.devices) {
@@ -37,7 +41,7 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
             }
             continue;
         }
-        backend->check({device.finger, device.X_WD(), device.options}, diagnostics);
+        backend->describe({config_of(device)}, {}, diagnostics);
         if (device.backend != rig.devices.front().backend) {
             diagnostics.error(device.place, "backend", "differs from the first device's",
                               "All devices of a rig are of one backend.");
@@ -229,6 +233,23 @@ Rig uncorrected(const Rig& rig) {
     return out;
 }
 
+namespace {
+/// The backend of the devices that fingers hold, and these devices in the fingers' order.
+std::pair<const devices::Backend&, std::vector<devices::DeviceConfig>> held_by(
+    const Rig& rig, const std::vector<std::string>& fingers) {
+    std::vector<devices::DeviceConfig> configs;
+    const devices::Backend* backend = nullptr;
+    for (const std::string& finger : fingers) {
+        const Device& device = device_of(rig, finger);
+        backend = devices::find_backend(device.backend);
+        configs.push_back(config_of(device));
+    }
+    if (backend == nullptr)
+        throw Error(rig.place, "devices", "there are none", "List at least one device.");
+    return {*backend, configs};
+}
+}  // namespace
+
 bool is_real(const Rig& rig) {
     return std::any_of(rig.devices.begin(), rig.devices.end(), [](const Device& device) {
         const devices::Backend* const backend = devices::find_backend(device.backend);
@@ -253,27 +274,32 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
     return rig;
 }
 
+std::vector<devices::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
+                                          const devices::Context& context) {
+    const auto [backend, configs] = held_by(rig, fingers);
+    Diagnostics diagnostics;
+    std::vector<devices::DeviceInfo> out = backend.describe(configs, context, diagnostics);
+    diagnostics.throw_if_errors();
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        const Device& device = device_of(rig, fingers[i]);
+        adjustment(rig, device, out[i]);
+        out[i] = out[i].scaled(device.scale);
+    }
+    return out;
+}
+
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context,
                                                    const std::optional<keeper::Keeping>& keeping) {
-    std::vector<devices::DeviceConfig> configs;
-    const devices::Backend* backend = nullptr;
-    for (const std::string& finger : fingers) {
-        const Device& device = device_of(rig, finger);
-        backend = devices::find_backend(device.backend);
-        configs.push_back({finger, device.X_WD(), device.options, device.place, device.scale});
-    }
-    if (backend == nullptr)
-        throw Error(rig.place, "devices", "there are none", "List at least one device.");
-    auto group = backend->real && keeping
-                     ? keeper::keep_devices({backend->name, configs, context.tick, *keeping})
-                     : backend->make(configs, context);
+    const auto [backend, configs] = held_by(rig, fingers);
+    auto group = backend.real && keeping
+                     ? keeper::keep_devices({backend.name, configs, context.tick, *keeping})
+                     : backend.make(configs, context);
     std::vector<Adjustment> adjustments;
     bool adjusted = false;
     for (size_t i = 0; i < fingers.size(); ++i) {
-        const auto own =
-            adjustment(rig, device_of(rig, fingers[i]), group->info(static_cast<int>(i)));
+        const auto own = adjustment(rig, device_of(rig, fingers[i]), group->descriptions()[i]);
         adjusted = adjusted || own;
         adjustments.push_back(own.value_or(Adjustment{}));
     }

@@ -125,6 +125,11 @@ constexpr int kOldCalibration = 30;  // days
 /// The rig without calibration and scales: its readings are what the devices report.
 Rig uncorrected(const Rig& rig);
 
+/// What the rig says of the devices that fingers hold, in the fingers' order and the world's
+/// measure. Touches no hardware: what only an open device can say keeps its default. Throws Error
+/// when a finger has no device, or when options or calibration are wrong.
+std::vector<devices::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
+                                          const devices::Context& context);
 /// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
 /// `keeping`: how a keeper owns real devices; nullopt: this process owns them. Throws Error when a
 /// finger has no device, or when the calibration is of other devices.

@@ -231,10 +231,12 @@ std::vector<Reach> reaches(const Rig& rig) {
     const StillDriver still;
     devices::Context context;
     context.driver = &still;
-    const auto group = make_devices(rig, fingers, context);
+    std::vector<devices::DeviceInfo> infos = describe(rig, fingers, context);
+    const auto knows = [](const devices::DeviceInfo& info) { return info.arm || info.workspace; };
+    if (!std::all_of(infos.begin(), infos.end(), knows))
+        infos = make_devices(rig, fingers, context)->descriptions();
     std::vector<Reach> out;
-    for (size_t i = 0; i < fingers.size(); ++i)
-        out.emplace_back(rig.devices[i], group->info(static_cast<int>(i)));
+    for (size_t i = 0; i < fingers.size(); ++i) out.emplace_back(rig.devices[i], infos[i]);
     return out;
 }
 

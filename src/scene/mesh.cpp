@@ -112,7 +112,8 @@ std::optional<Mesh> mesh_of(const std::string& bytes, double unit) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
+Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
+               const std::stop_token& stop) {
     const auto refused = [&](const std::string& why, const std::string& remedy) {
         return Error(asked_at, "file", "the mesh " + file + " " + why, remedy);
     };
@@ -133,8 +134,8 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
                       kRemedy);
     }
     const CompanionTask task{
-        kReader,  {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy,
-        asked_at, "file"};
+        kReader, {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy, asked_at,
+        "file",  stop};
     const std::optional<std::string> answer = run_companion(task, bytes);
     std::optional<Mesh> mesh = answer ? mesh_of(*answer, unit) : std::nullopt;
     const bool none = !mesh || mesh->faces.empty();
@@ -146,10 +147,6 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at) {
     }
     if (mesh->faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
     return *std::move(mesh);
-}
-
-void cancel_reading() noexcept {
-    cancel_companions(kReader);
 }
 
 }  // namespace dihaptic::scene

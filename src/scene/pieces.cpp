@@ -110,7 +110,8 @@ std::string off_of(const Mesh& mesh) {
     return off;
 }
 
-std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at) {
+std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at,
+                            const std::stop_token& stop) {
     const CompanionTask task{
         kDecomposer,
         {},
@@ -118,7 +119,8 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
         "cutting " + file + " into convex pieces",
         "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out concave.",
         asked_at,
-        "concave"};
+        "concave",
+        stop};
     const std::optional<std::string> text = run_companion(task, off_of(mesh));
     std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
     if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be when read from the file
@@ -131,10 +133,6 @@ std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Pla
 }
 
 }  // namespace
-
-void cancel_cut() noexcept {
-    cancel_companions(kDecomposer);
-}
 
 Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
     Mesh out;
@@ -185,11 +183,11 @@ void write_pieces(const Pieces& pieces, const std::string& file) {
 }
 
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
-                     Diagnostics& diagnostics) {
+                     Diagnostics& diagnostics, const std::stop_token& stop) {
     const uint64_t print = fingerprint(mesh);
     const std::string kept = pieces_file(file);
     if (std::optional<Pieces> pieces = read_pieces(kept, print)) return *std::move(pieces);
-    Pieces pieces{decompose(mesh, file, asked_at), print};
+    Pieces pieces{decompose(mesh, file, asked_at, stop), print};
     try {
         write_pieces(pieces, kept);
     } catch (const Error& e) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,9 @@ Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at);
 /// Convex pieces of a closed mesh that was read from `file`. The pieces kept beside the file are
 /// used if they are intact and belong to this mesh; else the mesh is cut and the new pieces are
 /// kept. Warns if they cannot be written. Throws Error when the mesh cannot be cut, e.g. because it
-/// intersects itself.
+/// intersects itself, or when the cut is stopped.
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
-                     Diagnostics& diagnostics);
-
-/// Stops cuts: each convex_pieces() that is cutting throws Error. Does nothing if none is. May be
-/// called from any thread.
-void cancel_cut() noexcept;
+                     Diagnostics& diagnostics, const std::stop_token& stop = {});
 
 /// Name of the file beside a mesh that keeps its pieces.
 std::string pieces_file(const std::string& mesh_file);

@@ -39,14 +39,15 @@ std::vector<Finger> default_fingers() {
     return {thumb, index};
 }
 
-void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnostics) {
-    for (Part& part : shape.parts) load_meshes(part.shape, folder, diagnostics);
+void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnostics,
+                 const std::stop_token& stop) {
+    for (Part& part : shape.parts) load_meshes(part.shape, folder, diagnostics, stop);
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
     const std::string file =
         (std::filesystem::path(folder) / shape.file).lexically_normal().string();
     const Place& place = shape.file_place;
     try {
-        const Mesh mesh = read_mesh(file, metres(shape.unit), place);
+        const Mesh mesh = read_mesh(file, metres(shape.unit), place, stop);
         shape.hull = convex_hull(mesh.vertices);
         if (shape.hull.faces.empty()) {
             diagnostics.error(place, "file",
@@ -63,7 +64,7 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
         if (shape.concave) {
             shape.surface = closed(mesh, file, place);
             shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
-            shape.pieces = convex_pieces(shape.surface, file, place, diagnostics);
+            shape.pieces = convex_pieces(shape.surface, file, place, diagnostics, stop);
             return;
         }
         const double solid = integrate(mesh.vertices, mesh.faces).volume;
@@ -285,15 +286,16 @@ double mass(const Body& body) {
     return body.mass ? *body.mass : body.density.value_or(0) * integrate(body.shape).volume;
 }
 
-void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics) {
+void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
+              const std::stop_token& stop) {
     if (scene.fingers.empty()) scene.fingers = default_fingers();
     for (Body& body : scene.bodies) {
-        load_meshes(body.shape, folder, diagnostics);
+        load_meshes(body.shape, folder, diagnostics, stop);
         check_parts(body.shape, body.place, diagnostics);
         check_body(body, diagnostics);
     }
     for (Finger& finger : scene.fingers) {
-        load_meshes(finger.shape, folder, diagnostics);
+        load_meshes(finger.shape, folder, diagnostics, stop);
         check_parts(finger.shape, finger.place, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {
@@ -310,7 +312,7 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics)
     if (!diagnostics.has_errors()) check_overlaps(scene, diagnostics);
 }
 
-Scene read_scene(const std::string& file, Diagnostics& diagnostics) {
+Scene read_scene(const std::string& file, Diagnostics& diagnostics, const std::stop_token& stop) {
     Scene scene;
     try {
         read_fields(scene, read_yaml(file), diagnostics);
@@ -318,7 +320,7 @@ Scene read_scene(const std::string& file, Diagnostics& diagnostics) {
         diagnostics.add(e.problems());
         return scene;
     }
-    complete(scene, std::filesystem::path(file).parent_path().string(), diagnostics);
+    complete(scene, std::filesystem::path(file).parent_path().string(), diagnostics, stop);
     return scene;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -167,12 +168,14 @@ double pair_friction(const Scene& scene, const std::string& a, double friction_a
 /// Mass of a body that is not fixed, from its mass or its density [kg].
 double mass(const Body& body);
 
-/// Reads a scene file and its meshes. Reports all problems to `diagnostics` and returns what could
-/// be read.
-Scene read_scene(const std::string& file, Diagnostics& diagnostics);
+/// Reads a scene file and its meshes, until `stop`. Reports all problems to `diagnostics` and
+/// returns what could be read.
+Scene read_scene(const std::string& file, Diagnostics& diagnostics,
+                 const std::stop_token& stop = {});
 
 /// Fills in the default fingers, loads meshes, and checks the scene as a whole. Paths of mesh files
 /// are relative to `folder`.
-void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics);
+void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
+              const std::stop_token& stop = {});
 
 }  // namespace dihaptic::scene

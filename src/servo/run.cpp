@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "base/statistics.h"
 #include "servo/suspension.h"
 #include "servo/watchdog.h"
 
@@ -40,11 +41,7 @@ void sleep_until(Steady::time_point deadline) {
 }  // namespace
 
 double TickTimes::quantile(double share) const {
-    if (us_.empty()) return kUnmeasured;
-    std::vector<float> sorted = us_;
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(sorted.size() - 1));
-    std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
-    return sorted[static_cast<size_t>(at)];
+    return dihaptic::quantile(us_, share);
 }
 
 std::string describe(const Timing& timing) {

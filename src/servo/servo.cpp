@@ -12,11 +12,12 @@ namespace {
 constexpr double kElsewhere = 5e-3;  // a handle this far off after a pause gets its proxy anew [m]
 
 /// The fault that a device reports.
-haptics::FaultKind reported_by(const devices::Reading& reading) {
-    if (reading.status & devices::kNotAnswering) return haptics::FaultKind::not_answering;
-    if (reading.status & devices::kNeedsCalibration) return haptics::FaultKind::uncalibrated;
-    if (reading.status & devices::kDeviceFault) return haptics::FaultKind::device_fault;
-    return haptics::FaultKind::none;
+FaultKind reported_by(const devices::Reading& reading) {
+    FaultKind reported = FaultKind::none;
+    for_each_status(reading.status, [&](Status bit) {
+        if (reported == FaultKind::none) reported = describe(bit).faults[0].kind;
+    });
+    return reported;
 }
 
 /// The box that a hand is kept in: the wall or, without one, the device's workspace if it is
@@ -45,29 +46,16 @@ haptics::ProxyKind other_than(haptics::ProxyKind kind) {
                                              : haptics::ProxyKind::point;
 }
 
-/// Clears the orders that hold for one tick only; trial, phase and solver stay until ordered anew.
-void forget_orders(Commands& commands) noexcept {
-    commands.task.clear();
-    commands.stop = false;
-    commands.force_off = false;
-    commands.rest = false;
-    commands.abandoned = 0;
-    commands.tuning.reset();
-    commands.proxy.reset();
-    commands.friction_scale.reset();
-    commands.workspace_rate = 0;
-}
-
 void scale_friction(double scale, dynamics::World& world,
                     std::span<haptics::Finger> fingers) noexcept {
-    if (scale == world.friction_scale()) return;
+    if (Knobs::same(scale, world.friction_scale())) return;
     world.set_friction_scale(scale);
     for (haptics::Finger& finger : fingers) finger.set_friction_scale(scale);
 }
 
 bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
     return std::any_of(readings.begin(), readings.end(), [](const devices::Reading& reading) {
-        return (reading.status & devices::kForceDropped) != 0;
+        return (reading.status & kForceDropped) != 0;
     });
 }
 
@@ -94,12 +82,8 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         if (safety.hand_damping) damping_ = *safety.hand_damping;
         devices_->limit(static_cast<int>(i), safety.largest_force(info.peak_force, info.scale),
                         safety.largest_torque(info.peak_torque));
-        force_guards_.emplace_back(
-            settings.safety,
-            haptics::DeviceLimits{info.peak_force, info.continuous_force,
-                                  box_of(info, X_0D_[i], wall), info.peak_torque,
-                                  info.continuous_torque, info.scale},
-            settings.tick());
+        force_guards_.emplace_back(settings.safety, info, box_of(info, X_0D_[i], wall),
+                                   settings.tick());
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const scene::Finger& finger = scene.fingers[i];
@@ -114,6 +98,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         X_D0_.push_back(X_0D_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed * info.scale);
     }
+    commands_.knobs = Knobs::of(settings);
     const size_t n = fingers_.size();
     readings_.resize(n);
     handles_.resize(n);
@@ -243,14 +228,9 @@ void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcep
 
 const Frame& Servo::tick(Time now, const Director& director) noexcept {
     measure(now);
-    forget_orders(commands_);
+    commands_.clear();
     if (director) director(frame_, handles_, commands_);
-    if (commands_.tuning) settings_.coupling.set(*commands_.tuning);
-    retune();
-    if (commands_.proxy && *commands_.proxy != settings_.proxy.kind)
-        change_proxies(*commands_.proxy);
-    if (commands_.friction_scale) scale_friction(*commands_.friction_scale, world_, fingers_);
-    turn_workspaces(commands_.workspace_rate);
+    turn_knobs();
     if (commands_.force_off) faults_.trip({haptics::FaultKind::stopped, -1, now});
     if (commands_.abandoned > 0)
         faults_.trip({haptics::FaultKind::abandoned, -1, now, commands_.abandoned});
@@ -268,13 +248,21 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
     return frame_;
 }
 
+void Servo::turn_knobs() noexcept {
+    const Knobs& knobs = commands_.knobs;
+    retune();
+    if (knobs.proxy != settings_.proxy.kind) change_proxies(knobs.proxy);
+    scale_friction(knobs.friction_scale, world_, fingers_);
+    turn_workspaces(knobs.workspace_rate);
+}
+
 dynamics::StepStatus Servo::advance_world() noexcept {
     if (world_.diverged()) return dynamics::StepStatus::diverged;
     order_bodies();
     const double h = settings_.step();
     for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].begin_tick(world_, handles_[i], h);
     if (!steps_now()) return dynamics::StepStatus::ok;
-    if (commands_.solver) world_.set_solver(*commands_.solver);
+    world_.set_solver(commands_.knobs.solver);
     for (const LoadFrame& load : commands_.task.loads) {
         if (load.body < world_.scene_size()) world_.apply({load.body}, load.force_W, load.torque_W);
     }
@@ -351,11 +339,11 @@ void Servo::make_forces(Time now) noexcept {
         force.asked_W.torque = fingers_[i].torque();
         const Pose& X_WP = world_.state(fingers_[i].proxy()).X_WB;
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
-                                              fingers_[i].stored(), stepped, force.flags);
+                                              fingers_[i].stored(), stepped, force.status);
         judge_shaking(haptics::FaultKind::active, i, force_guards_[i].feeding());
         force.felt_W.force += field_on(i);
         force.felt_0 = turn_.unturned(force.felt_W);
-        force.felt_0.force += force_guards_[i].push(unturned_[i], force.flags);
+        force.felt_0.force += force_guards_[i].push(unturned_[i], force.status);
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
@@ -366,10 +354,10 @@ void Servo::make_forces(Time now) noexcept {
     for (size_t i = 0; i < fingers_.size(); ++i) {
         Force& force = forces_[i];
         bound_rise(i, share);
-        force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.flags);
-        if (held) force.flags &= ~static_cast<unsigned>(haptics::kSwitchedOff);
+        force.sent_0 = force_guards_[i].limit(force.felt_0, allowed, share, force.status);
+        if (held) force.status &= ~uint32_t{kSwitchedOff};
         judge_shaking(haptics::FaultKind::chatters, i, force_guards_[i].chatter());
-        if (force.flags & haptics::kNotFinite)
+        if (force.status & kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
     // one finger's fault counts for all: half a grasp would throw the hand aside

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "haptics/finger.h"
 #include "haptics/force_guard.h"
@@ -25,26 +26,34 @@
 
 namespace dihaptic::servo {
 
-/// What the director orders in a tick.
-struct Commands {
+/// Orders that hold until the director changes them.
+struct LastingOrders {
     int32_t trial = 0;
     int32_t phase = 0;
+    Knobs knobs;  ///< at first those of the settings
+};
+
+/// Orders for one tick: none are given before the director is called.
+struct TickOrders {
     bool stop = false;       ///< this tick is the last
     bool force_off = false;  ///< from this tick on, for good, as the operator wishes
     bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
     /// Time for which the window that watches the session has not answered, if that is too long:
     /// force is then off from this tick on [s].
     double abandoned = 0;
-    std::optional<dynamics::Solver> solver;  ///< from this step on
-    std::optional<haptics::Tuning> tuning;   ///< of all couplings, from this tick on
-    /// Proxy kind, from this tick on, of fingers whose kind may change and is not set by the scene.
-    /// The director makes sure that these fingers touch nothing.
-    std::optional<haptics::ProxyKind> proxy;
-    std::optional<double> friction_scale;  ///< of every coefficient of friction, from this tick on
-    double workspace_rate = 0;  ///< at which the workspaces turn, from this tick on [rad/s]
+    TaskFrame task;
 
-    TaskFrame task;  ///< for this tick alone: it is empty before the director is called
+    /// Resets to no orders; keeps the memory.
+    void clear() noexcept {
+        TaskFrame memory = std::move(task);
+        memory.clear();
+        *this = {};
+        task = std::move(memory);
+    }
 };
+
+/// What the director orders in a tick.
+struct Commands : LastingOrders, TickOrders {};
 
 /// Called in each tick with the last Frame and the handles as just read; fills in the commands. As
 /// part of the tick it must not allocate, lock or throw.
@@ -124,6 +133,8 @@ class Servo {
     /// Sets bodies as ordered, pulls proxies to their handles, and steps the world if it is time
     /// to.
     dynamics::StepStatus advance_world() noexcept;
+    /// Puts the knobs in force, each as far as it can be in this tick.
+    void turn_knobs() noexcept;
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
     haptics::Finger make_finger(const scene::Scene& scene, size_t finger, dynamics::BodyIndex proxy,
@@ -180,8 +191,8 @@ class Servo {
         Wrench felt_0;   // felt_W before the workspaces' turn, with the wall
         Wrench sent_0;
         Wrench sent_W;
-        Wrench last_0;       // what was sent in the last tick
-        unsigned flags = 0;  // haptics::LimitFlags, EnergyFlags and GuardFlags
+        Wrench last_0;        // what was sent in the last tick
+        uint32_t status = 0;  // of the force alone
     };
     std::vector<Force> forces_;
     std::vector<Wrench> sent_D_;

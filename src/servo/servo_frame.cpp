@@ -1,74 +1,17 @@
 // Makes the Frame, the record of a tick.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
+#include "model/grasp.h"
 #include "servo/servo.h"
 
 namespace dihaptic::servo {
 namespace {
 
-struct FaultBit {
-    haptics::FaultKind kind;
-    Status bit;
-};
-
-constexpr FaultBit kFaultBits[] = {
-    {haptics::FaultKind::bad_reading, kBadReading},
-    {haptics::FaultKind::not_answering, kNotAnswering},
-    {haptics::FaultKind::uncalibrated, kUncalibrated},
-    {haptics::FaultKind::device_fault, kDeviceFault},
-    {haptics::FaultKind::too_fast, kTooFast},
-    {haptics::FaultKind::turned_too_fast, kTooFast},
-    {haptics::FaultKind::late, kLate},
-    {haptics::FaultKind::keeps_late, kKeepsLate},
-    {haptics::FaultKind::not_finite, kNotFinite},
-    {haptics::FaultKind::diverged, kNotFinite},
-    {haptics::FaultKind::active, kEnergyGenerated},
-    {haptics::FaultKind::chatters, kEnergyGenerated},
-    {haptics::FaultKind::abandoned, kAbandoned},
-    {haptics::FaultKind::stopped, kStopped},
-};
-static_assert(std::size(kFaultBits) == static_cast<size_t>(haptics::FaultKind::stopped));
-
-uint32_t fault_status(haptics::FaultKind kind) noexcept {
-    for (const FaultBit& row : kFaultBits) {
-        if (row.kind == kind) return row.bit;
-    }
-    return 0;
-}
-
-/// A bit of a device's status or of a force's flags, with the Frame's corresponding bit.
-struct BitOf {
-    uint32_t theirs;
-    Status ours;
-};
-
-constexpr BitOf kReadingBits[] = {
-    {devices::kOutsideWorkspace, kOutsideWorkspace},
-    {devices::kForceClamped, kForceClamped},
-    {devices::kNoMoreData, kNoMoreData},
-    {devices::kNotAnswering, kNotAnswering},
-    {devices::kForceDropped, kForceDropped},
-    {devices::kNeedsCalibration, kUncalibrated},
-    {devices::kDeviceFault, kDeviceFault},
-};
-
-constexpr BitOf kForceBits[] = {
-    {haptics::kForceLimited, kForceLimited}, {haptics::kRateLimited, kRateLimited},
-    {haptics::kNotFinite, kNotFinite},       {haptics::kHeatLimited, kHeatLimited},
-    {haptics::kPushedInward, kPushedInward}, {haptics::kSoftStarted, kSoftStarted},
-    {haptics::kSwitchedOff, kSwitchedOff},   {haptics::kEnergyGenerated, kEnergyGenerated},
-    {haptics::kEnergyDamped, kEnergyDamped}, {haptics::kRiseBounded, kSoftened},
-};
-
-uint32_t translated(uint32_t theirs, std::span<const BitOf> bits) noexcept {
-    uint32_t ours = 0;
-    for (const BitOf& bit : bits) {
-        if (theirs & bit.theirs) ours |= bit.ours;
-    }
-    return ours;
+uint32_t fault_status(FaultKind kind) noexcept {
+    const StatusRow* const row = row_of(kind);
+    return row != nullptr ? uint32_t{row->bit} : 0;
 }
 
 uint32_t step_status(dynamics::StepStatus step, const contact::SolveStats& solve) noexcept {
@@ -82,18 +25,11 @@ uint32_t step_status(dynamics::StepStatus step, const contact::SolveStats& solve
 
 void note_solver(const dynamics::World& world, Frame& frame) noexcept {
     const contact::SolveStats& solve = world.solve_stats();
-    frame.solver = static_cast<int32_t>(world.solver());
+    frame.solver = world.solver();
     frame.solver_iterations = solve.iterations;
     frame.solver_residual = solve.residual;
     frame.solver_fallback = solve.fallback;
     frame.solver_route = static_cast<int32_t>(solve.route);
-}
-
-void note_tuning(const haptics::Tuning& tuning, Frame& frame) noexcept {
-    frame.coupling = static_cast<int32_t>(tuning.kind);
-    frame.stiffness = tuning.stiffness;
-    frame.damping = tuning.damping.value_or(kUnmeasured);
-    frame.smoothing = tuning.smoothing;
 }
 
 void note_motion(const devices::Reading& reading, const haptics::Handle& handle,
@@ -151,12 +87,10 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     if (faults_.tripped()) frame_.status |= kForceOff;
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
-    const haptics::Tuning tuning = in_force_.tuning();
-    if (tuning.stiffness < settings_.coupling.stiffness) frame_.status |= kSoftened;
-    note_tuning(tuning, frame_);
+    if (in_force_.stiffness < commands.knobs.stiffness) frame_.status |= kSoftened;
+    static_cast<Knobs&>(frame_) = commands.knobs;  // but for those that are not in force yet
+    frame_.set_coupling(in_force_);
     note_solver(world_, frame_);
-    frame_.proxy = static_cast<int32_t>(settings_.proxy.kind);
-    frame_.friction_scale = world_.friction_scale();
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();
     frame_.lateness = lateness_;
@@ -165,8 +99,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
         FingerFrame& out = frame_.fingers[i];
         const haptics::ProxyTouch& touch = fingers_[i].touch();
         out.buttons = readings_[i].buttons;
-        out.status = translated(readings_[i].status, kReadingBits) |
-                     translated(forces_[i].flags, kForceBits) | fault_status(device_faults_[i]);
+        out.status = readings_[i].status | forces_[i].status | fault_status(device_faults_[i]);
         note_motion(readings_[i], handles_[i], world_.state(fingers_[i].proxy()), out);
         out.f_asked_W = forces_[i].asked_W.force;
         out.f_sent_W = forces_[i].sent_W.force;
@@ -235,10 +168,8 @@ void Servo::measure_grasp() noexcept {
         frame_.load_force += tangential.dot(down);
     }
     if (fingers_.size() < 2) return;
-    Vec3 others = Vec3::Zero();
-    for (size_t i = 1; i < fingers_.size(); ++i) others += frame_.fingers[i].p_WP;
-    const Vec3 axis =
-        (others / static_cast<double>(fingers_.size() - 1) - frame_.fingers[0].p_WP).normalized();
+    const Vec3 axis = model::grasp_axis(
+        fingers_.size(), [&](size_t i) -> const Vec3& { return frame_.fingers[i].p_WP; });
     double squeeze = 0;
     for (size_t i = 0; i < fingers_.size(); ++i) {
         const haptics::ProxyTouch& touch = fingers_[i].touch();

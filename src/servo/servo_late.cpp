@@ -28,7 +28,7 @@ void Servo::judge_lateness(Time now, double elapsed) noexcept {
 }
 
 void Servo::retune() noexcept {
-    haptics::CouplingSettings next = settings_.coupling;
+    haptics::CouplingSettings next = commands_.knobs.coupled(settings_.coupling);
     if (real_) next = haptics::softened(next, damping_, late_.sustained(), settings_.tick());
     if (next == in_force_) return;
     in_force_ = next;
@@ -53,7 +53,7 @@ void Servo::bound_rise(size_t finger, double share) noexcept {
                                               std::min(turn_k, in_force_.turn_stiffness),
                                               turn_k * haptics::kTurnCreep * elapsed_);
     if (force.felt_0.force != asked.force || force.felt_0.torque != asked.torque)
-        force.flags |= haptics::kRiseBounded;
+        force.status |= kSoftened;
 }
 
 }  // namespace dihaptic::servo

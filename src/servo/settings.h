@@ -1,6 +1,6 @@
 // All settings that scene, rig, experiment and command line may set. The later source counts,
 // except for `safety`, which belongs to the rig and which the others may only tighten
-// (experiment/safety_limits.h).
+// (session/safety_limits.h).
 #pragma once
 
 #include "dynamics/settings.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "servo/term.h"
 
 namespace dihaptic::servo {
 
@@ -24,13 +25,13 @@ enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 }
 ///
 /// A body is also turned by R, so that a rotated hand still touches what is rotated with it.
 struct VisualMap {
-    uint32_t moves = 0;           ///< Moves
-    int32_t object = -1;          ///< the body that kMovesObject means
-    Vec3 p_WC = Vec3::Zero();     ///< centre c [m]
-    Vec3 scale = Vec3::Ones();    ///< along the world's axes
-    Quat R = Quat::Identity();    ///< after scaling
-    Vec3 along_W = Vec3::Zero();  ///< unit direction of the ray; zero: no ray
-    double size = 1;              ///< the object's displayed size over its true one
+    uint32_t moves = 0;  ///< Moves
+    int32_t object = -1;
+    Vec3 p_WC = Vec3::Zero();  ///< c
+    Vec3 scale = Vec3::Ones();
+    Quat R = Quat::Identity();
+    Vec3 along_W = Vec3::Zero();
+    double size = 1;
 
     Vec3 displayed(const Vec3& p_W) const noexcept {
         const Vec3 arm = p_W - p_WC;
@@ -41,73 +42,74 @@ struct VisualMap {
 
     template <class Self, class Visitor>
     static void visit(Self& m, Visitor& v) {
-        v("moves", m.moves, "1");
-        v("object", m.object, "1");
-        v("centre", m.p_WC, "m");
-        v("scale", m.scale, "1");
-        v("rotation", m.R, "1");
-        v("along", m.along_W, "1");
-        v("size", m.size, "1");
+        v(m.moves, {"moves", "1", "",
+                    "What the map moves, a sum: 1 the proxies, 2 the object, 4 the targets."});
+        v(m.object, {"object", "1", "", "Index of the body that is the object; -1: none."});
+        v(m.p_WC, {"centre", "m", "W", "Centre of the map."});
+        v(m.scale, {"scale", "1", "W", "Factors on distances from the centre, along each axis."});
+        v(m.R, {"rotation", "1", "W", "Rotation about the centre, after scaling."});
+        v(m.along_W, {"along", "1", "W",
+                      "Unit direction of the ray on which points are shown; zero: no ray."});
+        v(m.size, {"size", "1", "", "The object's displayed size over its true one."});
     }
 };
 
-/// A target that is shown as a sphere.
 struct TargetFrame {
-    int32_t region = -1;  ///< of the task
+    int32_t region = -1;
     Vec3 p_WT = Vec3::Zero();
     double radius = 0;
 
     template <class Self, class Visitor>
     static void visit(Self& t, Visitor& v) {
-        v("region", t.region, "1");
-        v("position", t.p_WT, "m");
-        v("radius", t.radius, "m");
+        v(t.region, {"region", "1", "", "Index of the region in the task's list."});
+        v(t.p_WT, {"position", "m", "W", "Centre of the sphere."});
+        v(t.radius, {"radius", "m", "", "Radius of the sphere."});
     }
 };
 
-/// Properties of a body, relative to those of the scene.
 struct PropertiesFrame {
     int32_t body = -1;
-    Vec3 mass_scale = Vec3::Ones();  ///< of its inertia along the world's axes
+    Vec3 mass_scale = Vec3::Ones();
     double weight_scale = 1;
-    double turning_scale = 1;   ///< of its moments of inertia
-    double friction_scale = 1;  ///< of its coefficients with all others
+    double turning_scale = 1;
+    double friction_scale = 1;
 
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
-        v("body", p.body, "1");
-        v("mass_scale", p.mass_scale, "1");
-        v("weight_scale", p.weight_scale, "1");
-        v("turning_scale", p.turning_scale, "1");
-        v("friction_scale", p.friction_scale, "1");
+        v(p.body,
+          {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
+        v(p.mass_scale, {"mass_scale", "1", "W", "Factors on the body's inertia along each axis."});
+        v(p.weight_scale, {"weight_scale", "1", "", "Factor on the body's weight."});
+        v(p.turning_scale, {"turning_scale", "1", "", "Factor on the body's moments of inertia."});
+        v(p.friction_scale,
+          {"friction_scale", "1", "", "Factor on the body's coefficients of friction."});
     }
 };
 
-/// A force on a body of the scene at its centre of mass, or, with the index of a proxy, on its
-/// finger's handle.
 struct LoadFrame {
     int32_t body = -1;
-    Vec3 force_W = Vec3::Zero();   ///< [N]
-    Vec3 torque_W = Vec3::Zero();  ///< bodies only [N*m]
+    Vec3 force_W = Vec3::Zero();
+    Vec3 torque_W = Vec3::Zero();
 
     template <class Self, class Visitor>
     static void visit(Self& l, Visitor& v) {
-        v("body", l.body, "1");
-        v("force", l.force_W, "N");
-        v("torque", l.torque_W, "N*m");
+        v(l.body,
+          {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
+        v(l.force_W, {"force", "N", "W", "Force at the body's centre of mass, or on the handle."});
+        v(l.torque_W, {"torque", "N*m", "W", "Torque on the body; handles have none."});
     }
 };
 
-/// Puts a body at a pose, at rest.
 struct PlacementFrame {
     int32_t body = -1;
     Pose X_WB;
 
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
-        v("body", p.body, "1");
-        v("position", p.X_WB.p, "m");
-        v("orientation", p.X_WB.R, "1");
+        v(p.body, {"body", "1", "", "Index of the body."});
+        v(p.X_WB.p, {"position", "m", "W", "Position of the body's origin."});
+        v(p.X_WB.R, {"orientation", "1", "W",
+                     "Unit quaternion that turns the body's axes into the world's."});
     }
 };
 
@@ -117,12 +119,12 @@ struct TaskFrame {
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
 
-    int32_t attempt = 0;   ///< of the trial, from 1
-    int32_t outcome = -1;  ///< of the trial, in its last frame: index into the session's outcomes
-    int32_t message = -1;  ///< shown now: index into the session's messages
-    int32_t marker = 0;    ///< event code of this tick, 1 to 255; 0: none
-    double share = 0;      ///< share of the trial's perturbation that acts
-    std::vector<VisualMap> visual;  ///< empty: everything is shown where it is
+    int32_t attempt = 0;
+    int32_t outcome = -1;
+    int32_t message = -1;
+    int32_t marker = 0;
+    double share = 0;
+    std::vector<VisualMap> visual;
     std::vector<TargetFrame> targets;
     std::vector<PropertiesFrame> properties;
     std::vector<LoadFrame> loads;
@@ -150,16 +152,19 @@ struct TaskFrame {
 
     template <class Self, class Visitor>
     static void visit(Self& t, Visitor& v) {
-        v("attempt", t.attempt, "1");
-        v("outcome", t.outcome, "1");
-        v("message", t.message, "1");
-        v("marker", t.marker, "1");
-        v("share", t.share, "1");
-        v.each("visual", t.visual);
-        v.each("targets", t.targets);
-        v.each("properties", t.properties);
-        v.each("loads", t.loads);
-        v.each("placements", t.placements);
+        v(t.attempt, {"attempt", "1", "", "Number of the attempt at the trial, from 1."});
+        v(t.outcome, {"outcome", "1", "",
+                      "Index of the trial's outcome in the session's list, in its last tick."});
+        v(t.message, {"message", "1", "", "Index of the shown message in the session's list."});
+        v(t.marker, {"marker", "1", "", "Event code of the tick, 1 to 255; 0: none."});
+        v(t.share, {"share", "1", "", "Share of the trial's perturbation that acts."});
+        v.each("visual", t.visual,
+               "The visual map, if any: the difference between what is shown and what is there.");
+        v.each("targets", t.targets, "One for each target, which is shown as a sphere.");
+        v.each("properties", t.properties,
+               "One for each body whose properties differ from the scene's.");
+        v.each("loads", t.loads, "One for each force on a body or a handle.");
+        v.each("placements", t.placements, "One for each body that is put at a pose, at rest.");
     }
 };
 

@@ -12,7 +12,6 @@
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/table.h"
-#include "person/person.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::session {
@@ -24,7 +23,7 @@ using recording::SessionState;
 
 /// Puts the simulated person of that session back, with the same traits; what it had learned is
 /// lost.
-void sit_down_again(experiment::Plan& plan, const recording::SessionFolder& folder) {
+void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
     const std::string file = folder.file("person.yaml");
     if (!is_there(file)) {
         throw Error({file, 0}, "", "is gone: it said what the simulated person was like",
@@ -34,7 +33,7 @@ void sit_down_again(experiment::Plan& plan, const recording::SessionFolder& fold
     person::Traits traits;
     read_fields(traits, read_yaml(file), diagnostics);
     diagnostics.throw_if_errors();
-    person::sit_down(plan, traits);
+    sit_down(plan, traits);
 }
 
 const char* who_goes_on(Mover mover) {
@@ -82,7 +81,7 @@ std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
         return std::nullopt;
     // a session that was killed has no tables yet
     const bool killed = info.state == SessionState::running;
-    if (!killed && !experiment::trials_left(folder.path())) return std::nullopt;
+    if (!killed && !trials_left(folder.path())) return std::nullopt;
     return Unfinished{folder.path(), info.started, trials_done(folder),
                       CsvFile(folder.file("trial-list.csv")).rows(), info.moved_by};
 }
@@ -95,15 +94,14 @@ std::string Rest::describe() const {
                        who_goes_on(plan.moved_by.mover));
 }
 
-Rest rest_of(const std::string& session, experiment::Seat seat,
-             const std::function<void(double)>& progress) {
+Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress) {
     const auto folder = recording::SessionFolder::open(session);
     Rest out;
     Diagnostics ignored;  // recover_session() reports the same problems
     const recording::RawLogReader log(folder.raw_log());
     if (folder.read_info(log.head(), ignored).state == SessionState::running)
         out.warnings = analysis::recover_session(folder, progress).warnings;
-    out.plan = experiment::make_rest(session, seat, out.before);
+    out.plan = make_rest(session, seat, out.before);
     if (out.plan.moved_by.mover == Mover::simulated_person) sit_down_again(out.plan, folder);
     return out;
 }

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "experiment/plan.h"
+#include "session/plan.h"
 
 namespace dihaptic::session {
 
 /// What is left of a session.
 struct Rest {
-    experiment::Plan plan;
+    Plan plan;
     recording::SessionInfo before;  ///< info of the session that is resumed
     std::vector<Problem> warnings;  ///< from recovering the session, if it was killed
 
@@ -24,8 +24,7 @@ struct Rest {
 /// Prepares the rest of a session. Recovers the session first if it was killed, and reports the
 /// progress of that to `progress`. Throws Error when nothing is left, when the session has no
 /// trials, or when what moved its hand is not known or cannot do so here.
-Rest rest_of(const std::string& session, experiment::Seat seat,
-             const std::function<void(double)>& progress);
+Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress);
 
 /// A session whose trials are not all done.
 struct Unfinished {

@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "base/diagnostics.h"
+#include "model/grasp.h"
 #include "servo/displayed.h"
 #include "view/colours.h"
 #include "view/gl.h"
@@ -108,10 +109,8 @@ void add_workspace(Solids& out, const Workspace& workspace) {
 }
 
 void add_grip_axis(Solids& out, const servo::Frame& frame, size_t fingers) {
-    Vec3 others = Vec3::Zero();
-    for (size_t i = 1; i < fingers; ++i) others += servo::displayed_proxy(frame, i).p;
-    out.add_line(servo::displayed_proxy(frame, 0).p, others / static_cast<double>(fingers - 1),
-                 0.0006, ink("#7b4ea3"));
+    const auto place = [&](size_t i) -> Vec3 { return servo::displayed_proxy(frame, i).p; };
+    out.add_line(place(0), model::opposing_point(fingers, place), 0.0006, ink("#7b4ea3"));
 }
 
 void check_version() {

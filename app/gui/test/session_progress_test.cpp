@@ -5,12 +5,12 @@
 namespace dihaptic::gui {
 namespace {
 
-experiment::Plan plan_of(const char* file, bool mouse = false) {
-    experiment::Request request;
+session::Plan plan_of(const char* file, bool mouse = false) {
+    session::Request request;
     request.file = file;
     request.mouse = mouse;
     request.participant = "S07";
-    return experiment::make_plan(request);
+    return session::make_plan(request);
 }
 
 servo::Frame at(double time) {
@@ -20,7 +20,7 @@ servo::Frame at(double time) {
 }
 
 TEST(SessionProgress, OfAScriptIsItsPhaseAndWhatIsLeft) {
-    const experiment::Plan plan = plan_of("experiments/lift-block.yaml");
+    const session::Plan plan = plan_of("experiments/lift-block.yaml");
     servo::Frame frame = at(plan.driver->duration() - 3);
     frame.phase = 0;
     const SessionProgress now = progress_of(plan, frame, 0);
@@ -36,7 +36,7 @@ TEST(SessionProgress, ByAHandThatNobodyPlannedIsTheTime) {
 }
 
 TEST(SessionProgress, OfTrialsIsWhichAndHowLongTheRestTakes) {
-    const experiment::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
+    const session::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
     servo::Frame frame = at(100);
     EXPECT_EQ(progress_of(plan, frame, 0).text, "1 min 40 s");
     frame.trial = 3;

@@ -18,13 +18,13 @@ class SessionRunnerTest : public ::testing::Test {
     SessionRunnerTest() {
         QObject::connect(&runner_, &SessionRunner::ended, &runner_,
                          [this](const SessionEnd& end) { end_ = end; });
-        experiment::Request request;
+        session::Request request;
         request.file = "scenes/block-on-table.yaml";
         request.mouse = true;
         request.set = {"safety.max_pause_ms=1000"};  // long enough for a busy machine
-        experiment::RunOptions options;
+        session::RunOptions options;
         options.out = folder_.path();
-        runner_.start(experiment::make_plan(request), options);
+        runner_.start(session::make_plan(request), options);
     }
 
     /// Lets the window answer until `condition` holds; false when that takes over ten seconds.

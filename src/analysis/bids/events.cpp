@@ -10,8 +10,8 @@
 
 #include "analysis/lifts.h"
 #include "analysis/trials.h"
+#include "base/figure.h"
 #include "base/regular_file.h"
-#include "base/table.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
@@ -22,10 +22,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kAskedFor[] = {"trial_num",          "attempt", "block_num", "block",
                                      "trial_num_in_block", "kind",    "round",     "condition",
                                      "perturbation",       "share",   "procedure"};
-/// Columns of what happened or was measured in a trial: only the trial's own row has them.
-constexpr const char* kMeasured[] = {"outcome",        "peak_grip_N",     "peak_force_N",
-                                     "reach_time_s",   "hand_angle_deg",  "shown_angle_deg",
-                                     "hand_extent_mm", "shown_extent_mm", "wanted_extent_mm"};
 constexpr const char* kLift = "lift_";  // prefix of the names of columns of lifts.csv
 
 /// An attempt at a trial in this session, and its row in trials.csv.
@@ -51,37 +47,23 @@ std::vector<Attempt> attempts_of(const CsvFile& trials, const recording::Session
     return out;
 }
 
-/// Description of a column, with the unit that its name ends in.
-Json describe(const std::string& name, const std::string& description) {
-    static const std::map<std::string, std::string> kUnits = {
-        {"s", "s"},     {"mm", "mm"},   {"deg", "deg"}, {"N", "N"},
-        {"N_s", "N/s"}, {"m_s", "m/s"}, {"Nm", "N*m"}};
-    Json out{{"Description", description.empty() ? name : description}};
-    for (const size_t from : {name.rfind('_', name.rfind('_') - 1), name.rfind('_')}) {
-        if (from == std::string::npos) continue;
-        const auto unit = kUnits.find(name.substr(from + 1));
-        if (unit == kUnits.end()) continue;
-        out["Units"] = unit->second;
-        break;
-    }
-    return out;
-}
-
 /// Columns made from trials.csv and lifts.csv, with their descriptions.
 std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lifts) {
-    std::map<std::string, std::string> known;
-    for (const Table::Column& c : trial_columns()) known[c.name] = c.description;
+    std::map<std::string, Table::Column> known;
+    for (const Table::Column& c : trial_columns()) known[c.name] = c;
     std::vector<Table::Column> out;
     for (const char* name : kAskedFor)
-        if (trials.has(name)) out.push_back({name, known[name]});
-    for (const char* name : kMeasured)
-        if (trials.has(name)) out.push_back({name, known[name]});
+        if (trials.has(name)) out.push_back(known[name]);
+    // what happened or was measured in a trial: only the trial's own row has it
+    for (const Table::Column& c : list_figures(TrialMeasures{}).columns)
+        if (c.name != "attempt" && trials.has(c.name)) out.push_back(c);
     if (lifts == nullptr) return out;
-    for (const Table::Column& c : lift_table({}).columns) {
+    for (const Table::Column& c : list_figures(Lift{}).columns) {
         if (c.name == "trial_num" || c.name == "attempt" || !lifts->has(c.name)) continue;
-        out.push_back({c.name == "lift" ? c.name : kLift + c.name,
-                       (c.name == "lift" ? "grip and lift: " : "of the grip and lift: ") +
-                           (c.description.empty() ? c.name : c.description)});
+        const bool lift = c.name == "lift";
+        out.push_back({lift ? c.name : kLift + c.name,
+                       (lift ? "grip and lift: " : "of the grip and lift: ") + c.description,
+                       c.unit});
     }
     return out;
 }
@@ -106,7 +88,10 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
               {"value", {{"Description", "of what happened, as said at trial_type"}}},
               {"moved_by", {{"Description", info.moved_by.describe()}}},
               {"simulated", {{"Description", recording::kMovedByColumns[0].description}}}};
-    for (const Table::Column& c : columns) json[c.name] = describe(c.name, c.description);
+    for (const Table::Column& c : columns) {
+        json[c.name]["Description"] = c.description;
+        if (!c.unit.empty()) json[c.name]["Units"] = c.unit;
+    }
     return json;
 }
 

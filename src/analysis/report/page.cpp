@@ -31,7 +31,7 @@ std::string in_short(double value) {
 std::string to_html(const Table& table) {
     std::string out = "<div class=\"wide\"><table>\n<tr>";
     for (const Table::Column& column : table.columns)
-        out += fmt::format("<th title=\"{}\">{}</th>", escaped_markup(column.description),
+        out += fmt::format("<th title=\"{}\">{}</th>", escaped_markup(column.in_words()),
                            escaped_markup(column.name));
     out += "</tr>\n";
     for (const auto& row : table.rows) {

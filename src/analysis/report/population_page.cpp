@@ -47,32 +47,27 @@ struct PersonCurve {
     std::optional<AdaptationFits> fits;
 };
 
-void add_people(PopulationPage& out, const std::string& title,
-                const std::vector<PersonCurve>& people) {
-    for (const PersonCurve& person : people) {
-        std::vector<Table::Cell>& row = out.people.rows.emplace_back();
-        const std::vector<Table::Cell> landmarks = person.curve->landmark_cells();
-        row = {title, person.session->participant(), person.curve->round};
-        row.insert(row.end(), landmarks.begin(), landmarks.end());
-        if (!person.fits) {
-            row.resize(out.people.columns.size() - 2, AdaptationCurve::kNone);
-        } else {
-            const model::TwoRate& rates = person.fits->two_rate.rates;
-            row.insert(row.end(), {rates.fast.retention, rates.fast.learning, rates.slow.retention,
-                                   rates.slow.learning, person.fits->two_rate.residual_sd,
-                                   person.fits->single_rate.rate.retention,
-                                   person.fits->single_rate.rate.learning});
-        }
-        row.insert(row.end(), {person.curve->note(), person.session->folder.path()});
-    }
+void add_person(PopulationPage& out, const std::string& title, const SessionData& session,
+                const AdaptationCurve& curve, const std::optional<AdaptationFits>& fits,
+                const std::string& note) {
+    FigureLister row;
+    row("experiment", title, "", "title");
+    row("ppid", session.participant(), "", "participant");
+    row("round", curve.round, "", "name");
+    curve.list_landmarks(row);
+    list_fits(row, fits, false);
+    row("note", note, "", "what is not measured");
+    row("session", session.folder.path(), "", "folder");
+    add_row(out.people, row);
 }
 
-/// Adds a row without figures for a session whose perturbation has no measure of learning.
-void add_unmeasured(PopulationPage& out, const std::string& title, const SessionData& session) {
-    std::vector<Table::Cell>& row = out.people.rows.emplace_back();
-    row = {title, session.participant(), "", ""};
-    row.resize(out.people.columns.size() - 2, AdaptationCurve::kNone);
-    row.insert(row.end(), {"not measured: " + session.not_measured(), session.folder.path()});
+/// Lists statistics over people.
+void list(FigureLister& row, const Sample& people) {
+    row("people", people.count, "1", "number");
+    row("mean", people.mean, "1", "over people");
+    row("sd", people.sd, "1", "over people");
+    row("mean_low", people.mean_interval.low, "1", "its 95 % interval");
+    row("mean_high", people.mean_interval.high, "1", "its upper end");
 }
 
 /// Adds the mean over people, trial by trial. Catch trials, which come at different places for each
@@ -105,10 +100,14 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
             block = blocks[place];
             marks.push_back({static_cast<double>(place), block});
         }
-        out.adaptation.rows.push_back({title, round, people.front().curve->unit,
-                                       static_cast<double>(place), block,
-                                       static_cast<double>(all.count), all.mean, all.sd,
-                                       all.mean_interval.low, all.mean_interval.high});
+        FigureLister row;
+        row("experiment", title, "", "title");
+        row("round", round, "", "name");
+        row("unit", people.front().curve->unit, "", "of the means");
+        row("trial", place, "1", "of the round, from 1");
+        row("block", block, "", "name");
+        list(row, all);
+        add_row(out.adaptation, row);
     }
     Chart chart;
     chart.title = "Mean compensation" + (round.empty() ? "" : ", " + round);
@@ -121,34 +120,23 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
     out.page.chart(chart);
 }
 
-/// Adds statistics over people of the numeric columns of population-people.csv.
-void add_adaptation_summary(PopulationPage& out, size_t first_row, const std::string& origin) {
-    Table table;
-    table.columns = {{"round", ""},     {"figure", ""}, {"people", ""}, {"mean", ""},
-                     {"mean 95 %", ""}, {"SD", ""},     {"median", ""}, {"quartiles", ""}};
-    std::vector<std::string> rounds;
-    for (size_t i = first_row; i < out.people.rows.size(); ++i) {
-        const std::string& round = std::get<std::string>(out.people.rows[i][2]);
-        if (std::find(rounds.begin(), rounds.end(), round) == rounds.end()) rounds.push_back(round);
-    }
-    for (const std::string& round : rounds) {
-        for (size_t c = 4; c + 2 < out.people.columns.size(); ++c) {
-            const std::string& name = out.people.columns[c].name;
-            if (name.ends_with("_low") || name.ends_with("_high"))
-                continue;  // intervals of one person
-            std::vector<double> values;
-            for (size_t i = first_row; i < out.people.rows.size(); ++i) {
-                if (std::get<std::string>(out.people.rows[i][2]) == round)
-                    values.push_back(std::get<double>(out.people.rows[i][c]));
-            }
-            const Sample all = sample(values);
-            if (all.count == 0) continue;
-            table.rows.push_back({round, name, static_cast<double>(all.count), all.mean,
-                                  in_words(all.mean_interval), all.sd, all.median,
-                                  in_words(all.quartiles)});
+/// Adds statistics over people of the numbers of one round, which begin at `first` in
+/// population-people.csv.
+void sum_up(Table& table, const std::string& round, const Table& people, size_t first) {
+    for (size_t c = 0; c < people.columns.size(); ++c) {
+        const std::string& name = people.columns[c].name;
+        if (name.ends_with("_low") || name.ends_with("_high")) continue;  // intervals of one person
+        std::vector<double> values;
+        for (size_t i = first; i < people.rows.size(); ++i) {
+            if (const auto* value = std::get_if<double>(&people.rows[i][c]))
+                values.push_back(*value);
         }
+        const Sample all = sample(values);
+        if (all.count == 0) continue;
+        table.rows.push_back({round, name, static_cast<double>(all.count), all.mean,
+                              in_words(all.mean_interval), all.sd, all.median,
+                              in_words(all.quartiles)});
     }
-    out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
 }
 
 /// Adds what has no figure in these sessions, and why.
@@ -157,7 +145,9 @@ void add_not_measured(PopulationPage& out, const std::string& title, const Sessi
     for (const SessionData* session : sessions) {
         if (session->unmeasured.empty()) continue;
         all.insert(session->not_measured());
-        if (session->curves.empty()) add_unmeasured(out, title, *session);
+        if (session->curves.empty())
+            add_person(out, title, *session, {"", "", {}}, {},
+                       "not measured: " + session->not_measured());
     }
     if (all.empty()) return;
     out.page.text(fmt::format(
@@ -168,24 +158,23 @@ void add_not_measured(PopulationPage& out, const std::string& title, const Sessi
 
 void add_adaptation(PopulationPage& out, const std::string& title, const Sessions& sessions,
                     const std::string& origin) {
-    std::vector<std::string> rounds;
     std::map<std::string, std::vector<PersonCurve>> by_round;
     for (const SessionData* session : sessions) {
-        for (const AdaptationCurve& curve : session->curves) {
-            auto& people = by_round[curve.round];
-            if (people.empty()) rounds.push_back(curve.round);
-            people.push_back({session, &curve, fit_adaptation(curve)});
-        }
+        for (const AdaptationCurve& curve : session->curves)
+            by_round[curve.round].push_back({session, &curve, fit_adaptation(curve)});
     }
-    if (rounds.empty()) return;
-    // people do the rounds in different orders
-    std::sort(rounds.begin(), rounds.end());
-    const size_t first_row = out.people.rows.size();
-    for (const std::string& round : rounds) {
-        add_mean_curve(out, title, round, by_round[round], origin);
-        add_people(out, title, by_round[round]);
+    if (by_round.empty()) return;
+    Table table;
+    table.columns = {{"round", ""},     {"figure", ""}, {"people", ""}, {"mean", ""},
+                     {"mean 95 %", ""}, {"SD", ""},     {"median", ""}, {"quartiles", ""}};
+    for (const auto& [round, people] : by_round) {
+        const size_t first = out.people.rows.size();
+        add_mean_curve(out, title, round, people, origin);
+        for (const PersonCurve& p : people)
+            add_person(out, title, *p.session, *p.curve, p.fits, p.curve->note());
+        sum_up(table, round, out.people, first);
     }
-    add_adaptation_summary(out, first_row, origin);
+    out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
 }
 
 void add_thresholds(PopulationPage& out, const std::string& title, const Sessions& sessions,
@@ -198,18 +187,22 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
             const ThresholdFit threshold = fit_threshold(track);
             if (!shares.contains(track.procedure)) procedures.push_back(track.procedure);
             std::vector<double>& of_people = shares[track.procedure];
-            std::vector<Table::Cell>& row = out.thresholds.rows.emplace_back();
-            row = {title, session->participant(), track.procedure, track.perturbation,
-                   static_cast<double>(track.answers.size())};
-            if (threshold.fit) {
-                const model::Psychometric& f = threshold.fit->function;
-                row.insert(row.end(), {track.share(f.threshold), f.shape, f.lapse});
-                if (!threshold.outside) of_people.push_back(track.share(f.threshold));
-            } else {
-                row.resize(row.size() + 3, AdaptationCurve::kNone);
-            }
-            row.insert(row.end(), {threshold.note, session->folder.path()});
-            not_counted += !threshold.fit || threshold.outside;
+            const model::Psychometric f = threshold.function();
+            FigureLister row;
+            row("experiment", title, "", "title");
+            row("ppid", session->participant(), "", "participant");
+            row("procedure", track.procedure, "", "name");
+            row("perturbation", track.perturbation, "", "name");
+            row("trials", track.answers.size(), "1", "answers");
+            row("threshold_share", track.share(f.threshold), "1", "of the perturbation");
+            row("shape", f.shape, "1", "of the sigmoid");
+            row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
+            row("note", threshold.note, "", "why there is no fit, or more");
+            row("session", session->folder.path(), "", "folder");
+            add_row(out.thresholds, row);
+            const bool counts = threshold.fit && !threshold.outside;
+            if (counts) of_people.push_back(track.share(f.threshold));
+            not_counted += !counts;
         }
     }
     if (procedures.empty()) return;
@@ -234,10 +227,6 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
 
 void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
                const std::string& origin) {
-    static const std::vector<const char*> kFigures = {
-        "preload_s",     "loading_s",     "peak_grip_rate_N_s", "peak_load_rate_N_s",
-        "peak_grip_N",   "static_grip_N", "static_load_N",      "static_ratio",
-        "safety_margin", "coupling",      "coupling_lag_s",     "overshoot_mm"};
     // each person's median comes first, since people differ more than lifts do
     std::vector<std::string> groups;
     std::map<std::string, std::map<std::string, std::vector<double>>> medians;
@@ -252,7 +241,7 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
         }
         for (const auto& [group, of_group] : rows) {
             if (!medians.contains(group)) groups.push_back(group);
-            for (const char* figure : kFigures) {
+            for (const char* figure : kLiftFigures) {
                 std::vector<double> values;
                 for (const size_t i : of_group) values.push_back(session->lifts->number(i, figure));
                 medians[group][figure].push_back(sample(values).median);
@@ -264,14 +253,17 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     table.columns = {{"trials", ""}, {"figure", ""},    {"people", ""},
                      {"mean", ""},   {"mean 95 %", ""}, {"SD", ""}};
     for (const std::string& group : groups) {
-        for (const char* figure : kFigures) {
+        for (const char* figure : kLiftFigures) {
             const Sample all = sample(medians[group][figure]);
             if (all.count == 0) continue;
             table.rows.push_back({group, std::string(figure), static_cast<double>(all.count),
                                   all.mean, in_words(all.mean_interval), all.sd});
-            out.lifts.rows.push_back({title, group, std::string(figure),
-                                      static_cast<double>(all.count), all.mean, all.sd,
-                                      all.mean_interval.low, all.mean_interval.high});
+            FigureLister row;
+            row("experiment", title, "", "title");
+            row("trials", group, "", "round, block, kind, condition");
+            row("figure", figure, "", "column of lifts.csv; each person's median counts");
+            list(row, all);
+            add_row(out.lifts, row);
         }
     }
     out.page.text(fmt::format("{} lifts, {} of them complete.", lifts, complete));
@@ -280,33 +272,6 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
 
 std::array<Table*, 4> tables_of(PopulationPage& page) {
     return {&page.people, &page.adaptation, &page.thresholds, &page.lifts};
-}
-
-void set_columns(PopulationPage& out) {
-    out.people.columns = {{"experiment", "title"}, {"ppid", "participant"}, {"round", ""}};
-    const std::vector<Table::Column> landmarks = landmark_columns();
-    out.people.columns.insert(out.people.columns.end(), landmarks.begin(), landmarks.end());
-    out.people.columns.insert(out.people.columns.end(), {{"A_fast", "two-rate model, fitted"},
-                                                         {"B_fast", ""},
-                                                         {"A_slow", ""},
-                                                         {"B_slow", ""},
-                                                         {"two_rate_sd", "of the residuals"},
-                                                         {"A", "single-rate model, fitted"},
-                                                         {"B", ""},
-                                                         {"note", "what is not measured"},
-                                                         {"session", "folder"}});
-    out.adaptation.columns = {{"experiment", ""}, {"round", ""}, {"unit", "of the means"},
-                              {"trial", ""},      {"block", ""}, {"people", ""},
-                              {"mean", ""},       {"sd", ""},    {"mean_low", "95 %"},
-                              {"mean_high", ""}};
-    out.thresholds.columns = {
-        {"experiment", ""},   {"ppid", "participant"}, {"procedure", ""},
-        {"perturbation", ""}, {"trials", "answers"},   {"threshold_share", "of the perturbation"},
-        {"shape", ""},        {"lapse", ""},           {"note", "why there is no fit, or more"},
-        {"session", "folder"}};
-    out.lifts.columns = {{"experiment", ""},   {"trials", ""},   {"figure", ""},
-                         {"people", ""},       {"mean", ""},     {"sd", ""},
-                         {"mean_low", "95 %"}, {"mean_high", ""}};
 }
 
 /// Adds the sessions of one experiment and one kind of people.
@@ -358,7 +323,6 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
              who_moved(all),
              fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
                          recording::program_version(), command))};
-    set_columns(out);
     for (const auto& [group, list] : groups)
         add_group(out, group.first, group.second, list, folder);
     for (Table* table : tables_of(out)) {

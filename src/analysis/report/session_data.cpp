@@ -33,7 +33,7 @@ SessionData SessionData::read(const std::string& path) {
     // what a channel or a field does to the hand does not show what was learned
     if (!data.curves.empty() && data.unmeasured.empty() && is_there(folder.file("trial-list.csv")))
         data.generalisation =
-            find_generalisation(data.trials, CsvFile(folder.file("trial-list.csv")));
+            find_generalisation(data.trials, task::read_reaches(folder.file("trial-list.csv")));
     if (is_there(folder.file("procedures.csv")))
         data.tracks = threshold_tracks(data.trials, CsvFile(folder.file("procedures.csv")));
     return data;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <tuple>
 
+#include "analysis/lifts.h"
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
 #include "base/palette.h"
@@ -85,66 +85,25 @@ void add_windows(Page& page, const SessionData& session,
     table.columns = {
         {"round", ""}, {"figure", ""}, {"mean", ""}, {"95 %", "over these trials"}, {"of", ""}};
     Table rates{{{"round", ""}, {"parameter", ""}, {"fitted", ""}, {"95 %", "profile"}}, {}};
-    const std::vector<Table::Column> columns = landmark_columns();
     for (size_t c = 0; c < session.curves.size(); ++c) {
         const AdaptationCurve& curve = session.curves[c];
-        const std::vector<Table::Cell> cells = curve.landmark_cells();
+        FigureLister list;
+        curve.list_landmarks(list);
         // after the unit and the perturbation, each mean has a column, and its interval two
-        for (size_t i = 2; i + 2 < cells.size(); i += 3) {
-            const auto at = [&](size_t k) { return std::get<double>(cells[k]); };
+        for (size_t i = 2; i + 2 < list.cells.size(); i += 3) {
+            const auto at = [&](size_t k) { return std::get<double>(list.cells[k]); };
             if (std::isnan(at(i))) continue;
-            table.rows.push_back({curve.round, columns[i].name, at(i),
-                                  in_words({at(i + 1), at(i + 2)}), columns[i].description});
+            table.rows.push_back({curve.round, list.columns[i].name, at(i),
+                                  in_words({at(i + 1), at(i + 2)}), list.columns[i].description});
         }
-        const auto& fits = all_fits[c];
-        if (!fits) continue;
-        const TwoRateFit& two = fits->two_rate;
-        const SingleRateFit& one = fits->single_rate;
-        const std::vector<std::tuple<const char*, double, Interval>> parameters = {
-            {"two-rate: fast retention", two.rates.fast.retention, two.retention_fast},
-            {"two-rate: fast learning", two.rates.fast.learning, two.learning_fast},
-            {"two-rate: slow retention", two.rates.slow.retention, two.retention_slow},
-            {"two-rate: slow learning", two.rates.slow.learning, two.learning_slow},
-            {"single-rate: retention", one.rate.retention, one.retention},
-            {"single-rate: learning", one.rate.learning, one.learning}};
-        for (const auto& [name, value, interval] : parameters)
-            rates.rows.push_back({curve.round, std::string(name), value, in_words(interval)});
+        if (!all_fits[c]) continue;
+        for (const FittedParameter& p : parameters(all_fits[c]))
+            rates.rows.push_back({curve.round, std::string(p.what), p.value, *p.interval});
     }
     if (!table.rows.empty())
         page.table(table, "Compensation in windows of one block each. " + origin_of(session));
     if (!rates.rows.empty())
         page.table(rates, "Models fitted to the curves. " + origin_of(session));
-}
-
-std::vector<Table::Column> adaptation_columns() {
-    return {{"round", ""},
-            {"trial_num", "in the session"},
-            {"block", ""},
-            {"kind", ""},
-            {"unit", "of what follows"},
-            {"perturbation", "0 in a clamp"},
-            {"compensation", "of the hand"},
-            {"two_rate", "fitted"},
-            {"single_rate", "fitted"}};
-}
-
-std::vector<Table::Column> fit_columns() {
-    std::vector<Table::Column> out = landmark_columns();
-    out.insert(out.begin(), {"round", ""});
-    out.insert(out.end(), {{"A_fast", "retention a trial"},
-                           {"A_fast_95", "profile interval"},
-                           {"B_fast", "learning"},
-                           {"B_fast_95", ""},
-                           {"A_slow", ""},
-                           {"A_slow_95", ""},
-                           {"B_slow", ""},
-                           {"B_slow_95", ""},
-                           {"two_rate_sd", "of the residuals"},
-                           {"A", "single rate"},
-                           {"B", ""},
-                           {"single_rate_sd", "of the residuals"},
-                           {"note", "what is not measured"}});
-    return out;
 }
 
 /// Adds a curve trial by trial: a chart, and rows of the table.
@@ -161,15 +120,23 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         measured.x.push_back(x);
         measured.y.push_back(trial.compensation);
         perturbation.x.push_back(x);
-        perturbation.y.push_back(trial.clamp ? AdaptationCurve::kNone : trial.perturbation);
+        perturbation.y.push_back(trial.clamp ? kUnmeasured : trial.perturbation);
         const double bias = fits ? fits->bias : 0;
-        const double fitted = fits ? bias + fits->two_rate.predicted[i] : AdaptationCurve::kNone;
-        const double single = fits ? bias + fits->single_rate.predicted[i] : AdaptationCurve::kNone;
+        const double fitted = fits ? bias + fits->two_rate.predicted[i] : kUnmeasured;
+        const double single = fits ? bias + fits->single_rate.predicted[i] : kUnmeasured;
         two_rate.x.push_back(x);
         two_rate.y.push_back(fitted);
-        out.adaptation.rows.push_back({curve.round, static_cast<double>(trial.number), trial.block,
-                                       trial.kind, curve.unit, trial.perturbation,
-                                       trial.compensation, fitted, single});
+        FigureLister row;
+        row("round", curve.round, "", "name");
+        row("trial_num", trial.number, "1", "in the session");
+        row("block", trial.block, "", "name");
+        row("kind", trial.kind, "", "of the trial");
+        row("unit", curve.unit, "", "of what follows");
+        row("perturbation", trial.perturbation, "1", "0 in a clamp");
+        row("compensation", trial.compensation, "1", "of the hand");
+        row("two_rate", fitted, "1", "fitted");
+        row("single_rate", single, "1", "fitted");
+        add_row(out.adaptation, row);
     }
     Chart chart;
     chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
@@ -182,26 +149,6 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
     out.page.chart(chart);
 }
 
-std::vector<Table::Cell> fit_row(const AdaptationCurve& curve,
-                                 const std::optional<AdaptationFits>& fits, size_t columns) {
-    std::vector<Table::Cell> row{curve.round};
-    const std::vector<Table::Cell> landmarks = curve.landmark_cells();
-    row.insert(row.end(), landmarks.begin(), landmarks.end());
-    if (!fits) {
-        row.resize(columns - 1, AdaptationCurve::kNone);
-        row.emplace_back(curve.note());
-        return row;
-    }
-    const TwoRateFit& two = fits->two_rate;
-    row.insert(row.end(),
-               {two.rates.fast.retention, in_words(two.retention_fast), two.rates.fast.learning,
-                in_words(two.learning_fast), two.rates.slow.retention, in_words(two.retention_slow),
-                two.rates.slow.learning, in_words(two.learning_slow), two.residual_sd,
-                fits->single_rate.rate.retention, fits->single_rate.rate.learning,
-                fits->single_rate.residual_sd, curve.note()});
-    return row;
-}
-
 void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
@@ -211,13 +158,16 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         "less the baseline's mean, by least squares, with 95 % profile "
         "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
         "parameters.");
-    out.adaptation.columns = adaptation_columns();
-    out.fits.columns = fit_columns();
     std::vector<std::optional<AdaptationFits>> all_fits;
     for (const AdaptationCurve& curve : session.curves) {
         const auto& fits = all_fits.emplace_back(fit_adaptation(curve));
         add_curve(out, session, curve, fits);
-        out.fits.rows.push_back(fit_row(curve, fits, out.fits.columns.size()));
+        FigureLister row;
+        row("round", curve.round, "", "name");
+        curve.list_landmarks(row);
+        list_fits(row, fits, true);
+        row("note", curve.note(), "", "what is not measured");
+        add_row(out.fits, row);
     }
     add_windows(out.page, session, all_fits);
     out.blocks = block_table(session.curves);
@@ -226,21 +176,14 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
 
 void add_generalisation(SessionPage& out, const SessionData& session) {
     out.page.heading("Generalisation");
-    out.generalisation.columns = {{"round", ""},
-                                  {"condition", ""},
-                                  {"angle_deg", "from the nearest trained direction"},
-                                  {"compensation_deg", "mean, less the baseline's"},
-                                  {"share", "of that in the trained directions"},
-                                  {"trials", "in which no error was seen"}};
+    out.generalisation = figure_table<Generalisation>(session.generalisation);
     std::map<std::string, Series> rounds;
     for (const Generalisation& g : session.generalisation) {
-        out.generalisation.rows.push_back({g.round, g.condition, g.angle, g.compensation, g.share,
-                                           static_cast<double>(g.trials)});
         Series& series = rounds[g.round];
         series.name = g.round.empty() ? "compensation" : g.round;
         series.drawn = Drawn::points;
-        series.x.push_back(g.angle);
-        series.y.push_back(g.compensation);
+        series.x.push_back(g.angle_deg);
+        series.y.push_back(g.compensation_deg);
     }
     Chart chart{"Generalisation",
                 "angle from the trained direction [deg]",
@@ -285,24 +228,40 @@ Chart psychometric_chart(const ThresholdTrack& track, const std::optional<Psycho
     return chart;
 }
 
+FigureLister threshold_row(const SessionData& session, const ThresholdTrack& track,
+                           const ThresholdFit& threshold) {
+    const model::Psychometric f = threshold.function();
+    std::optional<std::string> threshold_95, shape_95;
+    double deviance_share = kUnmeasured;
+    if (threshold.fit) {
+        const PsychometricIntervals intervals =
+            threshold_intervals(track, *threshold.fit, session.folder.seed_of(session.info));
+        threshold_95 = in_words(intervals.threshold);
+        shape_95 = in_words(intervals.shape);
+        deviance_share = intervals.deviance_share;
+    }
+    FigureLister row;
+    row("procedure", track.procedure, "", "name");
+    row("kind", track.kind, "", "staircase, quest or quest_plus");
+    row("perturbation", track.perturbation, "", "name");
+    row("trials", track.answers.size(), "1", "answers");
+    row("threshold", f.threshold, "1", "level");
+    row("threshold_95", threshold_95, "", "its bootstrap interval");
+    row("threshold_share", track.share(f.threshold), "1", "of the perturbation");
+    row("shape", f.shape, "1", "of the sigmoid");
+    row("shape_95", shape_95, "", "its bootstrap interval");
+    row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
+    row("deviance_share", deviance_share, "1", "below 0.05: the function does not fit");
+    row("note", threshold.note, "", "why there is no fit, or what is to be known of it");
+    return row;
+}
+
 void add_thresholds(SessionPage& out, const SessionData& session) {
     out.page.heading("Thresholds");
     out.page.text(
         "Each procedure chose the share of its perturbation by the answers before. The function is "
         "fitted to all of its answers by maximum likelihood, with lapses up to 5 %; intervals are "
         "those of 500 bootstrap samples.");
-    out.thresholds.columns = {{"procedure", ""},
-                              {"kind", ""},
-                              {"perturbation", ""},
-                              {"trials", "answers"},
-                              {"threshold", "level"},
-                              {"threshold_95", "bootstrap"},
-                              {"threshold_share", "of the perturbation"},
-                              {"shape", "of the sigmoid"},
-                              {"shape_95", ""},
-                              {"lapse", ""},
-                              {"deviance_share", "below 0.05: the function does not fit"},
-                              {"note", "why there is no fit, or what is to be known of it"}};
     for (const ThresholdTrack& track : session.tracks) {
         const ThresholdFit threshold = fit_threshold(track);
         const auto& fitted = threshold.fit;
@@ -316,20 +275,7 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
         out.page.chart(
             {"Levels of " + track.procedure, "answer", "level", origin_of(session), {yes, no}, {}});
         out.page.chart(psychometric_chart(track, fitted, origin_of(session)));
-        std::vector<Table::Cell>& row = out.thresholds.rows.emplace_back();
-        row = {track.procedure, track.kind, track.perturbation,
-               static_cast<double>(track.answers.size())};
-        if (!fitted) {
-            row.resize(out.thresholds.columns.size() - 1, AdaptationCurve::kNone);
-            row.emplace_back(threshold.note);
-            continue;
-        }
-        const model::Psychometric& f = fitted->function;
-        const PsychometricIntervals intervals =
-            threshold_intervals(track, *fitted, session.folder.seed_of(session.info));
-        row.insert(row.end(),
-                   {f.threshold, in_words(intervals.threshold), track.share(f.threshold), f.shape,
-                    in_words(intervals.shape), f.lapse, intervals.deviance_share, threshold.note});
+        add_row(out.thresholds, threshold_row(session, track, threshold));
     }
     out.page.table(transposed(out.thresholds), origin_of(session));
 }
@@ -338,21 +284,13 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
 Table lift_summary(const SessionData& session) {
     Table table;
     table.columns = {{"trials", "block, kind, condition"}, {"lifts", ""}, {"complete", ""}};
-    const std::vector<std::pair<const char*, const char*>> figures = {
-        {"preload_s", "touch to load onset"},
-        {"loading_s", "load onset to lift-off"},
-        {"peak_grip_rate_N_s", "before lift-off"},
-        {"peak_load_rate_N_s", "before lift-off"},
-        {"peak_grip_N", ""},
-        {"static_grip_N", "in the hold"},
-        {"static_load_N", "in the hold"},
-        {"static_ratio", "grip over load"},
-        {"safety_margin", "share of the grip beyond what friction needs"},
-        {"coupling", "r of the rates of grip and load while loading"},
-        {"coupling_lag_s", "positive: grip follows"},
-        {"overshoot_mm", "of height"},
-        {"slips", "mean number"}};
-    for (const auto& [name, what] : figures) table.columns.push_back({name, what});
+    std::vector<std::string> figures(std::begin(kLiftFigures), std::end(kLiftFigures));
+    figures.emplace_back("slips");
+    const std::vector<Table::Column> known = list_figures(Lift{}).columns;
+    for (const std::string& name : figures) {
+        table.columns.push_back(*std::find_if(
+            known.begin(), known.end(), [&](const auto& column) { return column.name == name; }));
+    }
     std::vector<std::string> groups;
     std::map<std::string, std::vector<size_t>> rows;
     for (const LiftRow& lift : lift_rows(session)) {
@@ -365,11 +303,11 @@ Table lift_summary(const SessionData& session) {
         for (const size_t i : rows[group]) complete += session.lifts->text(i, "lift") == "complete";
         row = {group.empty() ? "all" : group, static_cast<double>(rows[group].size()),
                static_cast<double>(complete)};
-        for (const auto& [name, what] : figures) {
+        for (const std::string& name : figures) {
             std::vector<double> values;
             for (const size_t i : rows[group]) values.push_back(session.lifts->number(i, name));
             const Sample figure = sample(values);
-            row.emplace_back(name == std::string("slips") ? figure.mean : figure.median);
+            row.emplace_back(name == "slips" ? figure.mean : figure.median);
         }
     }
     return table;

@@ -66,28 +66,25 @@ TEST(Companion, HasNeitherMoreMemoryNorOurFiles) {
     EXPECT_EQ(open->find("/fd/4"), std::string::npos) << *open;
 }
 
-TEST(Companion, EndsWhenItIsCancelledAndOnlyThen) {
-    std::atomic<bool> done{false};
-    std::thread user([&] {
-        while (!done) {
-            cancel_companions("/bin/sh");
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
+TEST(Companion, EndsWhenItIsStoppedAndOnlyThen) {
+    const std::string cancelled =
+        "scene.yaml:7: error: file: reading the thing was cancelled. Open the file again.";
+    std::stop_source user;
+    CompanionTask asleep = task("sleep 100");
+    asleep.stop = user.get_token();
+    std::thread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        user.request_stop();
     });
-    const std::string said = failure(task("sleep 100"));
-    done = true;
-    user.join();
-    EXPECT_EQ(said,
-              "scene.yaml:7: error: file: reading the thing was cancelled. Open the file again.");
-    cancel_companions("/bin/sh");  // no companion is running
-    std::thread stranger([] {
-        for (int i = 0; i < 20; ++i) {
-            cancel_companions("another");
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-    });
-    EXPECT_EQ(run_companion(task("sleep 0.1; echo whole"), ""), "whole\n");
-    stranger.join();
+    EXPECT_EQ(failure(asleep), cancelled);
+    later.join();
+    EXPECT_EQ(failure(asleep), cancelled);  // stopped before it began
+
+    std::stop_source another;
+    CompanionTask whole = task("sleep 0.1; echo whole");
+    whole.stop = another.get_token();
+    EXPECT_EQ(run_companion(whole, ""), "whole\n");
+    another.request_stop();  // it has ended
 }
 
 TEST(Companion, SeveralRunAtOnce) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "base/unit.h"
 #include "problems.h"
 #include "testing/allocation_guard.h"
 
@@ -14,8 +15,6 @@ using testing::answer;
 using testing::Answer;
 using testing::block_on_plane;
 using testing::random_problem;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class EachSolver : public ::testing::TestWithParam<Solver> {};
 INSTANTIATE_TEST_SUITE_P(Contact, EachSolver,

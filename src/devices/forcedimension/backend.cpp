@@ -16,14 +16,37 @@ const char* const kNobody =
     "Look at its power and its USB cable; an ordinary user needs a udev rule for USB vendor 1451 "
     "(Falcon: 0403), see src/devices/forcedimension.";
 
-Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
-    Options options;
-    read_given_fields(options, config.options, diagnostics);
+std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
+                                  Diagnostics& diagnostics) {
+    std::vector<Options> options(configs.size());
+    std::vector<std::string> serials;
+    std::vector<std::string> libraries;
+    for (size_t i = 0; i < configs.size(); ++i) {
+        read_given_fields(options[i], configs[i].options, diagnostics);
+        serials.push_back(options[i].serial_text());
+        libraries.push_back(options[i].library);
+    }
+    check_distinct(configs, "serial", serials, configs.size() > 1, diagnostics);
+    check_one_library(configs, libraries, diagnostics);
     return options;
 }
 
-void check(const DeviceConfig& config, Diagnostics& diagnostics) {
-    read_options(config, diagnostics);
+DeviceInfo info_of(const Options& options) {
+    DeviceInfo info;
+    info.serial = options.serial_text();
+    info.model = "Force Dimension device";
+    if (!info.serial.empty()) info.model += " " + info.serial;
+    if (options.continuous_force) info.continuous_force = *options.continuous_force;
+    info.workspace = options.workspace;
+    return info;
+}
+
+std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
+                                 Diagnostics& diagnostics) {
+    std::vector<DeviceInfo> out;
+    for (const Options& options : read_options(configs, diagnostics))
+        out.push_back(info_of(options));
+    return out;
 }
 
 /// Opens every device that can be opened. Throws the last Error if none can.
@@ -94,7 +117,7 @@ void add_wrist(const Dhd& dhd, const Connection& connection, const Options& opti
 
 DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
                    const Place& place) {
-    DeviceInfo info;
+    DeviceInfo info = info_of(options);
     info.serial = std::to_string(connection.serial());
     info.model = fmt::format("{}, serial {}", connection.model(), connection.serial());
     const double most = dhd.max_force(connection.id());
@@ -105,27 +128,13 @@ DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& 
                     fmt::format("{} does not state its largest force", info.model),
                     "Give options: peak_force_N, from its data sheet.");
     }
-    if (options.continuous_force) info.continuous_force = *options.continuous_force;
-    info.workspace = options.workspace;
     add_wrist(dhd, connection, options, place, info);
     return info;
 }
 
 std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, const Context&) {
     Diagnostics diagnostics;
-    std::vector<Options> options;
-    options.reserve(configs.size());
-    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    std::vector<std::string> serials;
-    std::vector<std::string> libraries;
-    serials.reserve(options.size());
-    libraries.reserve(options.size());
-    for (const Options& one : options) {
-        serials.push_back(one.serial == Options::kAny ? "" : std::to_string(one.serial));
-        libraries.push_back(one.library);
-    }
-    check_distinct(configs, "serial", serials, configs.size() > 1, diagnostics);
-    check_one_library(configs, libraries, diagnostics);
+    const std::vector<Options> options = read_options(configs, diagnostics);
     diagnostics.throw_if_errors();
 
     const Dhd dhd = load_dhd(options.front().library, configs.front().place);
@@ -171,7 +180,11 @@ Survey survey() {
 }  // namespace
 
 Backend backend() {
-    return {"forcedimension", check, make, true, survey};
+    return {.name = "forcedimension",
+            .describe = describe,
+            .make = make,
+            .real = true,
+            .survey = survey};
 }
 
 }  // namespace dihaptic::devices::forcedimension

@@ -160,7 +160,7 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
         keep_last_error(running);
         return kDeviceFault;
     }
-    if (status[kDhdReset] != 0) return kNeedsCalibration;
+    if (status[kDhdReset] != 0) return kUncalibrated;
     uint32_t out = running.saturated ? uint32_t{kForceClamped} : 0;
     if (const auto& box = devices_[i].info.workspace;
         box && (reading.p_DH.array().abs() > box->array() / 2).any())

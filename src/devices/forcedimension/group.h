@@ -38,6 +38,8 @@ struct Options {
     }
 
     static constexpr int kAny = -1;
+    /// "" for any.
+    std::string serial_text() const { return serial == kAny ? "" : std::to_string(serial); }
 };
 
 /// An open device; the destructor closes it.
@@ -94,7 +96,7 @@ class Group final : public DeviceGroup {
     void set_watchdog(const Device& device) const;
     bool read_motion(const Device& device, Reading& reading) noexcept;
     uint32_t read(size_t i, Time now, Reading& reading) noexcept;
-    /// The DeviceStatus of a device whose force is off.
+    /// The Status of a device whose force is off.
     static uint32_t drop_status(Running& running, Time now) noexcept;
     int tell(const Device& device, const Wrench& wrench_D) noexcept;
     void keep_last_error(Running& running) noexcept;

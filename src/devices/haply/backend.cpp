@@ -2,14 +2,9 @@
 
 #include "devices/haply/group.h"
 #include "devices/haply/inventory.h"
-#include "devices/haply/options.h"
 
 namespace dihaptic::devices::haply {
 namespace {
-
-void check(const DeviceConfig& config, Diagnostics& diagnostics) {
-    read_options(config, diagnostics);
-}
 
 Survey survey() {
     return survey_of(Options{}.url);
@@ -18,7 +13,11 @@ Survey survey() {
 }  // namespace
 
 Backend backend() {
-    return {.name = "haply", .check = check, .make = make_group, .real = true, .survey = survey};
+    return {.name = "haply",
+            .describe = describe_group,
+            .make = make_group,
+            .real = true,
+            .survey = survey};
 }
 
 }  // namespace dihaptic::devices::haply

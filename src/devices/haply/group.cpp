@@ -38,6 +38,29 @@ std::vector<DeviceInfo> infos(const std::vector<Wanted>& devices) {
     return out;
 }
 
+/// Reads the options of all devices, and checks that they fit together.
+std::vector<Wanted> read_wanted(const std::vector<DeviceConfig>& configs,
+                                Diagnostics& diagnostics) {
+    std::vector<Wanted> devices;
+    std::set<std::string> ids;
+    for (const DeviceConfig& config : configs) {
+        const Options options = read_options(config, diagnostics);
+        devices.push_back({options, config.place, grip_of(options)});
+        const Options& first = devices.front().options;
+        if (!options.device_id.empty() && !ids.insert(options.device_id).second) {
+            diagnostics.error(config.place, "device_id",
+                              fmt::format("'{}' is another finger's device too", options.device_id),
+                              "Give each finger a device of its own.");
+        }
+        if (options.url != first.url || options.time_out != first.time_out) {
+            diagnostics.error(config.place, "url", "url or time_out differ from another device's",
+                              "One message of one service carries all fingers: give all devices "
+                              "the same.");
+        }
+    }
+    return devices;
+}
+
 std::vector<CommandWriter::Device> addressees(const std::vector<Wanted>& devices) {
     std::vector<CommandWriter::Device> out;
     out.reserve(devices.size());
@@ -209,26 +232,15 @@ class HaplyGroup final : public DeviceGroup {
 
 }  // namespace
 
+std::vector<DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs, const Context&,
+                                       Diagnostics& diagnostics) {
+    return infos(read_wanted(configs, diagnostics));
+}
+
 std::unique_ptr<DeviceGroup> make_group(const std::vector<DeviceConfig>& configs,
                                         const Context& context) {
     Diagnostics diagnostics;
-    std::vector<Wanted> devices;
-    std::set<std::string> ids;
-    for (const DeviceConfig& config : configs) {
-        const Options options = read_options(config, diagnostics);
-        devices.push_back({options, config.place, grip_of(options)});
-        const Options& first = devices.front().options;
-        if (!options.device_id.empty() && !ids.insert(options.device_id).second) {
-            diagnostics.error(config.place, "device_id",
-                              fmt::format("'{}' is another finger's device too", options.device_id),
-                              "Give each finger a device of its own.");
-        }
-        if (options.url != first.url || options.time_out != first.time_out) {
-            diagnostics.error(config.place, "url", "url or time_out differ from another device's",
-                              "One message of one service carries all fingers: give all devices "
-                              "the same.");
-        }
-    }
+    const std::vector<Wanted> devices = read_wanted(configs, diagnostics);
     diagnostics.throw_if_errors();
     return std::make_unique<HaplyGroup>(devices, from_seconds(context.tick));
 }

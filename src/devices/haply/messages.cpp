@@ -2,11 +2,11 @@
 
 #include <cassert>
 #include <charconv>
-#include <limits>
 
 #define SIMDJSON_EXCEPTIONS 0  // calls that could throw do not compile
 #include <simdjson.h>
 
+#include "base/unmeasured.h"
 #include "devices/haply/connection.h"
 
 namespace dihaptic::devices::haply {
@@ -15,7 +15,6 @@ namespace {
 namespace json = simdjson::ondemand;
 
 static_assert(Connection::kPadding >= simdjson::SIMDJSON_PADDING);
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls `use(key, value)` for each member; false when the text breaks off or is not an object.
 template <class Use>
@@ -43,8 +42,8 @@ bool for_elements(json::value value, const Use& use) {
 }
 
 double number(json::value value) {
-    double out = kNotANumber;
-    return value.get_double().get(out) ? kNotANumber : out;
+    double out = kUnmeasured;
+    return value.get_double().get(out) ? kUnmeasured : out;
 }
 
 std::string_view text(json::value value) {
@@ -59,7 +58,7 @@ std::optional<bool> flag(json::value value) {
 }
 
 bool read_vector(json::value value, std::optional<Vec3>& out) {
-    out = Vec3::Constant(kNotANumber);
+    out = Vec3::Constant(kUnmeasured);
     bool null = false;
     if (value.is_null().get(null)) return false;
     if (null) return true;

@@ -8,22 +8,11 @@
 namespace dihaptic::devices::openhaptics {
 namespace {
 
-Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
-    Options options;
-    read_given_fields(options, config.options, diagnostics);
-    return options;
-}
-
-void check(const DeviceConfig& config, Diagnostics& diagnostics) {
-    read_options(config, diagnostics);
-}
-
-std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
-                                  const Context& context) {
-    Diagnostics diagnostics;
-    std::vector<Options> options;
-    options.reserve(configs.size());
-    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
+std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
+                                  Diagnostics& diagnostics) {
+    std::vector<Options> options(configs.size());
+    for (size_t i = 0; i < configs.size(); ++i)
+        read_given_fields(options[i], configs[i].options, diagnostics);
     const auto all = [&](std::string Options::*option) {
         std::vector<std::string> out;
         out.reserve(options.size());
@@ -33,6 +22,23 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
     check_distinct(configs, "name", all(&Options::name), configs.size() > 1, diagnostics);
     check_distinct(configs, "serial", all(&Options::serial), false, diagnostics);
     check_one_library(configs, all(&Options::library), diagnostics);
+    return options;
+}
+
+std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
+                                 Diagnostics& diagnostics) {
+    std::vector<DeviceInfo> out;
+    for (const Options& options : read_options(configs, diagnostics)) {
+        out.push_back(options.info());
+        out.back().model = options.name.empty() ? "the driver's first device" : options.name;
+    }
+    return out;
+}
+
+std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
+                                  const Context& context) {
+    Diagnostics diagnostics;
+    const std::vector<Options> options = read_options(configs, diagnostics);
     diagnostics.throw_if_errors();
 
     const Hd hd = load_hd(options.front().library, configs.front().place);
@@ -71,7 +77,8 @@ Survey survey() {
 }  // namespace
 
 Backend backend() {
-    return {"openhaptics", check, make, true, survey};
+    return {
+        .name = "openhaptics", .describe = describe, .make = make, .real = true, .survey = survey};
 }
 
 }  // namespace dihaptic::devices::openhaptics

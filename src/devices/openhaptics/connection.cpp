@@ -15,8 +15,21 @@ bool sound(double limit) {
 
 }  // namespace
 
+DeviceInfo Options::info() const {
+    DeviceInfo out;
+    out.serial = serial;
+    if (joint_angles) out.arm = links;
+    out.max_stiffness = max_stiffness;
+    out.max_damping = max_damping;
+    return out;
+}
+
 Connection::Connection(const Hd& hd, const DeviceConfig& config, const Options& options)
-    : hd_(hd), options_(options), finger_(config.finger), place_(config.place) {
+    : hd_(hd),
+      options_(options),
+      finger_(config.finger),
+      place_(config.place),
+      info_(options.info()) {
     handle_ = hd.init_device(options.name.empty() ? nullptr : options.name.c_str());
     try {
         check("cannot be reached", "name");
@@ -95,7 +108,6 @@ void Connection::read_info() {
     if (options_.joint_angles) {
         // HD's own origin is the endpoint at joint angles of zero; the box is the part of the
         // workspace that is symmetric about it
-        info_.arm = options_.links;
         centre_ = Vec3::Zero();
         info_.workspace = 2 * least.cwiseAbs().cwiseMin(most.cwiseAbs()) * kPerMm;
         check_joints();
@@ -116,8 +128,6 @@ void Connection::read_info() {
                                 info_.workspace->z() / kPerMm),
                     "Look at its model in the driver's configuration.");
     }
-    info_.max_stiffness = options_.max_stiffness;
-    info_.max_damping = options_.max_damping;
     const double stiffness = number(kHdMaxStiffness) / kPerMm;
     const double damping = number(kHdMaxDamping) / kPerMm;
     forget_errors();  // not every device states these two

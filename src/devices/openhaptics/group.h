@@ -39,11 +39,13 @@ struct Options {
         v("peak_torque", peak_torque, Field::of(Quantity::torque).within(1e-4, 100));
         v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
         v("joint_angles", joint_angles);
-        v("thigh", links.thigh, Field::length().within(0.05, 1));
-        v("shin", links.shin, Field::length().within(0.05, 1));
+        links.visit(v);
         v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
         v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
     }
+
+    /// What they say of the device.
+    DeviceInfo info() const;
 };
 
 /// An initialised device; the destructor disables it.
@@ -101,7 +103,7 @@ class Group final : public DeviceGroup {
     struct Device {
         Connection connection;
         bool framed = false;   // its frame has begun
-        uint32_t trouble = 0;  // DeviceStatus that lasts until the next activation
+        uint32_t trouble = 0;  // Status that lasts until the next activation
         bool dropped = false;  // it cut its force in this tick
         ForceDrops drops;
         unsigned said = kHdSuccess;  // the last error that concerned it

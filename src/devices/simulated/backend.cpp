@@ -25,6 +25,29 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
+/// Reads the options of all devices, and checks that the hand is one that they can follow.
+std::vector<Options> read_options(const std::vector<DeviceConfig>& configs, const Context& context,
+                                  Diagnostics& diagnostics) {
+    std::vector<Options> options;
+    options.reserve(configs.size());
+    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
+    if (context.driver == nullptr) return options;  // a rig file, which knows no hand
+    for (const Options& option : options) {
+        if (Plant::holds(option, context.impedance)) continue;
+        diagnostics.error(
+            context.impedance.place, "impedance",
+            fmt::format(
+                "the hand is stiffer or more damped than a simulated device of {:g} g{} can "
+                "follow",
+                (option.mass + context.impedance.mass) * 1e3,
+                option.orientation ? fmt::format(" and {:g} g cm^2", option.inertia * 1e7) : ""),
+            "A finger has about 300 N/m and 3 N*s/m, and turns a handle with 1 N*m/rad and 0.02 "
+            "N*m*s/rad: check the units.");
+        break;
+    }
+    return options;
+}
+
 /// A hand that sees its fingers in the world, scaled by s, and aims accordingly: from D's origin it
 /// moves 1/s of the way to a place.
 class AimingDriver final : public hand::Driver {
@@ -173,8 +196,9 @@ class SimulatedGroup final : public DeviceGroup {
     bool begins_ = false;  // the plants begin at the next reading, whatever its time
 };
 
-void check(const DeviceConfig& config, Diagnostics& diagnostics) {
-    read_options(config, diagnostics);
+std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context& context,
+                                 Diagnostics& diagnostics) {
+    return infos(read_options(configs, context, diagnostics), context);
 }
 
 std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
@@ -184,22 +208,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
                     "Give the scene or the experiment a hand.");
     }
     Diagnostics diagnostics;
-    std::vector<Options> options;
-    options.reserve(configs.size());
-    for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    for (const Options& option : options) {
-        if (Plant::holds(option, context.impedance)) continue;
-        diagnostics.error(
-            context.impedance.place, "impedance",
-            fmt::format(
-                "the hand is stiffer or more damped than a simulated device of {:g} g{} can "
-                "follow",
-                (option.mass + context.impedance.mass) * 1e3,
-                option.orientation ? fmt::format(" and {:g} g cm^2", option.inertia * 1e7) : ""),
-            "A finger has about 300 N/m and 3 N*s/m, and turns a handle with 1 N*m/rad and 0.02 "
-            "N*m*s/rad: check the units.");
-        break;
-    }
+    const std::vector<Options> options = read_options(configs, context, diagnostics);
     diagnostics.throw_if_errors();
     return std::make_unique<SimulatedGroup>(configs, options, context);
 }
@@ -207,7 +216,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
 }  // namespace
 
 Backend backend() {
-    return {"simulated", check, make};
+    return {.name = "simulated", .describe = describe, .make = make};
 }
 
 }  // namespace dihaptic::devices::simulated

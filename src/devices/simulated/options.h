@@ -78,8 +78,7 @@ struct Options {
         v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
         v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
         v("arm", arm);
-        v("thigh", links.thigh, Field::length().within(0.05, 1));
-        v("shin", links.shin, Field::length().within(0.05, 1));
+        links.visit(v);
         v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.2, 0.2));
         v("misplaced_by", misplaced_by, Field::length().within(-0.1, 0.1));
         v("misplaced_turn", misplaced_turn, Field::of(Quantity::angle).within(-0.5, 0.5));

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
+#include "base/statistics.h"
 #include "devices/haply/test/numbered_run.h"
 
 namespace dihaptic::devices::haply {
@@ -19,12 +18,6 @@ class StillDriver final : public hand::Driver {
     hand::FingerTarget do_target(int, double) const noexcept override { return {}; }
     std::vector<Phase> phases_;
 };
-
-double quantile(std::vector<double> values, double share) {
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<size_t>(at)];
-}
 
 /// The service's rate [Hz]; 0: it answers at once.
 class HaplySoak : public ::testing::TestWithParam<double> {};

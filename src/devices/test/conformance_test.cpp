@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "devices/device_group.h"
-#include "devices/haply/test/fake_service.h"
 #include "fakes.h"
 #include "testing/allocation_guard.h"
 
@@ -25,30 +24,29 @@ class StillDriver final : public hand::Driver {
 
 class Conformance : public ::testing::TestWithParam<std::string> {
   protected:
-    std::unique_ptr<DeviceGroup> make() {
-        Context context;
+    Conformance() {
         context.driver = &driver_;
-        context.recording = [](Time now, std::span<Reading> readings) {
+        context.recording.devices.resize(2);
+        for (DeviceInfo& info : context.recording.devices) info.model = "recorded";
+        context.recording.read = [](Time now, std::span<Reading> readings) {
             for (size_t i = 0; i < readings.size(); ++i)
                 readings[i].p_DH = Vec3(static_cast<double>(i), seconds(now), 0);
             return now < std::chrono::seconds(1);
         };
         const Pose X_WD{rotation_xyz({0.3, 0.1, -0.5}), {0.1, 0.2, 0.3}};
-        std::vector<DeviceConfig> configs{{"thumb", {}, {}}, {"index", X_WD, {}}};
-        const Backend& backend = *find_backend(GetParam());
-        if (GetParam() == "haply") {
-            haply::FakeService::Setup setup;
-            setup.devices = configs;
-            haply_service_ = std::make_unique<haply::FakeService>(setup, context);
-            configs = haply::rig_of(*haply_service_, configs, "time_out_ms: 1000, ");
-        } else if (backend.real) {
-            // a fake of the maker's library, with simulated devices behind it
-            return make_behind(GetParam(), {{}, {}}, configs, context);
-        }
-        return backend.make(configs, context);
+        made_.configs = {{"thumb", {}, {}}, {"index", X_WD, {}}};
+        if (const StandIn* fake = find_stand_in(GetParam()))
+            made_ = fake->make(made_.configs, context);
     }
+    const Backend& backend() const { return *find_backend(GetParam()); }
+    const std::vector<DeviceConfig>& configs() const { return made_.configs; }
+    std::unique_ptr<DeviceGroup> make() const { return backend().make(configs(), context); }
+
+    Context context;
+
+  private:
     StillDriver driver_;
-    std::unique_ptr<haply::FakeService> haply_service_;
+    StandIn::Made made_;
 };
 
 TEST_P(Conformance, LivesThroughItsLifeCycleTwice) {
@@ -161,9 +159,30 @@ TEST_P(Conformance, PacesUntilItIsToldToEndAndThenAgain) {
 
 TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {
     Diagnostics diagnostics;
-    find_backend(GetParam())
-        ->check({"thumb", {}, parse_yaml("no_such_option: 1\n", "rig.yaml")}, diagnostics);
+    backend().describe({{"thumb", {}, parse_yaml("no_such_option: 1\n", "rig.yaml")}}, {},
+                       diagnostics);
     EXPECT_TRUE(diagnostics.has_errors());
+}
+
+TEST_P(Conformance, ItsOptionsSayNothingElseThanItsDevicesDo) {
+    Diagnostics diagnostics;
+    const std::vector<DeviceInfo> described = backend().describe(configs(), context, diagnostics);
+    const auto group = make();
+    ASSERT_EQ(described.size(), 2u);
+    for (size_t i = 0; i < described.size(); ++i) {
+        const DeviceInfo& said = described[i];
+        const DeviceInfo& is = group->descriptions()[i];
+        EXPECT_FALSE(said.model.empty());
+        EXPECT_EQ(said.simulated, is.simulated);
+        if (!said.serial.empty()) {
+            EXPECT_EQ(said.serial, is.serial);
+        }
+        // all that there is to say, or what only an open device knows is left
+        if (std::isfinite(said.peak_force)) {
+            EXPECT_EQ(said, is);
+        }
+        EXPECT_TRUE(std::isfinite(is.peak_force) || !backend().real);
+    }
 }
 
 std::vector<std::string> names() {
@@ -175,9 +194,8 @@ INSTANTIATE_TEST_SUITE_P(DeviceTable, Conformance, ::testing::ValuesIn(names()))
 
 TEST(DeviceTable, SaysWhichDevicesAreReal) {
     for (const Backend& backend : backends()) {
-        const std::string name = backend.name;
-        EXPECT_EQ(backend.real, name != "simulated" && name != "replay") << name;
-        EXPECT_EQ(backend.survey != nullptr, backend.real) << name;
+        EXPECT_EQ(backend.real, find_stand_in(backend.name) != nullptr) << backend.name;
+        EXPECT_EQ(backend.survey != nullptr, backend.real) << backend.name;
     }
 }
 
@@ -189,7 +207,7 @@ TEST(DeviceTable, HasSimulatedAndReplay) {
 
 TEST(Replay, SaysWhenTheRecordingEnds) {
     Context context;
-    context.recording = [](Time, std::span<Reading>) { return false; };
+    context.recording = {std::vector<DeviceInfo>(1), [](auto, auto) { return false; }};
     const auto group = find_backend("replay")->make({{"thumb", {}, {}}}, context);
     std::vector<Reading> readings(1);
     group->activate();

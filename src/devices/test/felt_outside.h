@@ -28,6 +28,7 @@ struct Felt {
     double told_at = 0;   ///< when the device was last told a force, on CLOCK_MONOTONIC [s]
     double watchdog = 0;  ///< time after that when its firmware ends force; 0: never [s]
     double gone_at = 0;   ///< when its force last became zero, on CLOCK_MONOTONIC [s]
+    double opened = 0;    ///< number of times that the device was opened
 };
 
 class FeltOutside {
@@ -56,6 +57,9 @@ class FeltOutside {
         if (size == 0 && felt.force != 0) felt.gone_at = now;
         felt.force = size;
         if (told) felt.told_at = now;
+    }
+    void note_opened(size_t device) noexcept {
+        if (felt_ != nullptr && device < kDevices) ++felt_[device].opened;
     }
     void set_watchdog(size_t device, double seconds) noexcept {
         if (felt_ != nullptr && device < kDevices) felt_[device].watchdog = seconds;

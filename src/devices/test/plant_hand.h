@@ -6,12 +6,13 @@
 #include "devices/device_group.h"
 #include "devices/simulated/plant.h"
 #include "devices/test/fake_hand.h"
+#include "devices/test/stand_in.h"
 
 namespace dihaptic::devices {
 
-/// `context.driver` has to outlive the result.
-inline Hand plant_hand(const std::vector<simulated::Options>& options,
-                       const std::vector<Pose>& X_WD, const Context& context) {
+/// `configs`: of simulated devices. `context.driver` has to outlive the result.
+inline Hand plant_hand(const std::vector<DeviceConfig>& configs, const Context& context) {
+    const std::vector<simulated::Options> options = options_of(configs);
     struct Device {
         simulated::Plant plant;
         simulated::Encoder encoder;
@@ -23,7 +24,7 @@ inline Hand plant_hand(const std::vector<simulated::Options>& options,
         devices->push_back({simulated::Plant(options[i], context.impedance, context.tremor,
                                              context.seed, static_cast<int>(i), *context.driver),
                             simulated::Encoder(options[i]), simulated::Gimbal(options[i]),
-                            X_WD[i]});
+                            configs[i].X_WD});
         devices->back().plant.begin(Time(0));
     }
     return [devices](size_t i, double t, const Wrench& push) {

@@ -2,15 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
+#include "base/unit.h"
 #include "dynamics/test/blocks.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::dynamics::world_test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void run(World& world, double time) {
     for (double t = kStep / 2; t < time; t += kStep) world.step(kStep);

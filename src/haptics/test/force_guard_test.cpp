@@ -13,6 +13,13 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+devices::DeviceInfo device(double continuous_force) {
+    devices::DeviceInfo info;
+    info.peak_force = 8.5;
+    info.continuous_force = continuous_force;
+    return info;
+}
+
 TEST(Heating, FallsFromThePeakToTheContinuousForceAsTheClosedFormSays) {
     // with all that is allowed asked for, f^2 - f_c^2 decays with tau f_c^2 / f_p^2
     const double peak = 8.5, continuous = 1.4, tau = 10;
@@ -106,7 +113,7 @@ TEST(SoftStart, CanBeNone) {
 TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
     SafetySettings settings;
     settings.max_force_rate = 100;  // 0.1 N a tick
-    ForceGuard guard(settings, {8.5, kInfinite, {}}, kTick);
+    ForceGuard guard(settings, device(kInfinite), {}, kTick);
     unsigned flags = 0;
     for (int i = 0; i < 50; ++i) guard.limit({Vec3(2, 0, 0)}, true, 1, flags);
     EXPECT_EQ(guard.limit({Vec3(2, 0, 0)}, true, 1, flags).force.x(), 2);
@@ -119,7 +126,7 @@ TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
 }
 
 TEST(ForceGuard, SeesWhatIsNoNumberWithoutTheSwitchToo) {
-    ForceGuard guard({}, {8.5, kInfinite, {}}, kTick);
+    ForceGuard guard({}, device(kInfinite), {}, kTick);
     unsigned flags = 0;
     guard.limit({Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0)}, false, 0, flags);
     EXPECT_NE(flags & kNotFinite, 0u);
@@ -127,7 +134,7 @@ TEST(ForceGuard, SeesWhatIsNoNumberWithoutTheSwitchToo) {
 
 TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
     const Pose X_WD{rotation_xyz({0, 0, std::numbers::pi / 2}), {1, 0, 0}};
-    ForceGuard guard({}, {8.5, kInfinite, {{X_WD, Vec3(0.2, 0.1, 0.1)}}}, kTick);
+    ForceGuard guard({}, device(kInfinite), {{X_WD, Vec3(0.2, 0.1, 0.1)}}, kTick);
     unsigned flags = 0;
     // the handle is 2 mm beyond the box along D's x, which is the world's y
     const Vec3 p_WH(1, 0.102, 0);
@@ -138,7 +145,7 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
 TEST(ForceGuard, CutsToWhatTheMotorsBear) {
     SafetySettings settings;
     settings.heating_time = 1;
-    ForceGuard guard(settings, {8.5, 1.4, {}}, kTick);
+    ForceGuard guard(settings, device(1.4), {}, kTick);
     unsigned flags = 0;
     Wrench limited;
     for (int i = 0; i < 3000; ++i) limited = guard.limit({Vec3(0, 3, 0)}, true, 1, flags);

@@ -67,9 +67,7 @@ TEST(LateLoop, ThatIsInTimeHoldsAnythingAndSoftensNothing) {
     settings.damping = 1e3;
     settings.turn_damping = 1e3;
     const CouplingSettings same = softened(settings, 1, 0, 1e-3);
-    EXPECT_EQ(same.tuning(), settings.tuning());
-    EXPECT_EQ(same.turn_stiffness, settings.turn_stiffness);
-    EXPECT_EQ(same.turn_damping, settings.turn_damping);
+    EXPECT_EQ(same, settings);
 }
 
 TEST(LateLoop, SoftensOnceAsTwice) {
@@ -85,9 +83,7 @@ TEST(LateLoop, SoftensOnceAsTwice) {
     EXPECT_DOUBLE_EQ(*once.turn_damping, 1e-4 / 20e-3);
     EXPECT_DOUBLE_EQ(once.smoothing, 20.0 / 21);
     const CouplingSettings twice = softened(once, 3, 20e-3, 1e-3);
-    EXPECT_EQ(twice.tuning(), once.tuning());
-    EXPECT_EQ(twice.turn_stiffness, once.turn_stiffness);
-    EXPECT_EQ(twice.turn_damping, once.turn_damping);
+    EXPECT_EQ(twice, once);
     settings = {};
     settings.stiffness = 50;
     EXPECT_EQ(softened(settings, 3, 20e-3, 1e-3).stiffness, 50);

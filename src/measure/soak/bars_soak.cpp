@@ -32,14 +32,5 @@ TEST_P(HoldBars, WhatFrictionHoldsIsHeldAndTheRestFalls) {
     }
 }
 
-class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
-INSTANTIATE_TEST_SUITE_P(Soak, FrictionBars,
-                         ::testing::Values(dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections),
-                         solver_name);
-TEST_P(FrictionBars, AreReached) {
-    expect_bars_of_friction(GetParam());
-}
-
 }  // namespace
 }  // namespace dihaptic::measure

@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
-#include "measure/friction.h"
 #include "measure/grasp.h"
 #include "model/grasp.h"
 
@@ -122,25 +120,6 @@ inline void expect_hold_as_friction_says(dynamics::Solver solver, double frictio
 inline std::pair<double, double> held_and_dropped(double friction) {
     const double most = 2 * friction * press_force({}) / 9.81;
     return {most / 1.1 * (1 - 1e-9), most / 0.9 * (1 + 1e-9)};
-}
-
-inline void expect_bars_of_friction(dynamics::Solver solver) {
-    dynamics::Settings settings;
-    settings.solver = solver;
-    const FrictionFigures figures = bench_friction(settings, {});
-    EXPECT_LT(figures.drift_mm, 0.001);
-    EXPECT_LT(std::abs(figures.accel_error), 0.001);
-    EXPECT_LT(figures.direction_error_deg, 0.1);
-    ASSERT_TRUE(figures.cards_drift_mm);
-    EXPECT_TRUE(figures.arch_drift_mm);
-    EXPECT_LT(figures.creep_mm, 0.001);
-    if (solver == dynamics::Solver::sequential_impulse) {
-        // guards against getting worse: README has 0.14
-        EXPECT_LT(figures.stack_drift_mm, 0.2);
-    } else {
-        EXPECT_LE(figures.stack_drift_mm, 0.01);
-        EXPECT_LE(*figures.cards_drift_mm, 0.02);
-    }
 }
 
 }  // namespace dihaptic::measure

@@ -23,15 +23,6 @@ TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
     }
 }
 
-class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
-INSTANTIATE_TEST_SUITE_P(Bench, FrictionBars,
-                         ::testing::Values(dynamics::Solver::newton,
-                                           dynamics::Solver::sequential_impulse),
-                         solver_name);
-TEST_P(FrictionBars, AreReached) {
-    expect_bars_of_friction(GetParam());
-}
-
 TEST(BenchGrasp, ShowsTheFaultsOfTheDualSpring) {
     BenchSetup setup;
     setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "base/random.h"
+#include "base/unit.h"
 
 namespace dihaptic::model::phantom_arm_test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const PhantomLinks kLinks{0.215, 0.17};
 
 /// Random joint angles within the limits.

@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "analysis/session_report.h"
 #include "base/table.h"
 #include "person/test/sitting.h"
 
@@ -19,14 +18,13 @@ TEST(Lifts, OfPeopleWhoSlipAndGiveUpAreFoundAndTheRestMarked) {
     int rows = 0;
     std::map<std::string, int> marked;  // number of other attempts, by how they are marked
     for (int i = 1; i <= 6; ++i) {
-        experiment::Plan plan = sitting.plan(static_cast<uint64_t>(i));
+        session::Plan plan = sitting.plan(static_cast<uint64_t>(i));
         Traits traits = draw_person(Objects::real, 5, fmt::format("P{:03d}", i));
         traits.slip_rate = traits.give_up_rate = 0.15;
         sit_down(plan, traits);
-        experiment::RunOptions options;
+        session::RunOptions options;
         options.out = sitting.folder.file("sessions");
-        const experiment::RunResult result = experiment::run_session(plan, options, kGoOn, {});
-        analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+        const session::Recorded result = session::record(plan, options, kGoOn);
         const CsvFile trials(result.folder + "/trials.csv");
         const CsvFile lifts(result.folder + "/lifts.csv");
         ASSERT_EQ(lifts.rows(), trials.rows());

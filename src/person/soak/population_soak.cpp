@@ -7,6 +7,7 @@
 #include <array>
 
 #include "analysis/adaptation.h"
+#include "base/statistics.h"
 #include "person/test/reaches.h"
 
 namespace dihaptic::person {
@@ -60,7 +61,7 @@ People population(int people, bool adapts) {
     Sitting sitting("rotation-reversal");
     People out;
     for (int i = 1; i <= people; ++i) {
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         Traits traits = draw_person(Objects::device, 1, fmt::format("sim-{:03d}", i));
         if (!adapts) traits.fast_learning = traits.slow_learning = 0;
         sit_down(plan, traits);
@@ -73,11 +74,6 @@ People population(int people, bool adapts) {
         if (adapts) out.fits.push_back(analysis::fit_two_rate(curve.hand, schedule(plan)));
     }
     return out;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
@@ -113,7 +109,7 @@ TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
     quartiles(
         "fit: residual SD [deg]", [](const auto& f) { return f.residual_sd; }, "6.6");
     fmt::print("SD of baseline trials, median {:.2f} degrees; people 4.4\n",
-               median(people.baseline_sd));
+               quantile(people.baseline_sd, 0.5));
 }
 
 TEST(Population, WithoutAdaptationDoesNot) {

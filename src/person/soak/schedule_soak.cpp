@@ -33,7 +33,7 @@ std::vector<std::vector<double>> curves(const std::string& blocks) {
     sitting.end_with("  blocks:", "  blocks:\n" + blocks);
     std::vector<std::vector<double>> out;
     for (int i = 1; i <= kPeople; ++i) {
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, draw_person(Objects::device, 1, fmt::format("sim-{:03d}", i)));
         out.push_back(reaches(plan).hand);
     }

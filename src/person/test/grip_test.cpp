@@ -139,7 +139,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// The last attempt at each trial of experiments/grip-and-lift.yaml.
-std::vector<Lift> lifts(const experiment::Plan& plan) {
+std::vector<Lift> lifts(const session::Plan& plan) {
     std::vector<Lift> out(plan.task->trials.size());
     int trial = 0;
     int attempt = 0;
@@ -208,7 +208,7 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
     sitting.replace(
         "repeats: 4, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 4,",
         "repeats: 2, perturb: object }\n    - { name: lifts, kind: perturbed, repeats: 3,");
-    experiment::Plan plan = sitting.plan(3);
+    session::Plan plan = sitting.plan(3);
     // studies report means over people; in one person who is drawn any figure may differ
     const Traits traits = median_person(Objects::real);
     sit_down(plan, traits);
@@ -264,7 +264,7 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
     - { name: baseline, kind: baseline, repeats: 3 }
     - { name: sideways, kind: perturbed, perturb: sideways, repeats: 12 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     const Traits traits = median_person(Objects::device);
     sit_down(plan, traits);
     const auto& person = static_cast<const Person&>(*plan.seeing);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/adaptation.h"
-#include "analysis/session_report.h"
 #include "person/test/reaches.h"
 
 namespace dihaptic::person::reach_test {
@@ -18,7 +17,7 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
     - { name: clamp, kind: error_clamp, perturb: clamp, repeats: 24 }
     - { name: washout, kind: washout, repeats: 8 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     Traits traits = median_person(Objects::device);
     traits.online_correction = 0;
     sit_down(plan, traits);
@@ -28,7 +27,7 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
         EXPECT_NEAR(curve.hand[i], x[i], 0.6) << i;
         EXPECT_EQ(curve.outcome[i], "reached") << i;
         // a catch trial shows what was learned, and nothing else
-        if (plan.task->trials[i].kind == experiment::TrialKind::catch_trial) {
+        if (plan.task->trials[i].kind == task::TrialKind::catch_trial) {
             EXPECT_GT(curve.hand[i], 5);
             EXPECT_NEAR(curve.shown[i], -curve.hand[i], 0.6);
         }
@@ -55,7 +54,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
     - { name: rotation, kind: perturbed, perturb: rotation, repeats: 20 }
     - { name: washout, kind: washout, repeats: 4 }
 )");
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, median_person(Objects::device));
         return reaches(plan).hand;
     };
@@ -85,7 +84,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
 }
 
 TEST(Reaches, OfANoisyPersonGiveBackItsRates) {
-    experiment::Plan plan = Sitting("rotation-reversal").plan();
+    session::Plan plan = Sitting("rotation-reversal").plan();
     // rates that a fit can tell apart, and noise; some people who are drawn learn at one rate only
     Traits traits = median_person(Objects::device);
     traits.id = "P01";
@@ -125,7 +124,7 @@ TEST(Reaches, AreMendedInPartOnceTheyAreSeenToGoWrong) {
     sitting.end_with("  blocks:", R"(  blocks:
     - { name: rotation, kind: perturbed, perturb: rotation, repeats: 1 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     sit_down(plan, median_person(Objects::device));
     const Curve curve = reaches(plan);
     EXPECT_GT(curve.hand[0], 1);  // people: 3.5 degrees
@@ -137,7 +136,7 @@ TEST(Reaches, OfNoLearnerStayWrong) {
     sitting.end_with("  blocks:", R"(  blocks:
     - { name: rotation, kind: perturbed, perturb: rotation, repeats: 12 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     Traits traits = median_person(Objects::device);
     traits.fast_learning = traits.slow_learning = 0;
     traits.online_correction = 0;
@@ -154,7 +153,7 @@ TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
     sitting.end_with("  blocks:", R"(  blocks:
     - { name: baseline, kind: baseline, repeats: 3 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     Traits traits = median_person(Objects::device);
     traits.tempo = 0.8;
     sit_down(plan, traits);
@@ -185,13 +184,12 @@ TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScale
     - { name: scaled, kind: perturbed, perturb: scaled, repeats: 10 }
     - { name: washout, kind: washout, repeats: 4 }
 )");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     const Traits traits = median_person(Objects::device);
     sit_down(plan, traits);
-    experiment::RunOptions options;
+    session::RunOptions options;
     options.out = sitting.folder.file("sessions");
-    const experiment::RunResult result = experiment::run_session(plan, options, kGoOn, {});
-    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const session::Recorded result = session::record(plan, options, kGoOn);
     const auto curves = analysis::adaptation_curves(CsvFile(result.folder + "/trials.csv"));
     ASSERT_EQ(curves.size(), 3u);  // along x, y and z
     const double f = 100 * std::log(1.4);

@@ -2,13 +2,11 @@
 // the hand's path.
 #pragma once
 
-#include <numbers>
-
+#include "base/unit.h"
 #include "person/test/sitting.h"
 
 namespace dihaptic::person {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
 inline constexpr double kRotation = 30;  // [degrees]
 
 struct Curve {
@@ -22,8 +20,8 @@ inline double angle_about_z(const Vec3& from, const Vec3& to) {
 }
 
 /// Angles of the first finger about z after "go to the start", in each trial's last attempt.
-inline Curve reaches(const experiment::Plan& plan) {
-    const experiment::ReachMeasure& measure = *plan.task->task.reach;
+inline Curve reaches(const session::Plan& plan) {
+    const task::ReachMeasure& measure = *plan.task->task.reach;
     const size_t trials = plan.task->trials.size();
     Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
                 std::vector<std::string>(trials)};
@@ -47,9 +45,9 @@ inline Curve reaches(const experiment::Plan& plan) {
 }
 
 /// The plan's schedule as the models of adaptation take it.
-inline std::vector<model::AdaptationTrial> schedule(const experiment::Plan& plan) {
+inline std::vector<model::AdaptationTrial> schedule(const session::Plan& plan) {
     std::vector<model::AdaptationTrial> out;
-    for (const experiment::Trial& trial : plan.task->trials) {
+    for (const task::Trial& trial : plan.task->trials) {
         const std::string& name =
             trial.perturb < 0
                 ? ""

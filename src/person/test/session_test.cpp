@@ -10,10 +10,9 @@
 #include <map>
 #include <optional>
 
-#include "analysis/session_report.h"
 #include "base/field_reader.h"
-#include "experiment/replay.h"
 #include "person/test/sitting.h"
+#include "session/replay.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::person::session_test {
@@ -26,16 +25,16 @@ constexpr const char* kShort = R"(  blocks:
 TEST(Session, OfAPersonIsRecordedWithWhoItWasAndReplaysToTheBit) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  blocks:", kShort);
-    experiment::RunOptions options;
+    session::RunOptions options;
     options.out = sitting.folder.file("sessions");
     const auto run = [&](const std::string& id) {
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, draw_person(Objects::device, plan.seed, id));
         options.participant.id = id;
-        return experiment::run_session(plan, options, kGoOn, {}).folder;
+        return session::run_session(plan, options, kGoOn, {}).folder;
     };
     const std::string first = run("S01");
-    EXPECT_TRUE(experiment::replay_session(first, kGoOn, {}).good());
+    EXPECT_TRUE(session::replay_session(first, kGoOn, {}).good());
     Diagnostics diagnostics;
     Traits traits;
     read_fields(traits, read_yaml(first + "/person.yaml"), diagnostics);
@@ -52,24 +51,15 @@ TEST(Session, ThatIsReadWhileItRunsHasTheTablesOfItsLog) {
     for (const char* name : {"rotation-reversal", "grip-by-sight"}) {
         Sitting sitting(name);
         sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 2 }]\n");
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, draw_person(Objects::device, plan.seed, "sim-001"));
-        experiment::RunOptions options;
+        session::RunOptions options;
         options.out = sitting.folder.file("logged");
-        const experiment::RunResult logged = experiment::run_session(plan, options, kGoOn, {});
-        analysis::finish_session(recording::SessionFolder::open(logged.folder), logged.info, {});
+        const session::Recorded logged = session::record(plan, options, kGoOn);
 
         options.out = sitting.folder.file("read");
-        std::optional<analysis::SessionReader> reader;
-        options.in_place_of_log = [&](const recording::SessionFolder& folder,
-                                      const recording::SessionInfo& info,
-                                      const recording::LogHead& head) -> servo::FrameSink {
-            reader.emplace(folder, info, head);
-            return [&reader](const servo::Frame& frame) { reader->add(frame); };
-        };
-        const experiment::RunResult read = experiment::run_session(plan, options, kGoOn, {});
-        analysis::finish_tables(recording::SessionFolder::open_tables(read.folder), read.info,
-                                std::move(*reader));
+        options.keep_log = false;
+        const session::Recorded read = session::record(plan, options, kGoOn);
         EXPECT_EQ(read.ticks, logged.ticks);
         EXPECT_FALSE(std::filesystem::exists(read.folder + "/raw.log"));
         int tables = 0;
@@ -97,7 +87,7 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
         } else {
             sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 1 }]\n");
         }
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, median_person(Objects::device));
         const auto phases = plan.task->phases();
         std::map<int, double> spent;  // time in the last state, by trial [s]
@@ -116,10 +106,10 @@ TEST(Session, OfAPersonAllocatesNothingInTheTick) {
     for (const char* name : {"rotation-reversal", "directional-mass"}) {
         Sitting sitting(name);
         sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 2 }]\n");
-        experiment::Plan plan = sitting.plan();
+        session::Plan plan = sitting.plan();
         sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
-        const auto servo = experiment::make_servo(plan);
-        experiment::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+        const auto servo = session::make_servo(plan);
+        task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
         plan.seeing->restart();
         servo->activate();
         const servo::Director director =
@@ -139,7 +129,7 @@ TEST(Session, OfAPersonAllocatesNothingInTheTick) {
 TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
     Sitting sitting("rotation-reversal");
     sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 6 }]\n");
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     Traits traits = median_person(Objects::device);
     traits.give_up_rate = 0.5;
     traits.hesitation_rate = 0.5;
@@ -172,7 +162,7 @@ std::vector<std::string> answers(double scale, const Traits& traits, int trials)
   blocks: [{{ name: all, kind: perturbed, perturb: scaling, repeats: {} }}]
 )",
                                                      scale, trials));
-    experiment::Plan plan = sitting.plan();
+    session::Plan plan = sitting.plan();
     sit_down(plan, traits);
     std::vector<std::string> out;
     run_trials(plan, [&](const servo::Frame& frame) {
@@ -203,7 +193,7 @@ TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
     sitting.end_with("  redo:",
                      "  blocks:\n    - { name: thresholds, kind: perturbed, procedures: "
                      "[more along x, less along x] }\n");
-    experiment::Plan plan = sitting.plan(3);
+    session::Plan plan = sitting.plan(3);
     sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
     std::vector<double> shares;
     int right = 0;

@@ -6,11 +6,11 @@
 
 #include <filesystem>
 
-#include "experiment/session_run.h"
-#include "experiment/task_director.h"
 #include "person/person.h"
 #include "person/population.h"
 #include "servo/run.h"
+#include "session/record.h"
+#include "task/task_director.h"
 #include "testing/files.h"
 
 namespace dihaptic::person {
@@ -39,22 +39,22 @@ struct Sitting {
         ASSERT_NE(at, std::string::npos) << from;
         text = text.substr(0, at) + by;
     }
-    experiment::Plan plan(uint64_t seed = 1) {
-        experiment::Request request;
+    session::Plan plan(uint64_t seed = 1) {
+        session::Request request;
         request.file = folder.write("experiment.yaml", text);
         request.simulate = true;
         request.seed = seed;
         request.participant = "S01";
-        return experiment::make_plan(request);
+        return session::make_plan(request);
     }
 };
 
 /// Runs the plan's trials as a session does, but records nothing.
-inline void run_trials(const experiment::Plan& plan, const servo::FrameSink& sink) {
-    const auto servo = experiment::make_servo(plan);
+inline void run_trials(const session::Plan& plan, const servo::FrameSink& sink) {
+    const auto servo = session::make_servo(plan);
     servo->activate();
     plan.seeing->restart();
-    experiment::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+    task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
     const servo::Director director = [&](const servo::Frame& last,
                                          std::span<const haptics::Handle> handles,
                                          servo::Commands& commands) {

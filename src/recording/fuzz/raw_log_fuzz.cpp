@@ -29,7 +29,7 @@ Bytes written() {
     head.devices.resize(2);
     head.devices[0].finger = "thumb";
     head.devices[1].finger = "index";
-    head.devices[1].orientation = true;
+    head.devices[1].measures_orientation = true;
     recording::RawLogWriter writer(file, head);
     std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 8));
     for (int64_t i = 0; i < 10; ++i) {

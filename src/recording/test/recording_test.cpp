@@ -3,6 +3,7 @@
 #include <set>
 #include <thread>
 
+#include "base/field_writer.h"
 #include "recording/recorder.h"
 #include "recording/schema.h"
 #include "testing/allocation_guard.h"
@@ -57,7 +58,7 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
     LogHead turning = head();
     turning.devices.resize(2);
     turning.devices[1].finger = "index";
-    turning.devices[1].orientation = true;
+    turning.devices[1].measures_orientation = true;
     EXPECT_EQ(turning.turning_fingers(), std::vector<std::string>{"index"});
     servo::Frame in = frame(1);
     in.turns.resize(1);
@@ -237,6 +238,35 @@ TEST(RawLog, ReadsBackWhatWasWritten) {
     EXPECT_EQ(count(reader), 1000);
     EXPECT_TRUE(reader.health().complete);
     EXPECT_EQ(reader.health().tail_bytes, 0);
+}
+
+TEST(DeviceRecord, KeepsWhatTheDeviceWasAndReadsThoseOfEarlierVersions) {
+    const auto read = [](const std::string& text) {
+        Diagnostics diagnostics;
+        DeviceRecord out;
+        read_fields(out, parse_yaml(text, "session.yaml"), diagnostics);
+        diagnostics.throw_if_errors();
+        return out;
+    };
+    DeviceRecord record;
+    record.finger = "index";
+    record.peak_force = 8.5;
+    record.delay = 2e-3;
+    const DeviceRecord again = read(to_yaml(write_fields(record)));
+    EXPECT_EQ(again.finger, "index");
+    EXPECT_EQ(static_cast<const devices::DeviceInfo&>(again), record);
+    // as log version 2 had it
+    const DeviceRecord old = read(
+        "finger: index\nmodel: simulated plant\npeak_force_N: 8.5\norientation: yes\n"
+        "peak_torque_Nm: 0\nscale: 2\nsimulated: yes\n");
+    EXPECT_EQ(old.finger, "index");
+    EXPECT_EQ(old.model, "simulated plant");
+    EXPECT_EQ(old.peak_force, 8.5);
+    EXPECT_TRUE(old.measures_orientation);
+    EXPECT_EQ(old.scale, 2);
+    EXPECT_TRUE(old.simulated);
+    EXPECT_TRUE(std::isinf(old.continuous_force));
+    EXPECT_TRUE(std::isinf(old.damping));  // late ticks softened nothing
 }
 
 TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {

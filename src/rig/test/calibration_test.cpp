@@ -4,15 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "base/field_writer.h"
 #include "base/random.h"
+#include "base/unit.h"
 
 namespace dihaptic::rig::calibration_test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const model::PhantomLinks kLinks;
 
 /// Two Premiums that stand, and were reset, elsewhere than the rig file says.

@@ -1,7 +1,6 @@
 // Tests of concave meshes and compounds: their weight, and their convex pieces, cut and kept.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -34,9 +33,9 @@ struct Files {
     Diagnostics diagnostics;
 
     explicit Files(const std::string& mesh) { folder.write("l.obj", mesh); }
-    Shape read(const std::string& text) {
+    Shape read(const std::string& text, const std::stop_token& stop = {}) {
         diagnostics = Diagnostics();
-        const Scene scene = read_scene(folder.write("scene.yaml", text), diagnostics);
+        const Scene scene = read_scene(folder.write("scene.yaml", text), diagnostics, stop);
         return scene.bodies.empty() ? Shape{} : scene.bodies[0].shape;
     }
     std::string said() const {
@@ -143,21 +142,17 @@ std::string star(int teeth) {
 
 TEST(Concave, ACutThatTakesLongCanBeCancelled) {
     Files files(star(300));
-    std::atomic<bool> read{false};
+    std::stop_source stop;
     std::thread user([&] {
-        while (!read) {  // until the cut has begun
-            cancel_cut();
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the cut has begun
+        stop.request_stop();
     });
     const auto begin = std::chrono::steady_clock::now();
-    files.read(kBody);
-    read = true;
+    files.read(kBody, stop.get_token());
     user.join();
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     EXPECT_NE(files.said().find("was cancelled"), std::string::npos) << files.said();
     EXPECT_FALSE(fs::exists(files.kept()));
-    cancel_cut();  // no cut is going on
 }
 
 TEST(Concave, DamagedPiecesAreCutAnew) {

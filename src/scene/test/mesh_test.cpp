@@ -1,7 +1,6 @@
 // Tests of reading meshes through a separate program, which a damaged file may crash.
 #include <sys/stat.h>
 
-#include <atomic>
 #include <thread>
 
 #include "scene/test/mutated_mesh.h"
@@ -11,9 +10,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string refusal(const std::string& file) {
+std::string refusal(const std::string& file, const std::stop_token& stop = {}) {
     try {
-        read_mesh(file, 1e-3, {"scene.yaml", 7});
+        read_mesh(file, 1e-3, {"scene.yaml", 7}, stop);
     } catch (const Error& e) {
         EXPECT_FALSE(e.problems().front().remedy.empty());
         return e.what();
@@ -119,18 +118,14 @@ TEST(MeshReading, CanBeCancelled) {
     std::string big = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
     for (int i = 0; i < 500'000; ++i) big += "f 1 2 3\n";
     const std::string file = folder.write("big.obj", big);
-    std::atomic<bool> done{false};
+    std::stop_source stop;
     std::thread user([&] {
-        while (!done) {  // until the reading has begun
-            cancel_reading();
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        stop.request_stop();
     });
-    const std::string said = refusal(file);
-    done = true;
+    const std::string said = refusal(file, stop.get_token());
     user.join();
     EXPECT_NE(said.find("reading the mesh " + file + " was cancelled"), std::string::npos) << said;
-    cancel_reading();  // no mesh is being read
 }
 
 }  // namespace

@@ -90,21 +90,15 @@ const std::vector<Planted> kPlanted{
          properties.weight_scale = x;
          c.task.properties.push_back(properties);
      }},
-    {"friction", haptics::FaultKind::none, {}, [](Commands& c, double x) { c.friction_scale = x; }},
+    {"friction",
+     haptics::FaultKind::none,
+     {},
+     [](Commands& c, double x) { c.knobs.friction_scale = x; }},
     {"stiffness",
      haptics::FaultKind::none,
      {},
-     [](Commands& c, double x) {
-         c.tuning = haptics::CouplingSettings{}.tuning();
-         c.tuning->stiffness = x;
-     }},
-    {"damping",
-     haptics::FaultKind::none,
-     {},
-     [](Commands& c, double x) {
-         c.tuning = haptics::CouplingSettings{}.tuning();
-         c.tuning->damping = x;
-     }},
+     [](Commands& c, double x) { c.knobs.stiffness = x; }},
+    {"damping", haptics::FaultKind::none, {}, [](Commands& c, double x) { c.knobs.damping = x; }},
     {"clock_that_goes_back",
      haptics::FaultKind::late,
      [](PlantedGrasp& g, double) { g.now -= std::chrono::milliseconds(5); },

@@ -28,7 +28,7 @@ void inject(PlantedGrasp& grasp, const Failure& failure) {
         devices::Reading& reading = readings[failure.device];
         if (failure.what == Injected::gone && now >= failure.tick) {
             reading = {};
-            reading.status = devices::kNotAnswering;
+            reading.status = kNotAnswering;
         }
         if (now != failure.tick) return;
         if (failure.what == Injected::nan) reading.p_DH.y() = kUnmeasured;

@@ -238,11 +238,10 @@ TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
         // in time, alternately late and in time, all late, and in time again
         now += milliseconds(i < 500 ? 1 : i < 900 ? 1 + 12 * (i % 2) : i < 1200 ? 13 : 1);
         const Frame& frame = hold.servo->tick(now, {});
-        const haptics::Tuning in_force{haptics::CouplingKind::implicit, frame.stiffness,
-                                       frame.damping, frame.smoothing};
+        const Knobs in_force = frame;
         const Frame& again =
             replay.servo->tick(now, [&](const Frame&, std::span<const haptics::Handle>,
-                                        Commands& commands) { commands.tuning = in_force; });
+                                        Commands& commands) { commands.knobs = in_force; });
         ASSERT_EQ(again.fingers[0].f_sent_W, frame.fingers[0].f_sent_W) << i;
         ASSERT_EQ(again.stiffness, frame.stiffness) << i;
         ASSERT_EQ(again.damping, frame.damping) << i;

@@ -282,7 +282,7 @@ TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
     // at a friction scale of 0.7 the block withstands 0.6 N, at 0.2 it does not
     const auto pulled = [&](double scale) {
         return desk.tick([&](const Frame&, Commands& c) {
-            c.friction_scale = scale;
+            c.knobs.friction_scale = scale;
             add(c.task.loads, {1, {0.6, 0, 0}, Vec3::Zero()});
         });
     };
@@ -307,7 +307,7 @@ TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
             int slid = 0;
             for (int i = 0; i < 380; ++i) {
                 const Frame& frame =
-                    desk.tick([&](const Frame&, Commands& c) { c.friction_scale = 0.3; });
+                    desk.tick([&](const Frame&, Commands& c) { c.knobs.friction_scale = 0.3; });
                 const FingerFrame& finger = frame.fingers[0];
                 if (finger.normal_force < 0.3 || finger.v_WH.x() < 0.1) continue;
                 ++slid;

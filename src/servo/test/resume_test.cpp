@@ -74,15 +74,15 @@ INSTANTIATE_TEST_SUITE_P(
               }},
         Cause{"not_answering", haptics::FaultKind::not_answering,
               [](PlantedGrasp& g) {
-                  plant(g, [](devices::Reading& r) { r.status |= devices::kNotAnswering; });
+                  plant(g, [](devices::Reading& r) { r.status |= kNotAnswering; });
               }},
         Cause{"uncalibrated", haptics::FaultKind::uncalibrated,
               [](PlantedGrasp& g) {
-                  plant(g, [](devices::Reading& r) { r.status |= devices::kNeedsCalibration; });
+                  plant(g, [](devices::Reading& r) { r.status |= kUncalibrated; });
               }},
         Cause{"device_fault", haptics::FaultKind::device_fault,
               [](PlantedGrasp& g) {
-                  plant(g, [](devices::Reading& r) { r.status |= devices::kDeviceFault; });
+                  plant(g, [](devices::Reading& r) { r.status |= kDeviceFault; });
               }},
         Cause{"too_fast", haptics::FaultKind::too_fast,
               [](PlantedGrasp& g) { plant(g, [](devices::Reading& r) { r.p_DH.z() += 0.1; }); }},
@@ -133,7 +133,7 @@ TEST(ForceAfterAPause, OfASlowSlewLimitIsZeroInFreeAir) {
 TEST(ForceAfterAFault, StaysOffWhileDevicesRefuse) {
     PlantedGrasp grasp;
     grasp.grasp();
-    plant(grasp, [](devices::Reading& r) { r.status |= devices::kDeviceFault; });
+    plant(grasp, [](devices::Reading& r) { r.status |= kDeviceFault; });
     grasp.tick();
     grasp.devices->fails = true;
     EXPECT_THROW(grasp.servo->resume(), Error);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <thread>
 
@@ -223,6 +224,39 @@ TEST(Servo, TellsThatABodyDiverged) {
     EXPECT_NE(status & kNotFinite, 0u);
 }
 
+TEST(Servo, OrdersLastOrAreForOneTickAsTheirTypesSay) {
+    Settings settings;
+    settings.coupling.stiffness = 700;
+    settings.dynamics.solver = dynamics::Solver::staggered_projections;
+    Grasp grasp(settings);
+    const Frame& frame = grasp.servo->tick(Time(0), {});
+    EXPECT_EQ(frame.stiffness, 700);
+    EXPECT_TRUE(std::isnan(frame.damping));
+    EXPECT_EQ(frame.solver, dynamics::Solver::staggered_projections);
+    const Knobs before = frame;
+    grasp.servo->tick(std::chrono::milliseconds(1),
+                      [](const Frame&, std::span<const haptics::Handle>, Commands& c) {
+                          c.trial = 3;
+                          c.knobs.stiffness = 900;
+                          c.knobs.damping = 2;
+                          c.knobs.friction_scale = 0.5;
+                          c.knobs.solver = dynamics::Solver::newton;
+                          c.stop = true;
+                          c.task.marker = 7;
+                      });
+    EXPECT_TRUE(grasp.servo->stopped());
+    EXPECT_EQ(frame.task.marker, 7);
+    grasp.servo->tick(std::chrono::milliseconds(2), {});
+    EXPECT_FALSE(grasp.servo->stopped());
+    EXPECT_EQ(frame.task.marker, 0);
+    EXPECT_EQ(frame.trial, 3);
+    EXPECT_EQ(frame.stiffness, 900);
+    EXPECT_EQ(frame.damping, 2);
+    EXPECT_EQ(frame.smoothing, before.smoothing);
+    EXPECT_EQ(frame.friction_scale, 0.5);
+    EXPECT_EQ(frame.solver, dynamics::Solver::newton);
+}
+
 TEST(Servo, DynamicsMayBeSlower) {
     Settings settings;
     settings.dynamics.every = 10;
@@ -267,7 +301,7 @@ TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
         Grasp grasp(own);
         const Director order = [&](const Frame&, std::span<const haptics::Handle>,
                                    Commands& commands) {
-            if (changed) commands.proxy = kind;
+            if (changed) commands.knobs.proxy = kind;
         };
         const testing::AllocationGuard guard;
         for (int i = 0; i < 1100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), order);
@@ -277,8 +311,8 @@ TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
     for (const auto kind : {haptics::ProxyKind::rigid, haptics::ProxyKind::point}) {
         const Frame always = lift(kind, false);
         const Frame since = lift(kind, true);
-        EXPECT_EQ(always.proxy, static_cast<int>(kind));
-        EXPECT_EQ(since.proxy, static_cast<int>(kind));
+        EXPECT_EQ(always.proxy, kind);
+        EXPECT_EQ(since.proxy, kind);
         EXPECT_GT(always.bodies[1].X_WB.p.z(), 0.06);
         EXPECT_NEAR(since.bodies[1].X_WB.p.z(), always.bodies[1].X_WB.p.z(), 1e-4);
         EXPECT_NEAR(since.grip_force, always.grip_force, 0.01);
@@ -291,7 +325,7 @@ TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndF
     for (int i = 0; i < 100; ++i) {  // in the air, before the fingers close
         const Director order = [&](const Frame&, std::span<const haptics::Handle>,
                                    Commands& commands) {
-            commands.proxy =
+            commands.knobs.proxy =
                 i / 10 % 2 == 0 ? haptics::ProxyKind::rigid : haptics::ProxyKind::point;
         };
         const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), order);

@@ -79,7 +79,7 @@ struct Air {
         next += period;
         return servo->tick(next - period, [&](const Frame& last, std::span<const haptics::Handle>,
                                               Commands& commands) {
-            commands.workspace_rate = last.sequence < 0 ? 0 : rate(last, goal);
+            commands.knobs.workspace_rate = last.sequence < 0 ? 0 : rate(last, goal);
             add(commands.task.loads, {servo->world().scene_size(), force_W, Vec3::Zero()});
         });
     }
@@ -265,9 +265,11 @@ struct Held {
         servo->activate();
     }
     const Frame& tick(double goal) {
-        return servo->tick(next++ * std::chrono::milliseconds(1),
-                           [&](const Frame& last, std::span<const haptics::Handle>,
-                               Commands& commands) { commands.workspace_rate = rate(last, goal); });
+        return servo->tick(
+            next++ * std::chrono::milliseconds(1),
+            [&](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
+                commands.knobs.workspace_rate = rate(last, goal);
+            });
     }
 };
 

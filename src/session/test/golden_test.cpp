@@ -10,9 +10,8 @@
 #include <map>
 #include <sstream>
 
-#include "experiment/replay.h"
-#include "person/person.h"
 #include "person/population.h"
+#include "session/replay.h"
 #include "testing/files.h"
 
 namespace dihaptic::session::golden_test {
@@ -50,14 +49,14 @@ class Hash {
     uint64_t value_ = 0xcbf29ce484222325;
 };
 
-experiment::Plan plan_of(const std::string& file, dynamics::Solver solver) {
-    experiment::Request request;
+Plan plan_of(const std::string& file, dynamics::Solver solver) {
+    Request request;
     request.file = file;
     request.participant = "S07";
     request.set = {fmt::format("dynamics.solver={}", enum_name(solver))};
-    experiment::Plan plan = experiment::make_plan(request);
+    Plan plan = make_plan(request);
     if (plan.task != nullptr && plan.driver == nullptr)
-        person::sit_down(plan, person::draw_person(person::Objects::device, 1, "S07"));
+        sit_down(plan, person::draw_person(person::Objects::device, 1, "S07"));
     return plan;
 }
 
@@ -65,15 +64,15 @@ std::string hash_of(const std::string& file, dynamics::Solver solver) {
     const testing::TemporaryFolder folder;
     Hash hash;
     std::atomic<bool> stop{false};
-    experiment::RunOptions options;
+    RunOptions options;
     options.out = folder.path();
     options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> servo::FrameSink {
         return [&](const servo::Frame& frame) {
-            if (frame.sequence < kTicks) hash.add(experiment::outcome_of(frame));
+            if (frame.sequence < kTicks) hash.add(outcome_of(frame));
             stop = frame.sequence >= kTicks;
         };
     };
-    experiment::run_session(plan_of(file, solver), options, stop, {});
+    run_session(plan_of(file, solver), options, stop, {});
     return hash.text();
 }
 

@@ -6,8 +6,6 @@
 namespace dihaptic::session::resume_test {
 namespace {
 
-using experiment::Seat;
-
 /// Error message when the session cannot be resumed.
 std::string refusal(const std::string& session, Seat seat) {
     try {

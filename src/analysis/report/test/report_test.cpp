@@ -87,7 +87,6 @@ TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     EXPECT_EQ(curve.round, "about z");
     EXPECT_NEAR(curve.perturbation(), -30, 1e-5);
     EXPECT_TRUE(std::isnan(curve.trials[20].compensation));
-    EXPECT_EQ(curve.landmark_cells().size(), landmark_columns().size());
     const auto at = curve.windows();
     EXPECT_NEAR(at.baseline.mean, bias, 1e-5);
     EXPECT_LT(at.late.mean, at.early.mean);
@@ -143,13 +142,13 @@ TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
 TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
     testing::TemporaryFolder folder;
     std::string list =
-        "reach_from_x_mm,reach_from_y_mm,reach_from_z_mm,reach_to_x_mm,reach_to_y_mm,"
-        "reach_to_z_mm\n";
+        "reach_finger,reach_from_x_mm,reach_from_y_mm,reach_from_z_mm,reach_to_x_mm,"
+        "reach_to_y_mm,reach_to_z_mm\n";
     std::string trials = "trial_num,kind,condition,round,hand_angle_deg\n";
     int number = 0;
     const auto add = [&](const char* kind, double degrees, double compensation) {
         const double angle = degrees * std::numbers::pi / 180;
-        list += "0,0,100," + std::to_string(50 * std::cos(angle)) + "," +
+        list += "thumb,0,0,100," + std::to_string(50 * std::cos(angle)) + "," +
                 std::to_string(50 * std::sin(angle)) + ",100\n";
         trials += std::to_string(++number) + "," + kind + ",at " +
                   std::to_string(static_cast<int>(degrees)) + ",z," +
@@ -163,22 +162,22 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         add("error_clamp", 45, 11);
         add("catch", 90, 3);
     }
-    const CsvFile list_file(folder.write("trial-list.csv", list));
-    const auto found = find_generalisation(CsvFile(folder.write("trials.csv", trials)), list_file);
+    const auto reaches = task::read_reaches(folder.write("trial-list.csv", list));
+    const auto found = find_generalisation(CsvFile(folder.write("trials.csv", trials)), reaches);
     ASSERT_EQ(found.size(), 3u);
     const double angles[] = {0, 45, 90};
     const double shares[] = {1, 0.5, 0.1};
     for (size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(found[i].trials, 2);
-        EXPECT_NEAR(found[i].angle, angles[i], 1e-4);
-        EXPECT_NEAR(found[i].compensation, 20 * shares[i], 1e-6);
+        EXPECT_NEAR(found[i].angle_deg, angles[i], 1e-4);
+        EXPECT_NEAR(found[i].compensation_deg, 20 * shares[i], 1e-6);
         EXPECT_NEAR(found[i].share, shares[i], 1e-6);
     }
     // probes in the trained direction alone show no generalisation
     const std::string one =
         "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
         "2,error_clamp,a,z,-3\n";
-    EXPECT_TRUE(find_generalisation(CsvFile(folder.write("one.csv", one)), list_file).empty());
+    EXPECT_TRUE(find_generalisation(CsvFile(folder.write("one.csv", one)), reaches).empty());
 }
 
 TEST(Adaptation, IsNotSeenWhereNothingWasMeasuredOrPerturbed) {
@@ -376,7 +375,9 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_NEAR(at.baseline.mean, -1, 1e-9);
     EXPECT_TRUE(std::isnan(curve.trials[12].perturbation));
     EXPECT_FALSE(fit_adaptation(curve));
-    const double perturbation = std::get<double>(curve.landmark_cells()[1]);
+    FigureLister landmarks;
+    curve.list_landmarks(landmarks);
+    const double perturbation = std::get<double>(landmarks.cells[1]);
     EXPECT_TRUE(std::isnan(perturbation));
     EXPECT_TRUE(unmeasured_perturbations(folder.file("none.yaml")).empty());
 }

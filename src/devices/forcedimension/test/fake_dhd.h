@@ -34,6 +34,7 @@ struct FakeDhd {
         double fastest = 0;       ///< its velocity threshold; 0: none [m/s]
 
         // the device's state
+        int opened = 0;  ///< number of times that it was opened
         bool open = false;
         bool force_enabled = false;
         bool gravity = false;

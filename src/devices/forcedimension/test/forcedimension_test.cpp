@@ -352,7 +352,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"unplugged", [](FakeDhd& fake) { fake.devices[1].connected = false; }, kNotAnswering},
         Bad{"USB failed", [](FakeDhd& fake) { fake.cut(1, kDhdByUsb); }, kNotAnswering},
         Bad{"uncalibrated", [](FakeDhd& fake) { fake.devices[1].calibrated = false; },
-            kNeedsCalibration},
+            kUncalibrated},
         Bad{"broken", [](FakeDhd& fake) { fake.devices[1].broken = true; }, kDeviceFault}));
 
 TEST(ForceDimension, SurveysWhatIsThere) {

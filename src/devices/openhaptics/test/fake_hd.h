@@ -36,6 +36,7 @@ struct FakeHd {
         bool nonsense = false;  ///< its position is not a number
 
         // the device's state
+        int opened = 0;  ///< number of times that it was initialised
         bool initialised = false;
         bool late = false;  ///< initialised while the scheduler ran: takes no part
         bool force_enabled = false;

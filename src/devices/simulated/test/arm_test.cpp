@@ -173,8 +173,8 @@ TEST(SimulatedArm, AllocatesNothingInTheCycle) {
 TEST(SimulatedArm, SaysThatAPointHasNoJoints) {
     Diagnostics diagnostics;
     find_backend("simulated")
-        ->check({"thumb", {}, parse_yaml("joint_offset_deg: [1, 0, 0]\n", "rig.yaml")},
-                diagnostics);
+        ->describe({{"thumb", {}, parse_yaml("joint_offset_deg: [1, 0, 0]\n", "rig.yaml")}}, {},
+                   diagnostics);
     ASSERT_TRUE(diagnostics.has_errors());
     EXPECT_NE(diagnostics.problems()[0].text().find("Add arm: phantom"), std::string::npos);
 }

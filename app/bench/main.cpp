@@ -1,0 +1,270 @@
+// Measures what those who change Dihaptic need to know of it: solvers, ticks, threads and pictures.
+// docs/measures.md defines the figures. `dihaptic` has the benches that labs need.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/figure_text.h"
+#include "bench/contact.h"
+#include "bench/friction.h"
+#include "bench/jitter.h"
+#include "bench/scale.h"
+#include "bench/solvers.h"
+#include "bench/view.h"
+#include "common/console.h"
+#include "common/steady_output.h"
+#include "common/stop_signals.h"
+#include "recording/session.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct BenchOptions {
+    measure::BenchSetup setup;
+    contact::Solver solver{};
+    bool json = false;
+};
+
+std::string json_of(const auto& figures) {
+    return FigureJson<nlohmann::ordered_json>::of(figures).dump(2) + "\n";
+}
+
+/// Rows of figures: in JSON a list of that name in an object.
+template <class Figures>
+void print_rows(const char* name, const std::vector<Figures>& rows, bool json) {
+    const auto all = FigureJson<nlohmann::ordered_json>::of(rows);
+    fmt::print("{}", json ? nlohmann::ordered_json{{name, all}}.dump(2) + "\n"
+                          : to_text(figure_table<Figures>(rows)));
+}
+
+void add_settings(CLI::App& command, BenchOptions& options) {
+    servo::Settings& settings = options.setup.settings;
+    add_choice(command, "--solver", settings.dynamics.solver, "contact solver");
+    add_choice(command, "--coupling", settings.coupling.kind, "coupling of handle and proxy");
+    command.add_option("--rate", settings.rate, "ticks a second [Hz]")
+        ->check(rate_range())
+        ->capture_default_str();
+    add_json(command, options.json);
+}
+
+void add_friction(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
+    auto options = std::make_shared<BenchOptions>();
+    add_choice(*command, "--solver", options->solver, "only this one; otherwise all, and peers");
+    add_json(*command, options->json);
+    command->footer("\nExample:\n  dihaptic-bench friction");
+    command->callback([command, options] {
+        std::vector<dynamics::Solver> solvers{options->solver};
+        std::vector<bench::Simulator> peers;
+        if (command->count("--solver") == 0) {
+            solvers.clear();
+            for (int i = 0; i < contact::kSolvers; ++i)
+                solvers.push_back(static_cast<dynamics::Solver>(i));
+            peers = bench::peer_simulators();
+        }
+        std::vector<bench::FrictionFigures> figures;
+        {
+            ProgressLine line("bench friction");
+            const auto say = [&](std::string_view name) {
+                const auto done = static_cast<double>(figures.size());
+                const auto all = static_cast<double>(solvers.size() + peers.size());
+                return [&line, name, done, all](const std::string& what, double share) {
+                    line.show((done + share) / all, fmt::format("{}, {}", name, what));
+                };
+            };
+            for (const dynamics::Solver solver : solvers) {
+                dynamics::Settings settings;
+                settings.solver = solver;
+                figures.push_back(bench::bench_friction(settings, say(enum_name(solver))));
+            }
+            for (const bench::Simulator& peer : peers)
+                figures.push_back(bench::bench_peer_friction(peer, say(peer.name)));
+        }
+        print_rows("solvers", figures, options->json);
+    });
+}
+
+void add_scale(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
+    auto options = std::make_shared<BenchOptions>();
+    // the bare step that it is compared with is Bullet's
+    options->setup.settings.dynamics.solver = dynamics::Solver::sequential_impulse;
+    auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
+    add_settings(*command, *options);
+    command->add_option("--extra", *extras, "numbers of extra blocks")->capture_default_str();
+    command->footer("\nExample:\n  dihaptic-bench scale --extra 0 10 50");
+    command->callback([options, extras] {
+        const auto figures = with_progress("bench scale", [&](const measure::Progress& progress) {
+            return bench::bench_scale(options->setup, *extras, progress);
+        });
+        print_rows("tick", figures, options->json);
+    });
+}
+
+void add_contact(CLI::App& app) {
+    struct ContactOptions {
+        std::vector<std::string> files;
+        contact::Solver solver{};
+        bench::ContactBench wanted;
+        bool json = false;
+    };
+    auto* command = app.add_subcommand(
+        "contact", "Contact problems from files: residual, time and iterations of each solver");
+    auto options = std::make_shared<ContactOptions>();
+    command
+        ->add_option("files", options->files,
+                     "contact problems in the FCLIB layout (HDF5), or folders of *.hdf5")
+        ->required();
+    add_choice(*command, "--solver", options->solver,
+               "only this one; otherwise all but the sequential one, which needs bodies, and the "
+               "peers that are installed");
+    command
+        ->add_option("--directions", options->wanted.polygon.directions,
+                     "of stewart_trinkle's friction polygon")
+        ->check(CLI::Range(4, contact::kMostDirections))
+        ->capture_default_str();
+    add_choice(*command, "--direction-frame", options->wanted.polygon.frame,
+               "where they lie: sliding is the first along each contact's friction");
+    add_json(*command, options->json);
+    command->footer(
+        "\nExample:\n  dihaptic-bench contact ../shared/data/contact-problems --solver newton");
+    command->callback([command, options] {
+        bench::ContactBench& wanted = options->wanted;
+        if (command->count("--solver") > 0) {
+            if (options->solver == contact::Solver::sequential_impulse)
+                throw Error({"--solver", 0}, std::string(enum_name(options->solver)),
+                            "solves bodies, which files lack",
+                            "Choose another, or see dihaptic-bench solvers.");
+            wanted.solvers = {options->solver};
+            wanted.peers = false;
+        }
+        Diagnostics diagnostics;
+        const auto figures = with_progress("bench contact", [&](const measure::Progress& progress) {
+            return bench::bench_contact(bench::contact_files(options->files, diagnostics), wanted,
+                                        diagnostics, progress);
+        });
+        if (options->json || !figures.empty()) print_rows("problems", figures, options->json);
+        print(diagnostics.problems());
+        if (diagnostics.has_errors()) exit_code = kBadInput;
+    });
+}
+
+void add_solvers(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "solvers", "What a solve costs by contacts, beside Bullet's, on problems of shaken scenes");
+    auto options = std::make_shared<BenchOptions>();
+    add_choice(*command, "--solver", options->solver, "only this one, beside Bullet's");
+    add_json(*command, options->json);
+    command->footer("\nExample:\n  dihaptic-bench solvers --solver newton");
+    command->callback([command, options] {
+        bench::SolversBench wanted;
+        if (command->count("--solver") > 0) {
+            wanted.solvers = {options->solver};
+            if (options->solver == contact::Solver::sequential_impulse) wanted.solvers.clear();
+        }
+        const auto figures = with_progress("bench solvers", [&](const measure::Progress& progress) {
+            return bench::bench_solvers(wanted, progress);
+        });
+        fmt::print("{}", options->json ? json_of(figures) : figure_text(figures));
+    });
+}
+
+struct JitterOptions : BenchOptions {
+    double time = 60;
+    int runs = 1;
+    bool view = false;
+};
+
+void run_jitter(const JitterOptions& options) {
+    bench::JitterRuns all;
+    {
+        ProgressLine line("bench jitter");
+        for (int run = 0; run < options.runs && !stop_requested; ++run) {
+            all.runs.push_back(
+                bench::bench_jitter(options.setup, options.time, options.view, stop_requested,
+                                    [&](const std::string& what, double share) {
+                                        line.show((run + share) / options.runs, what);
+                                    }));
+            if (all.runs.back().ticks == 0) all.runs.pop_back();
+        }
+    }
+    if (all.runs.empty()) {
+        exit_code = kFailed;
+        return;
+    }
+    if (options.runs == 1) {
+        const bench::JitterFigures& only = all.runs.front();
+        fmt::print("{}", options.json ? json_of(only) : to_text(only));
+    } else {
+        fmt::print("{}", options.json ? json_of(all) : to_text(all));
+    }
+    const bool held = std::all_of(all.runs.begin(), all.runs.end(),
+                                  [](const bench::JitterFigures& f) { return f.held; });
+    if (stop_requested || !held) exit_code = kFailed;
+}
+
+void add_jitter(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "jitter",
+        "How punctual the real-time thread is, beside cyclictest, and how long ticks take");
+    auto options = std::make_shared<JitterOptions>();
+    command->add_option("--time", options->time, "in real time, cyclictest's as much again [s]")
+        ->check(time_range())
+        ->capture_default_str();
+    command
+        ->add_option("--extra", options->setup.extra_blocks, "more blocks on the table, kept awake")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command
+        ->add_option("--runs", options->runs,
+                     "how many runs, one after another: prints the median and the spread")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command->add_flag("--view", options->view,
+                      "draw the scene beside, as fast as the machine goes");
+    add_settings(*command, *options);
+    command->footer(
+        "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic-bench jitter\n"
+        "  dihaptic-bench jitter --rate 4000 --time 10\n"
+        "  dihaptic-bench jitter --runs 5\n"
+        "  dihaptic-bench jitter --view");
+    command->callback([options] { run_jitter(*options); });
+}
+
+void add_view(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "view", "What a picture costs, beside the same one with a plain shadow map");
+    auto json = std::make_shared<bool>(false);
+    add_json(*command, *json);
+    command->footer("\nExample:\n  dihaptic-bench view");
+    command->callback([json] {
+        const auto figures = with_progress("bench view", [](const measure::Progress& progress) {
+            return bench::bench_view(60, progress);
+        });
+        fmt::print("{}", *json ? json_of(figures) : figure_text(figures));
+    });
+}
+
+}  // namespace
+}  // namespace dihaptic::cli
+
+int main(int argc, char** argv) {
+    using namespace dihaptic;
+    app::stop_on_signals(cli::stop_requested);
+    cli::make_output_steady();
+
+    CLI::App app("Measures Dihaptic's solvers, ticks, threads and pictures (docs/measures.md).");
+    app.set_version_flag("--version", recording::program_version());
+    app.footer(
+        "\nExample:\n  dihaptic-bench scale --json > scale.json\n\nEach command has --help of its "
+        "own. dihaptic bench grasp measures how calmly a block is held.");
+    cli::add_friction(app);
+    cli::add_scale(app);
+    cli::add_contact(app);
+    cli::add_solvers(app);
+    cli::add_jitter(app);
+    cli::add_view(app);
+    return cli::run_program(app, argc, argv);
+}

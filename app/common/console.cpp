@@ -1,0 +1,140 @@
+#include "common/console.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+namespace dihaptic::cli {
+
+std::atomic<bool> stop_requested{false};
+int exit_code = kOk;
+
+namespace {
+
+/// Writes to standard error. Ignores failure: if the terminal is gone, a session is finished
+/// without progress.
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::string label)
+    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+    clear();
+}
+
+void ProgressLine::show(double share, const std::string& what) {
+    const int percent = static_cast<int>(share * 100);
+    if (!terminal_) {
+        if (percent / 10 == shown_ / 10 && shown_ >= 0) return;
+        shown_ = percent;
+        say(fmt::format("{} {:3d} % {}\n", label_, percent, what));
+        return;
+    }
+    constexpr int kBar = 24;
+    const int full = percent * kBar / 100;
+    std::string line =
+        fmt::format("{} [{:<{}}] {:3d} % {}", label_, std::string(static_cast<size_t>(full), '#'),
+                    kBar, percent, what);
+    const size_t width = line.size();
+    if (width < width_) line.append(width_ - width, ' ');
+    width_ = width;
+    say("\r" + line);
+}
+
+void ProgressLine::clear() {
+    if (terminal_ && width_ > 0) say(fmt::format("\r{:{}}\r", "", width_));
+    width_ = 0;
+}
+
+void print(const std::vector<Problem>& problems, std::FILE* to) {
+    for (const Problem& problem : problems) fmt::print(to, "{}\n", problem.text());
+}
+
+namespace {
+
+template <class Number>
+CLI::Validator range(Number low, Number high, const char* kind) {
+    const auto check = [=](const std::string& text) {
+        Number value{};
+        const char* const last = text.data() + text.size();
+        const auto [end, status] = std::from_chars(text.data(), last, value);
+        // the comparison also refuses NaN
+        if (status == std::errc() && end == last && value >= low && value <= high)
+            return std::string();
+        return fmt::format("must be a {} from {} to {}, is '{}'", kind, low, high, text);
+    };
+    return {check, fmt::format("{} to {}", low, high)};
+}
+
+}  // namespace
+
+CLI::Validator rate_range() {
+    return range(100.0, 10000.0, "number");
+}
+
+CLI::Validator time_range() {
+    return range(1.0, 3600.0, "number");
+}
+
+CLI::Validator seed_range() {
+    return range(uint64_t{0}, std::numeric_limits<uint64_t>::max(), "whole number");
+}
+
+void add_json(CLI::App& command, bool& json) {
+    command.add_flag("--json", json, "one JSON object on standard output, nothing else");
+}
+
+namespace {
+
+/// Throws an Error that names a word which is not a command: the parser would not name it.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> commands;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (command->get_name() == argv[1]) return;
+        commands.push_back(command->get_name());
+    }
+    const std::string guess = nearest(argv[1], commands);
+    throw Error(
+        fmt::format("'{}' is no command", argv[1]),
+        (guess.empty() ? fmt::format("There are {}.", fmt::join(commands, ", "))
+                       : fmt::format("Did you mean {}?", guess)) +
+            fmt::format(" See {} --help.", std::filesystem::path(argv[0]).filename().string()));
+}
+
+}  // namespace
+
+int run_program(CLI::App& app, int argc, char** argv) {
+    app.require_subcommand(1);
+    try {
+        refuse_unknown_command(app, argc, argv);
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? kOk : kBadInput;
+    } catch (const Error& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return kBadInput;
+    } catch (const std::filesystem::filesystem_error& e) {
+        fmt::print(stderr, "{}: error: {}. Check what is there, and its permissions.\n",
+                   e.path1().string(), e.code().message());
+        return kBadInput;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n",
+                   e.what());
+        return kFailed;
+    }
+    return exit_code;
+}
+
+}  // namespace dihaptic::cli

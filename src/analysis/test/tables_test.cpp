@@ -1,0 +1,93 @@
+// docs/tables.md says of the columns of a session's tables what the code says of them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "analysis/episodes.h"
+#include "analysis/events.h"
+#include "analysis/lifts.h"
+#include "analysis/report/population_page.h"
+#include "analysis/report/session_page.h"
+#include "analysis/session_report.h"
+#include "analysis/trials.h"
+#include "base/figure.h"
+#include "testing/files.h"
+
+namespace dihaptic::analysis::tables_test {
+namespace {
+
+constexpr const char* kFile = "docs/tables.md";
+using Columns = std::vector<Table::Column>;
+
+/// A session with something for each table.
+SessionData session_in(const testing::TemporaryFolder& folder) {
+    folder.write("session.yaml", "");
+    AdaptationCurve curve;
+    curve.trials.resize(1);
+    return {recording::SessionFolder::open_tables(folder.path()),
+            {},
+            CsvFile(folder.write("trials.csv", "trial_num,attempt\n1,1\n")),
+            CsvFile(folder.write("lifts.csv", "trial_num,attempt,preload_s\n1,1,0.1\n")),
+            {curve},
+            {ThresholdTrack{}},
+            {Generalisation{}},
+            {}};
+}
+
+std::string table(const std::string& name, const std::string& meaning, const Columns& columns) {
+    std::string out =
+        fmt::format("\n## {}\n\n{}\n\n| column | unit | meaning |\n|---|---|---|\n", name, meaning);
+    for (const Table::Column& c : columns) {
+        EXPECT_FALSE(c.description.empty()) << name << ": " << c.name;
+        out += fmt::format("| `{}` | {} | {} |\n", c.name, c.unit, c.description);
+    }
+    return out;
+}
+
+std::string tables() {
+    const testing::TemporaryFolder folder;
+    const SessionData session = session_in(folder);
+    const SessionPage page = session_page(session, "", {});
+    const PopulationPage people = population_page({session}, "", "");
+    return table("trials.csv", "A row for each attempt at a trial of a task.", trial_columns()) +
+           table("trials.csv without a task", "A row for each trial.",
+                 list_figures(PlainTrial{}).columns) +
+           table("phases.csv", "A row for each phase of a trial.",
+                 list_figures(PhaseFigures{}).columns) +
+           table("events.csv", "A row for each moment.", list_figures(Event{}).columns) +
+           table("episodes.csv", "A row for each hold, slide and flight of the object.",
+                 list_figures(Episode{}).columns) +
+           table("lifts.csv", "A row for each attempt with an object and two fingers.",
+                 list_figures(Lift{}).columns) +
+           table("adaptation.csv", "A row for each reach.", page.adaptation.columns) +
+           table("adaptation-blocks.csv", "A row for each block of reaches.", page.blocks.columns) +
+           table("fits.csv", "A row for each round.", page.fits.columns) +
+           table("generalisation.csv", "A row for each condition.", page.generalisation.columns) +
+           table("thresholds.csv", "A row for each procedure.", page.thresholds.columns) +
+           table("population-people.csv", "A row for each person and round.",
+                 people.people.columns) +
+           table("population-adaptation.csv", "A row for each trial of a round.",
+                 people.adaptation.columns) +
+           table("population-thresholds.csv", "A row for each person and procedure.",
+                 people.thresholds.columns) +
+           table("population-lifts.csv", "A row for each group of trials and figure.",
+                 people.lifts.columns);
+}
+
+/// What stands before the tables is written by hand.
+TEST(Tables, AreTheReferences) {
+    const std::string page = testing::read_file(kFile);
+    const std::string made = page.substr(0, page.find("\n## ")) + tables();
+    if (std::getenv("DIHAPTIC_RENEW_TABLES") != nullptr) {
+        std::ofstream(kFile) << made;
+    } else {
+        EXPECT_EQ(page, made) << kFile
+                              << " says something else than the code. Renew it in the same commit: "
+                                 "DIHAPTIC_RENEW_TABLES=1 build/release/src/analysis/analysis_test "
+                                 "--gtest_filter='Tables.*'";
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::analysis::tables_test

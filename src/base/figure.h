@@ -1,0 +1,140 @@
+// A struct of results lists its figures once, each with its unit and a sentence:
+//
+//     struct Lift {
+//         double peak_grip = kUnmeasured;
+//         double height = kUnmeasured;
+//
+//         template <class Self, class Visitor>
+//         static void visit(Self& f, Visitor& v) {
+//             v("peak_grip", f.peak_grip, "N", "mean of the digits");
+//             v("height", f.height, "mm", "in the hold");
+//         }
+//     };
+//
+// The columns of CSV and NWB files, what BIDS says of them, tables of pages and of the
+// documentation, and keys of JSON follow from that list. A member is in SI units, its column in the
+// unit that is given, by which its name ends: peak_grip_N, height_mm. A name that ends so in the
+// list itself says that the member is in that unit. Pure numbers have the unit "1", texts none: "".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/field.h"
+#include "base/table.h"
+#include "base/unmeasured.h"
+
+namespace dihaptic {
+
+/// How a figure is written: the name of its column, and what its member is multiplied by.
+struct FigureForm {
+    std::string key;
+    double scale = 1;
+};
+/// `unit` is written as people write it, e.g. "N/s"; base/unit.h must know it.
+FigureForm figure_form(std::string_view name, std::string_view unit);
+
+/// Lists figures, of a struct or as a function calls it with them, as the columns and cells of a
+/// table.
+class FigureLister {
+  public:
+    template <class T>
+    void operator()(std::string_view name, const T& value, std::string_view unit,
+                    std::string_view what) {
+        const FigureForm form = figure_form(name, unit);
+        columns.push_back({form.key, std::string(what), std::string(unit == "1" ? "" : unit)});
+        cells.push_back(cell(value, form.scale));
+    }
+    /// Figures within figures have both names: "awake.median_us".
+    template <class T>
+    requires requires(const T& figures, FigureLister& lister) { T::visit(figures, lister); }
+    void operator()(std::string_view name, const T& value, std::string_view, std::string_view) {
+        FigureLister inner;
+        T::visit(value, inner);
+        for (Table::Column& column : inner.columns) {
+            column.name = std::string(name) + "." + column.name;
+            columns.push_back(std::move(column));
+        }
+        cells.insert(cells.end(), inner.cells.begin(), inner.cells.end());
+    }
+
+    std::vector<Table::Column> columns;
+    std::vector<Table::Cell> cells;
+
+  private:
+    template <class T>
+    static Table::Cell cell(const T& value, double scale) {
+        if constexpr (std::is_same_v<T, bool>) {
+            return value ? "yes" : "no";
+        } else if constexpr (NamedEnum<T>) {
+            return std::string(enum_name(value));
+        } else if constexpr (std::is_arithmetic_v<T>) {
+            return scale * static_cast<double>(value);
+        } else if constexpr (requires { value.has_value(); }) {
+            return value ? cell(*value, scale) : kUnmeasured;
+        } else {
+            return std::string(value);
+        }
+    }
+};
+
+template <class Figures>
+FigureLister list_figures(const Figures& figures) {
+    FigureLister out;
+    Figures::visit(figures, out);
+    return out;
+}
+
+/// A row for each of `rows`, a range of Figures.
+template <class Figures, class Rows>
+Table figure_table(const Rows& rows) {
+    Table out{list_figures(Figures{}).columns, {}};
+    for (const Figures& row : rows) out.rows.push_back(list_figures(row).cells);
+    return out;
+}
+
+/// Adds a row to a table, and sets the table's columns.
+void add_row(Table& table, FigureLister row);
+
+/// Lists a struct's figures as an object of JSON, for which `Json` is nlohmann::ordered_json:
+/// structs that list theirs become objects, vectors arrays, and optionals without a value null.
+template <class Json>
+class FigureJson {
+  public:
+    template <class T>
+    void operator()(std::string_view name, const T& value, std::string_view unit,
+                    std::string_view) {
+        const FigureForm form = figure_form(name, unit);
+        json[form.key] = of(value, form.scale);
+    }
+
+    template <class T>
+    static Json of(const T& value, double scale = 1) {
+        if constexpr (NamedEnum<T>) {
+            return std::string(enum_name(value));
+        } else if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+            return std::string(value);
+        } else if constexpr (std::is_floating_point_v<T>) {
+            return scale * value;
+        } else if constexpr (std::is_integral_v<T>) {
+            return value;
+        } else if constexpr (requires { value.has_value(); }) {
+            return value ? of(*value, scale) : Json();
+        } else if constexpr (requires { value.begin(); }) {
+            Json out = Json::array();
+            for (const auto& item : value) out.push_back(of(item, scale));
+            return out;
+        } else {
+            FigureJson inner;
+            T::visit(value, inner);
+            return inner.json;
+        }
+    }
+
+    Json json = Json::object();
+};
+
+}  // namespace dihaptic

@@ -1,0 +1,220 @@
+// What a tick could not do as asked, and which of it switches force off: one table. Devices,
+// haptics and the Frame report by the same bits.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace dihaptic {
+
+/// A bit of a tick's status, and of a device's reading. Logs hold these numbers: a bit keeps its
+/// meaning for good.
+enum Status : uint32_t {
+    kContactsFull = 1u << 0,
+    kForceLimited = 1u << 1,
+    kRateLimited = 1u << 2,
+    kNotFinite = 1u << 3,
+    kOutsideWorkspace = 1u << 4,
+    kForceClamped = 1u << 5,
+    kNoMoreData = 1u << 6,
+    kOverrun = 1u << 7,
+    kSolverFallback = 1u << 8,
+    kSolverMissed = 1u << 9,
+    kForceOff = 1u << 10,
+    kBadReading = 1u << 11,
+    kNotAnswering = 1u << 12,
+    kTooFast = 1u << 13,
+    kLate = 1u << 14,
+    kHeatLimited = 1u << 15,
+    kPushedInward = 1u << 16,
+    kSoftStarted = 1u << 17,
+    kSwitchedOff = 1u << 18,
+    kEnergyGenerated = 1u << 19,
+    kEnergyDamped = 1u << 20,
+    kStopped = 1u << 21,
+    kResumed = 1u << 22,
+    kForceDropped = 1u << 23,
+    kUncalibrated = 1u << 24,
+    kDeviceFault = 1u << 25,
+    kKeepsLate = 1u << 26,
+    kSoftened = 1u << 27,
+    kAbandoned = 1u << 28,
+    kPaused = 1u << 29,
+};
+
+/// What devices report in their readings.
+constexpr uint32_t kStatusByDevice = kOutsideWorkspace | kForceClamped | kNoMoreData |
+                                     kNotAnswering | kForceDropped | kUncalibrated | kDeviceFault;
+
+/// Why force was switched off; the table says each in words.
+enum class FaultKind {
+    none,
+    bad_reading,
+    not_answering,
+    uncalibrated,
+    device_fault,
+    too_fast,
+    turned_too_fast,
+    late,
+    keeps_late,
+    not_finite,
+    diverged,
+    active,
+    chatters,
+    abandoned,
+    stopped
+};
+
+/// What haptics::describe() says of a fault, which fills in the names in braces.
+struct FaultText {
+    FaultKind kind = FaultKind::none;
+    std::string_view what{};
+    std::string_view remedy{};  ///< "": that of the status
+};
+
+struct StatusRow {
+    Status bit;
+    std::string_view what;
+    std::string_view remedy;  ///< "": there is none
+    /// The faults that have this status. A status without any leaves force on.
+    FaultText faults[2] = {};
+};
+
+constexpr StatusRow kStatusTable[] = {
+    {kContactsFull, "more contacts than memory was reserved for",
+     "raise settings: dynamics: max_contacts"},
+    {kForceLimited, "a force or a torque was cut to the largest allowed",
+     "soften the coupling, or press less"},
+    {kRateLimited, "a force or a torque was kept from changing faster than allowed",
+     "soften the coupling, touch more slowly, or raise settings: safety: max_force_rate_N_s"},
+    {kNotFinite,
+     "the simulation diverged: a force or a position was not a number",
+     "do not use this session; look for an extreme mass, stiffness or damping, or report the "
+     "session's folder as a bug",
+     {{FaultKind::not_finite, "{for_finger}a force was computed that is not a number"},
+      {FaultKind::diverged,
+       "the simulation diverged: the place or the speed of a body is not a number"}}},
+    {kOutsideWorkspace, "a handle left its device's workspace",
+     "move the device in the rig file, or the hand"},
+    {kForceClamped, "a device was asked for more than its peak force or torque",
+     "lower settings: safety: max_force_N or max_torque_Nm, or soften the coupling"},
+    {kNoMoreData, "the recording ended", ""},
+    {kOverrun, "the tick before had ended too late, and those that it missed were left out",
+     "close other programs, lower the rate, or allow real time where a note asks for it"},
+    {kSolverFallback, "the contact solver missed its tolerance and another answered",
+     "nothing, when it is rare; otherwise choose settings: dynamics: solver: newton"},
+    {kSolverMissed, "the contact solver missed its tolerance, and the best answer was used",
+     "nothing with sequential_impulse, which ends near the answer, or in a heap; otherwise look at "
+     "what the objects do in these ticks, and report the session's folder as a bug"},
+    {kForceOff, "force was off, after a fault", "look at the first fault"},
+    {kBadReading,
+     "a device gave a position or a velocity that is not a number",
+     "look at its cables and its calibration",
+     {{FaultKind::bad_reading, "{device}gave a position or a velocity that is not a number"}}},
+    {kNotAnswering,
+     "a device did not answer",
+     "look at its power and its cables",
+     {{FaultKind::not_answering, "{device}does not answer"}}},
+    {kTooFast,
+     "a handle jumped, or turned or moved faster than allowed",
+     "look at the device's cables and encoders, or raise settings: safety: max_speed_m_s",
+     {{FaultKind::too_fast, "{device}moved at {value:.3g} m/s, and {limit:g} m/s are allowed",
+       "if no hand did that, look at its cables and encoders; otherwise raise settings: safety: "
+       "max_speed_m_s"},
+      {FaultKind::turned_too_fast,
+       "{device}turned at {value:.3g} rad/s, and {limit:g} rad/s are allowed",
+       "look at its cables and the encoders of its gimbal"}}},
+    {kLate,
+     "the hands were left without an answer for longer than allowed",
+     "close other programs, or look for a device that blocks",
+     {{FaultKind::late,
+       "nothing answered the hands for {value_ms:.0f} ms, and {limit_ms:g} ms are allowed"}}},
+    {kHeatLimited, "a force or a torque was cut to what the device's motors can bear for long",
+     "press less, or for shorter; the force comes back as they cool"},
+    {kPushedInward, "a handle was pushed back into its device's workspace",
+     "move the device in the rig file, or the hand"},
+    {kSoftStarted, "a force was still rising, as it does when it comes on",
+     "nothing; let the handles touch nothing when a session starts"},
+    {kSwitchedOff, "force was off: nobody held the dead-man switch",
+     "hold it, or look at settings: safety: dead_man_finger and dead_man_button"},
+    {kEnergyGenerated,
+     "a coupling gave a hand energy that nobody had put in",
+     "soften the coupling, raise its damping, give its body more mass, or set settings: safety: "
+     "energy_guard: act",
+     {{FaultKind::active,
+       "{of_finger}coupling went on feeding energy into the hand, {value:.2g} J more than was put "
+       "in"},
+      {FaultKind::chatters,
+       "{of_finger}force went on alternating from tick to tick, by {value:.1f} N"}}},
+    {kEnergyDamped, "a damper took of that energy", "soften the coupling, or raise its damping"},
+    {kStopped,
+     "the operator switched force off",
+     "",
+     {{FaultKind::stopped, "it was stopped by the operator",
+       "what was done until then is recorded"}}},
+    {kResumed, "the session went on after a pause", "nothing"},
+    {kForceDropped,
+     "a device took its force away for a moment: a force, a speed or a heat was beyond what it "
+     "bears",
+     "soften the coupling, move more slowly, or let its motors cool"},
+    {kUncalibrated,
+     "a device lost its calibration",
+     "calibrate it as its maker says",
+     {{FaultKind::uncalibrated, "{device}lost its calibration"}}},
+    {kDeviceFault,
+     "a device reported a fault of its own",
+     "let it cool, switch it off and on",
+     {{FaultKind::device_fault, "{device}reports a fault of its own"}}},
+    {kKeepsLate,
+     "ticks came late again and again",
+     "close other programs, or lower the rate or the stiffness",
+     {{FaultKind::keeps_late,
+       "so many ticks came late, {value_ms:.0f} ms on average, that not even {limit:g} N/m could "
+       "be rendered calmly",
+       "close other programs, or lower the rate"}}},
+    {kSoftened,
+     "the coupling was softened to what can be rendered calmly at the rate that the loop kept",
+     "close other programs, or lower the rate"},
+    {kAbandoned,
+     "the window did not answer any more",
+     "close other programs",
+     {{FaultKind::abandoned, "the window has not answered for {value:.1f} s"}}},
+    {kPaused, "the session paused, and force was off", ""},
+};
+constexpr int kStatusBits = static_cast<int>(std::size(kStatusTable));
+constexpr uint32_t kAllStatus = (1u << kStatusBits) - 1;
+
+/// The row of one bit.
+constexpr const StatusRow& describe(Status bit) noexcept {
+    return kStatusTable[std::countr_zero(static_cast<uint32_t>(bit))];
+}
+static_assert([] {
+    for (const StatusRow& row : kStatusTable) {
+        if (&describe(row.bit) != &row) return false;
+    }
+    return true;
+}());
+
+/// Calls `use` with each set Status, lowest bit first; a later version's log may have bits beyond
+/// them, which are passed over.
+template <class Use>
+void for_each_status(uint32_t status, Use use) {
+    for (uint32_t left = status & kAllStatus; left != 0; left &= left - 1)
+        use(static_cast<Status>(left & ~(left - 1)));
+}
+/// What each set bit says, "; " between them.
+std::string words(uint32_t status);
+
+/// The row that a fault is of; null for none.
+constexpr const StatusRow* row_of(FaultKind kind) noexcept {
+    if (kind == FaultKind::none) return nullptr;
+    for (const StatusRow& row : kStatusTable) {
+        if (row.faults[0].kind == kind || row.faults[1].kind == kind) return &row;
+    }
+    return nullptr;
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,73 @@
+// Runs a scene in Bullet with its default settings, as a peer of our own solvers.
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "bench/simulator.h"
+#include "dynamics/bullet/shape.h"
+#include "scene/solid.h"
+
+namespace dihaptic::bench {
+namespace {
+
+using dynamics::factors;
+using dynamics::from_bullet;
+using dynamics::to_bullet;
+
+struct Body {
+    Pose X_MB;
+    std::vector<std::unique_ptr<dynamics::CollisionPart>>
+        parts;  // a single part: the benches' bodies are convex
+    std::unique_ptr<btRigidBody> body;
+};
+
+Body make_body(const scene::Body& body) {
+    const bool moves = body.moves_at_all();
+    const scene::Solid solid = scene::solid_of(body.shape, moves ? scene::mass(body) : 0);
+    Body out;
+    out.X_MB = solid.X_BM.inverse();
+    out.parts = dynamics::collision_parts(body.shape, solid.X_BM);
+    btRigidBody::btRigidBodyConstructionInfo info(
+        solid.mass, nullptr, out.parts.front()->shape.get(), to_bullet(solid.inertia));
+    info.m_startWorldTransform = to_bullet(body.pose() * solid.X_BM);
+    info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two coefficients of a pair
+    out.body = std::make_unique<btRigidBody>(info);
+    if (moves) {
+        out.body->setLinearFactor(factors(body.moves));
+        out.body->setAngularFactor(factors(body.turns));
+        out.body->setActivationState(DISABLE_DEACTIVATION);
+    }
+    return out;
+}
+
+void run(const Trial& trial, int steps, const Watch& watch) {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+    world.setGravity(to_bullet(trial.scene.gravity));
+    std::vector<Body> bodies;
+    for (const scene::Body& body : trial.scene.bodies) {
+        bodies.push_back(make_body(body));
+        world.addRigidBody(bodies.back().body.get());
+    }
+    std::vector<Pose> X_WB(bodies.size());
+    for (int i = 0; i < steps; ++i) {
+        for (const Trial::Push& push : trial.pushes)
+            bodies[push.body].body->applyCentralForce(to_bullet(push.force_W));
+        world.stepSimulation(kStep, 0);
+        for (size_t b = 0; b < bodies.size(); ++b)
+            X_WB[b] = from_bullet(bodies[b].body->getWorldTransform()) * bodies[b].X_MB;
+        if (!watch(X_WB)) break;
+    }
+    for (const Body& body : bodies) world.removeRigidBody(body.body.get());
+}
+
+}  // namespace
+
+Simulator bullet_simulator() {
+    return {"bullet_default", run};
+}
+
+}  // namespace dihaptic::bench

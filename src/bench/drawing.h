@@ -1,0 +1,34 @@
+// A view that draws as fast as it can in a thread of its own, as a load beside the servo.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <thread>
+
+#include "base/latest.h"
+#include "scene/scene.h"
+#include "servo/frame.h"
+
+namespace dihaptic::bench {
+
+class Drawing {
+  public:
+    /// Draws `newest` until it is destroyed.
+    Drawing(const scene::Scene& scene, Latest<servo::Frame>& newest);
+    /// Throws what drawing threw, e.g. Error without OpenGL.
+    ~Drawing() noexcept(false);
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    int64_t pictures() const { return pictures_; }
+
+  private:
+    void run(const scene::Scene& scene, Latest<servo::Frame>& newest);
+
+    std::atomic<bool> stop_{false};
+    std::atomic<int64_t> pictures_{0};
+    std::exception_ptr failure_;
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::bench

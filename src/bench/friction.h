@@ -1,0 +1,69 @@
+// The command `dihaptic-bench friction`: measures how solvers hold and slide bodies by friction.
+// docs/measures.md defines the figures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/simulator.h"
+#include "measure/grasp.h"
+
+namespace dihaptic::bench {
+
+struct FrictionFigures {
+    std::string solver;
+    double drift_mm = 0;
+    double accel_error = 0;
+    double direction_error_deg = 0;
+    double stack_drift_mm = 0;               ///< from the pose drawn
+    double stack_settled_mm = 0;             ///< from the pose after a second
+    std::optional<double> cards_drift_mm;    ///< unset if the house fell
+    std::optional<double> cards_settled_mm;  ///< unset if the house fell
+    int cards_storeys = 0;                  ///< of the highest house that stands; 0: fewer than two
+    std::optional<double> arch_drift_mm;    ///< unset if the arch fell
+    std::optional<double> arch_settled_mm;  ///< unset if the arch fell
+    std::optional<double> pinch_mm;         ///< unset if the block fell
+    std::optional<double> creep_mm;         ///< unset for a peer, which has no fingers
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("solver", f.solver, "", "or peer");
+        v("drift_mm", f.drift_mm, "mm", "on a slope that friction holds");
+        v("accel_error", f.accel_error, "1", "relative, on a slope that it does not");
+        v("direction_error_deg", f.direction_error_deg, "deg", "off the fall line");
+        v("stack_drift_mm", f.stack_drift_mm, "mm", "of ten blocks, from the pose drawn");
+        v("stack_settled_mm", f.stack_settled_mm, "mm", "from the pose after a second");
+        v("cards_drift_mm", f.cards_drift_mm, "mm", "of two storeys, from the pose drawn");
+        v("cards_settled_mm", f.cards_settled_mm, "mm", "from the pose after a second");
+        v("cards_storeys", f.cards_storeys, "1", "of the highest house that stands");
+        v("arch_drift_mm", f.arch_drift_mm, "mm", "of nine stones, from the pose drawn");
+        v("arch_settled_mm", f.arch_settled_mm, "mm", "from the pose after a second");
+        v("pinch_mm", f.pinch_mm, "mm", "slip of a block between two pads in 60 s");
+        v("creep_mm", f.creep_mm, "mm", "slip of a block that fingers hold for 60 s");
+    }
+};
+
+/// All figures of one solver.
+FrictionFigures bench_friction(const dynamics::Settings& settings,
+                               const measure::Progress& progress);
+/// All figures except the creep, which fingers alone have.
+FrictionFigures bench_peer_friction(const Simulator& simulator, const measure::Progress& progress);
+/// Only slopes, stack, arch and the house of two storeys: the figures that bars are set for.
+FrictionFigures bench_slides_and_piles(const Simulator& simulator,
+                                       const measure::Progress& progress);
+/// Largest slip of a finger in a minute's hold [mm].
+double measure_creep(const dynamics::Settings& settings);
+
+// Scenes of the bench, which tests use too.
+
+/// A block on a slope, which is a box or a plane.
+scene::Scene incline_scene(double slope, double turn, double friction,
+                           scene::ShapeKind kind = scene::ShapeKind::box);
+scene::Scene stack_scene(int blocks);
+scene::Scene cards_scene(int storeys);
+scene::Scene arch_scene(int voussoirs);
+/// A block in the air between two pads, which the grip force pushes along x, their only freedom.
+Trial pinch_trial();
+
+}  // namespace dihaptic::bench

@@ -1,0 +1,51 @@
+// A common interface to simulators that move the bodies of a scene in steps of 1 ms: our solvers,
+// and peers beside them.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/settings.h"
+#include "scene/scene.h"
+
+namespace dihaptic::bench {
+
+constexpr double kStep = 1e-3;  // [s]
+
+/// A scene, and forces that act in it all the time.
+struct Trial {
+    struct Push {
+        size_t body = 0;
+        Vec3 force_W = Vec3::Zero();  ///< at the centre of mass [N]
+    };
+    scene::Scene scene;
+    std::vector<Push> pushes;
+};
+
+/// Gets the poses X_WB of all bodies after each step; returns false to end the run. When a
+/// simulator gives up, its bodies are infinitely far away.
+using Watch = std::function<bool(std::span<const Pose> X_WB)>;
+
+struct Simulator {
+    std::string name;
+    std::function<void(const Trial& trial, int steps, const Watch& watch)> run;
+    /// Shape that blocks slide on: a box, or a plane if its contacts are better.
+    scene::ShapeKind slope = scene::ShapeKind::box;
+};
+
+/// Our World. Nothing sleeps.
+Simulator world_simulator(dynamics::Settings settings);
+
+/// Bullet's own world with all its default settings: 10 iterations, one direction of friction.
+/// Nothing sleeps.
+Simulator bullet_simulator();
+
+/// MuJoCo with elliptic cones, one simulator per choice of settings; empty in builds without peers.
+std::vector<Simulator> mujoco_simulators();
+
+/// All simulators that ours are compared with.
+std::vector<Simulator> peer_simulators();
+
+}  // namespace dihaptic::bench

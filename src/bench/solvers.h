@@ -1,0 +1,105 @@
+// The command `dihaptic-bench solvers`: measures the solvers' times on recorded contact problems.
+// docs/measures.md defines the figures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/solver_settings.h"
+#include "measure/grasp.h"
+
+namespace dihaptic::bench {
+
+struct SolversBench {
+    /// Solvers to measure beside Bullet's, which is always measured.
+    std::vector<contact::Solver> solvers{contact::Solver::newton,
+                                         contact::Solver::staggered_projections,
+                                         contact::Solver::stewart_trinkle};
+    size_t most_problems = 400;  ///< most problems of each scene
+    double budget = 0.7;         ///< time for one solver on one scene's problems [s]
+};
+
+/// One solver on the problems of one scene.
+struct SolverCost {
+    contact::Solver solver{};
+    std::string family;
+    int contacts = 0;          ///< approximate number (ProblemGroup)
+    double mean_contacts = 0;  ///< mean number in the problems solved
+    double median_us = 0;
+    double p99_us = 0;
+    double ratio_median = 0;  ///< median of its times over Bullet's, problem by problem
+    int fallbacks = 0;        ///< number of problems that another method, or sweeps, solved
+    int missed = 0;           ///< number in which even the fallback stayed above tolerance
+    double residual_p99 = 0;  ///< natural map over 1 + |q|
+    int solves = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("solver", f.solver, "", "sequential_impulse: Bullet's");
+        v("family", f.family, "", "of scenes");
+        v("contacts", f.contacts, "1", "of the scene, about");
+        v("mean_contacts", f.mean_contacts, "1", "in the problems solved");
+        v("median_us", f.median_us, "us", "of a solve from the impulses of the tick before");
+        v("p99_us", f.p99_us, "us", "");
+        v("ratio_median", f.ratio_median, "1", "time over Bullet's on the same problem");
+        v("fallbacks", f.fallbacks, "1", "solves that another method answered");
+        v("missed", f.missed, "1", "solves that stayed above 1e-8");
+        v("residual_p99", f.residual_p99, "1", "natural map");
+        v("solves", f.solves, "1", "");
+    }
+};
+
+/// States of the contacts at the solution, which decide how hard the problems are.
+struct ProblemFigures {
+    std::string family;
+    int contacts = 0;
+    double mean_contacts = 0;
+    double sticking = 0, sliding = 0, open = 0;  ///< shares of all contacts
+    int problems = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("family", f.family, "", "of scenes");
+        v("contacts", f.contacts, "1", "of the scene, about");
+        v("mean_contacts", f.mean_contacts, "1", "in the problems");
+        v("sticking", f.sticking, "1", "share of all contacts");
+        v("sliding", f.sliding, "1", "share of all contacts");
+        v("open", f.open, "1", "share of all contacts");
+        v("problems", f.problems, "1", "");
+    }
+};
+
+/// Power of the number of contacts, from 8 to 200, with which a solver's time grows.
+struct Growth {
+    contact::Solver solver{};
+    std::string family;
+    double median = 0;
+    double p99 = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("solver", f.solver, "", "");
+        v("family", f.family, "", "of scenes");
+        v("median_exponent", f.median, "1", "");
+        v("p99_exponent", f.p99, "1", "");
+    }
+};
+
+struct SolversFigures {
+    std::vector<ProblemFigures> problems;
+    std::vector<SolverCost> costs;
+    std::vector<Growth> growth;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("problems", f.problems, "", "problems, and the states of their contacts");
+        v("solvers", f.costs, "", "one solve, beside 50 iterations of Bullet's");
+        v("growth", f.growth, "", "time grows with contacts to this power");
+    }
+};
+
+constexpr int kBulletIterations = 50;
+
+SolversFigures bench_solvers(const SolversBench& bench, const measure::Progress& progress);
+
+}  // namespace dihaptic::bench

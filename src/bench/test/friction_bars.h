@@ -1,0 +1,38 @@
+// Bars for the figures of bench friction, for each solver; tests and soaks use them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/friction.h"
+#include "measure/test/bars.h"
+
+namespace dihaptic::bench {
+
+inline dynamics::Settings settings_of(dynamics::Solver solver) {
+    dynamics::Settings settings;
+    settings.solver = solver;
+    return settings;
+}
+
+inline void expect_bars_of_friction(dynamics::Solver solver, const FrictionFigures& figures) {
+    EXPECT_LT(figures.drift_mm, 0.001);
+    EXPECT_LT(std::abs(figures.accel_error), 0.001);
+    EXPECT_LT(figures.direction_error_deg, 0.1);
+    ASSERT_TRUE(figures.cards_drift_mm);
+    EXPECT_TRUE(figures.arch_drift_mm);
+    if (solver == dynamics::Solver::sequential_impulse) {
+        // guards against getting worse: README has 0.14
+        EXPECT_LT(figures.stack_drift_mm, 0.2);
+    } else {
+        EXPECT_LE(figures.stack_drift_mm, 0.01);
+        EXPECT_LE(*figures.cards_drift_mm, 0.02);
+    }
+}
+
+inline void expect_no_creep(double creep_mm) {
+    EXPECT_LT(creep_mm, 0.001);
+}
+
+}  // namespace dihaptic::bench

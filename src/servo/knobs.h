@@ -1,0 +1,137 @@
+// Knobs are what may change while a session runs. A director orders them, each Frame has those in
+// force, a replay orders them again, events.csv tells of each change, and the operator's window has
+// a panel of them: all of this follows from visit().
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "base/unmeasured.h"
+#include "servo/settings.h"
+
+namespace dihaptic::servo {
+
+/// What is known of a knob besides its value.
+struct Knob {
+    const char* name;  ///< of its column in the log
+    const char* unit;
+    const char* what;  ///< one sentence
+    /// What events.csv and the window's log call it, and the panel, with & before the letter of its
+    /// shortcut; null: they do without it.
+    const char* key = nullptr;
+    const char* label = nullptr;
+    double least = 0, most = 0, step = 0;  ///< of a number, in the panel
+    const char* unset = nullptr;           ///< what NaN stands for
+    bool eased = false;  ///< a person's change is spread over a while: what is held stays held
+
+    constexpr Knob within(double low, double high, double by) const {
+        Knob k = *this;
+        k.least = low;
+        k.most = high;
+        k.step = by;
+        return k;
+    }
+    constexpr Knob nan_is(const char* text) const {
+        Knob k = *this;
+        k.unset = text;
+        return k;
+    }
+    constexpr Knob with_ease() const {
+        Knob k = *this;
+        k.eased = true;
+        return k;
+    }
+};
+
+struct Knobs {
+    haptics::CouplingKind coupling{};
+    double stiffness = 0;  ///< k [N/m]
+    double damping = 0;    ///< c [N*s/m]; NaN: k h / 2
+    double smoothing = 0;  ///< alpha
+    /// Of fingers whose kind may change and is not set by the scene. Who orders another kind makes
+    /// sure that these fingers touch nothing.
+    haptics::ProxyKind proxy{};
+    double friction_scale = 1;  ///< of every coefficient of friction
+    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate: to order it does
+    /// nothing.
+    double workspace_turn = 0;
+    double workspace_rate = 0;  ///< rate of that angle until the next tick [rad/s]
+    dynamics::Solver solver{};  ///< from the next step of the world on
+
+    /// Calls v(member, Knob) for each, in the order of the log.
+    template <class Visitor>
+    static void visit(Visitor&& v) {
+        v(&Knobs::coupling,
+          Knob{"coupling", "1", "Kind of coupling in force.", "coupling.kind", "&Coupling"});
+        v(&Knobs::stiffness, Knob{"stiffness", "N/m", "Stiffness k of the coupling in force.",
+                                  "coupling.stiffness_N_m", "Stiff&ness"}
+                                 .within(1, 20000, 100)
+                                 .with_ease());
+        v(&Knobs::damping, Knob{"damping", "N*s/m",
+                                "Damping in force; NaN: k h / 2, h being the step of the dynamics.",
+                                "coupling.damping_Ns_m", "&Damping"}
+                               .within(0, 50, 0.1)
+                               .nan_is("k h / 2")
+                               .with_ease());
+        v(&Knobs::smoothing,
+          Knob{"smoothing", "1",
+               "Smoothing in force: the share of the new force in the force sent.",
+               "coupling.smoothing", "S&moothing"}
+              .within(0.01, 1, 0.05));
+        v(&Knobs::proxy, Knob{"proxy", "1",
+                              "Kind of proxy in force, for fingers without a kind of their own; a "
+                              "change waits until "
+                              "they touch nothing.",
+                              "proxy.kind", "Pro&xy"});
+        v(&Knobs::friction_scale,
+          Knob{"friction_scale", "1", "Factor on all coefficients of friction.",
+               "friction, times the scene's", "Frict&ion"}
+              .within(0, 5, 0.05));
+        v(&Knobs::workspace_turn,
+          Knob{"workspace_turn", "rad",
+               "Angle of all devices' workspaces, counterclockwise seen from above."});
+        v(&Knobs::workspace_rate,
+          Knob{"workspace_rate", "rad/s", "Rate of workspace_turn until the next tick."});
+        v(&Knobs::solver, Knob{"solver", "1", "Contact solver that was asked for.",
+                               "dynamics.solver", "Contact so&lver"});
+    }
+
+    /// Those that a session with these settings begins with.
+    static Knobs of(const Settings& settings) noexcept {
+        Knobs out;
+        out.set_coupling(settings.coupling);
+        out.proxy = settings.proxy.kind;
+        out.solver = settings.dynamics.solver;
+        return out;
+    }
+    void set_coupling(const haptics::CouplingSettings& settings) noexcept {
+        coupling = settings.kind;
+        stiffness = settings.stiffness;
+        damping = settings.damping.value_or(kUnmeasured);
+        smoothing = settings.smoothing;
+    }
+    /// The settings with these knobs in place of their own.
+    haptics::CouplingSettings coupled(haptics::CouplingSettings settings) const noexcept {
+        settings.kind = coupling;
+        settings.stiffness = stiffness;
+        settings.damping = std::isnan(damping) ? std::nullopt : std::optional(damping);
+        settings.smoothing = smoothing;
+        return settings;
+    }
+
+    /// Whether two values of a knob are equal; NaN is equal to itself.
+    template <class T>
+    static constexpr bool same(T a, T b) noexcept {
+        return a == b || (a != a && b != b);
+    }
+};
+
+/// A knob's value, in words.
+std::string words(const Knob& knob, double value);
+template <NamedEnum E>
+std::string words(const Knob& /*knob*/, E value) {
+    return std::string(enum_name(value));
+}
+
+}  // namespace dihaptic::servo

@@ -1,0 +1,113 @@
+#include "session/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "person/simulated_limits.h"
+#include "session/plan.h"
+#include "session/safety_limits.h"
+
+namespace dihaptic::session {
+namespace {
+
+/// Reports what would be wrong with a movement in any experiment. Its axes, which the experiment
+/// chooses, make no difference here.
+void check_movement(const std::string& file, Diagnostics& diagnostics) {
+    const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
+    const hand::Movement movement =
+        hand::read_movement(file, hand::RecordingAxes::world, diagnostics);
+    for (const std::string& finger : movement.fingers) {
+        if (std::find(usual.begin(), usual.end(), finger) != usual.end()) continue;
+        const std::string guess = nearest(finger, usual);
+        diagnostics.warning({file, 1}, finger, "is no usual name of a finger",
+                            guess.empty() ? "The scene must name its finger so too: thumb and "
+                                            "index, if it names none."
+                                          : fmt::format("Did you mean {}?", guess));
+    }
+    if (diagnostics.has_errors()) return;
+    if (movement.fingers.size() < 2) {
+        diagnostics.warning({file, 1}, "",
+                            fmt::format("there is only one finger, {}", movement.fingers.front()),
+                            "A recorded grasp needs two.");
+    }
+    const hand::Path path = hand::repair(movement);
+    for (const hand::Fault& fault : path.faults) {
+        diagnostics.warning({file, fault.line}, "", hand::describe(fault, path.fingers),
+                            "It will be bridged.");
+    }
+    warn_of_bridges(path, file, diagnostics);
+    if (path.p_WH.size() > 1 && !hand::find_grasp(path)) {
+        diagnostics.warning({file, 0}, "", kNoGrasp,
+                            "An experiment must say when they closed: movement: grasp_at_s.");
+    }
+}
+
+/// Warns of states that never end if what they wait for does not come.
+std::vector<Problem> endless_states(const task::TaskPlan& task) {
+    std::vector<Problem> out;
+    for (size_t i = 0; i < task.stages.size(); ++i) {
+        const auto& ways = task.stages[i].ways;
+        const bool ends = std::any_of(ways.begin(), ways.end(), [](const task::TaskPlan::Way& way) {
+            return way.exit.has(task::WhenRow::comes);
+        });
+        if (ends) continue;
+        const task::State& state = task.task.states[i];
+        out.push_back({Severity::warning, state.place, state.name,
+                       "waits for ever when what it waits for does not come; a simulated session "
+                       "is ended after a minute of it",
+                       "Add an exit by time, e.g. - { when: time, hold_s: 10, outcome: too late, "
+                       "redo: yes }."});
+    }
+    return out;
+}
+
+void warn_of_shares(const Plan& plan, Diagnostics& diagnostics) {
+    const haptics::CouplingSettings& coupling = plan.settings.coupling;
+    if (!coupling.stiffness_share && !coupling.damping_share) return;
+    diagnostics.warning(plan.rig.place, "coupling",
+                        "has a share of what the devices render at most, which they say only once "
+                        "they are open",
+                        "The share is resolved, and checked, when a session begins.");
+}
+
+}  // namespace
+
+Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
+    try {
+        switch (task::kind_of(file)) {
+            case task::FileKind::rig:
+                rig::read_rig(file, diagnostics);
+                return {"rig", {}};
+            case task::FileKind::scene:
+            case task::FileKind::experiment: {
+                Request request;
+                request.file = file;
+                request.rig = rig;
+                request.participant = "1";
+                const Plan plan = make_plan(request);
+                diagnostics.add(plan.warnings);
+                warn_of_shares(plan, diagnostics);
+                if (plan.task) {
+                    diagnostics.add(endless_states(*plan.task));
+                    diagnostics.add(person::simulated_limits(*plan.task));
+                }
+                return {task::kind_of(file) == task::FileKind::scene ? "scene" : "experiment",
+                        describe_safety(plan)};
+            }
+            case task::FileKind::movement:
+                check_movement(file, diagnostics);
+                return {"movement", {}};
+            case task::FileKind::unknown:
+                diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
+                                  "A scene has 'bodies:', a rig 'devices:', an experiment "
+                                  "'scene:'; a movement ends in .csv.");
+                return {"unknown", {}};
+        }
+    } catch (const Error& e) {
+        diagnostics.add(e.problems());
+    }
+    return {};
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,21 @@
+// The command `dihaptic check`: checks any of Dihaptic's files before a person sits down.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::session {
+
+struct Checked {
+    std::string what;                 ///< kind of the file, in words
+    std::vector<std::string> limits;  ///< force limits that differ from the defaults, and who set
+                                      ///< them: describe_safety()
+};
+
+/// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
+/// `rig`: a rig file to use in place of the experiment's; may be empty.
+Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig = "");
+
+}  // namespace dihaptic::session

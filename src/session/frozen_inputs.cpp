@@ -1,0 +1,100 @@
+#include "session/frozen_inputs.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "base/field_table.h"
+#include "base/text_file.h"
+
+namespace dihaptic::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Copies the scene's meshes to the session's folder, and makes the scene name the copies.
+std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
+                                       const recording::SessionFolder& folder) {
+    std::vector<std::string> names;
+    int count = 0;
+    const std::function<void(scene::Shape&)> freeze = [&](scene::Shape& shape) {
+        for (scene::Part& part : shape.parts) freeze(part.shape);
+        if (shape.kind != scene::ShapeKind::mesh) return;
+        const std::string name =
+            fmt::format("mesh-{}-{}", ++count, fs::path(shape.file).filename().string());
+        fs::copy_file(fs::path(from) / shape.file, folder.file(name));
+        shape.file = name;
+        names.push_back(name);
+        if (!shape.concave) return;
+        // a replay uses these pieces, even if another version would cut the mesh differently
+        names.push_back(scene::pieces_file(name));
+        scene::write_pieces(shape.pieces, folder.file(names.back()));
+    };
+    for (scene::Body& body : scene.bodies) freeze(body.shape);
+    for (scene::Finger& finger : scene.fingers) freeze(finger.shape);
+    return names;
+}
+
+Table fault_table(const MovementReport& movement) {
+    Table faults;
+    faults.columns = {{"start_s", "last good frame before"},
+                      {"end_s", "first good frame after"},
+                      {"finger", "empty: all"},
+                      {"fault", "what the tracker lost"},
+                      {"line", "of movement.csv"},
+                      {"distance_mm", "between the good frames"}};
+    for (const hand::Fault& fault : movement.faults) {
+        faults.rows.push_back(
+            {fault.start, fault.end,
+             fault.finger < 0 ? "" : movement.fingers[static_cast<size_t>(fault.finger)],
+             std::string(enum_name(fault.kind)), static_cast<double>(fault.line),
+             fault.distance * 1e3});
+    }
+    return faults;
+}
+
+}  // namespace
+
+std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
+                                                const recording::SessionFolder& folder) {
+    scene::Scene scene = plan.scene;
+    scene.settings = {};  // settings.yaml has the resolved settings
+    scene.hand = write_fields(plan.hand);
+    std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
+    write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
+    rig::Rig rig = plan.rig;
+    if (rig.calibrated) {
+        rig.calibration = "calibration.yaml";
+        write_file(to_yaml(write_fields(*rig.calibrated)), folder.file(rig.calibration));
+        names.push_back(rig.calibration);
+    }
+    write_file(to_yaml(write_fields(rig)), folder.file("rig.yaml"));
+    write_file(to_yaml(write_fields(plan.settings)), folder.file("settings.yaml"));
+    write_csv(list_fields(plan.settings, plan.origins), folder.file("settings.csv"));
+    for (const char* name : {"scene.yaml", "rig.yaml", "settings.yaml"}) names.emplace_back(name);
+    if (plan.movement) {
+        fs::copy_file(plan.movement->file, folder.file("movement.csv"));
+        names.emplace_back("movement.csv");
+        write_csv(fault_table(*plan.movement), folder.file("movement-faults.csv"));
+    }
+    if (plan.task) {
+        write_file(to_yaml(write_fields(plan.task->task)), folder.file("task.yaml"));
+        write_csv(task::frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
+        names.insert(names.end(), {"task.yaml", "trial-list.csv"});
+        if (!plan.task->task.procedures.empty())
+            write_csv(task::procedure_table(*plan.task), folder.file("procedures.csv"));
+    }
+    if (!plan.person.empty()) {
+        write_file(plan.person, folder.file("person.yaml"));
+        names.emplace_back("person.yaml");
+    }
+    if (!plan.resumes.empty())
+        fs::copy_file(plan.resumes + "/trials.csv", folder.file("trials-before.csv"));
+    std::vector<recording::InputFile> inputs;
+    inputs.reserve(names.size());
+    for (const std::string& name : names) inputs.push_back(folder.input(name));
+    return inputs;
+}
+
+}  // namespace dihaptic::session

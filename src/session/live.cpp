@@ -1,0 +1,96 @@
+#include "session/live.h"
+
+#include <cmath>
+#include <type_traits>
+
+namespace dihaptic::session {
+
+void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
+    for (servo::Frame& value : frame.values()) servo.reserve(value);
+    object_ = scene.object_index();
+    clearance_ = task::Clearance(scene);
+    changeable_ = servo.settings().proxy.changeable;
+}
+
+/// Every tick is somewhat late, so the earliest zero is the best estimate. A pause, in which
+/// session time stands still, moves the zero.
+void Live::note_zero(Time now) noexcept {
+    constexpr Clock::rep kPause = std::chrono::nanoseconds(std::chrono::milliseconds(50)).count();
+    const Clock::rep zero = (Clock::now().time_since_epoch() - now).count();
+    const Clock::rep before = zero_.load(std::memory_order_relaxed);
+    if (zero < before || zero - before > kPause) zero_.store(zero, std::memory_order_relaxed);
+}
+
+void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
+    const Clock::rep zero = zero_.load(std::memory_order_relaxed);
+    const Time since = at.time_since_epoch() - Clock::duration(zero);
+    showings_.push({tick, seconds(since)});
+}
+
+void Live::show(const servo::Frame& now) noexcept {
+    note_zero(now.time);
+    if (now.sequence == 0 || now.time - shown_ >= kInterval) {
+        shown_ = now.time;
+        frame.publish(now);
+    }
+    if (now.sequence > 0 && now.time - sampled_ < kCurveInterval) return;
+    sampled_ = now.time;
+    CurveSample sample;
+    sample.time = seconds(now.time);
+    sample.grip_force = now.grip_force;
+    sample.load_force = now.load_force;
+    for (size_t i = 0; i < now.fingers.size() && i < CurveSample::kFingers; ++i) {
+        sample.forces[i] = now.fingers[i].f_sent_W.norm();
+        sample.heights[i] = now.fingers[i].p_WH.z();
+    }
+    if (object_ >= 0) sample.object_height = now.bodies[static_cast<size_t>(object_)].X_WB.p.z();
+    samples_.push(sample);
+}
+
+void Live::turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept {
+    using servo::Knobs;
+    const std::optional<Knobs>& wanted = knobs.read();
+    if (!wanted) return;
+    bool anew = false;
+    Knobs::visit([&](auto knob, const servo::Knob& is) {
+        anew = anew || (is.eased && !Knobs::same(goal_.*knob, (*wanted).*knob));
+    });
+    goal_ = *wanted;
+    if (anew) left_ = kEase;
+    // this share of the remaining change in each tick gives a straight line that ends on time
+    const double share = left_ > h ? h / left_ : 1;
+    left_ = std::max(0.0, left_ - h);
+    Knobs next = goal_;
+    Knobs::visit([&]<class T>(T Knobs::*knob, const servo::Knob& is) {
+        if constexpr (std::is_same_v<T, double>) {
+            const double eased = now.*knob + share * (goal_.*knob - now.*knob);
+            if (is.eased && share < 1 && !std::isnan(eased)) next.*knob = eased;
+        }
+    });
+    const bool may_change = changeable_ && last.sequence >= 0;
+    if (next.proxy != now.proxy && !(may_change && clearance_.all_clear(last)))
+        next.proxy = now.proxy;
+    next.workspace_rate = servo::WorkspaceTurn::rate_toward(
+        goal_.workspace_turn, last.workspace_turn + h * last.workspace_rate);
+    now = next;
+}
+
+double Live::abandoned() const noexcept {
+    const Clock::rep last = alive_.load(std::memory_order_relaxed);
+    if (last == kNever) return 0;
+    const double silence = seconds(Clock::now().time_since_epoch() - Clock::duration(last));
+    return silence > kLongestSilence ? silence : 0;
+}
+
+void Live::tell(const std::string& why) {
+    const std::lock_guard lock(told_guard_);
+    told_ = why;
+    paused = true;
+}
+
+std::string Live::take_told() {
+    const std::lock_guard lock(told_guard_);
+    return std::exchange(told_, "");
+}
+
+}  // namespace dihaptic::session

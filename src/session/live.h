@@ -1,0 +1,108 @@
+// The link between a running session and the thread that watches and steers it, e.g. a window.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "base/latest.h"
+#include "base/ring.h"
+#include "recording/showings.h"
+#include "servo/servo.h"
+#include "task/clearance.h"
+
+namespace dihaptic::session {
+
+/// One sample of the curves. Samples also come from frames that a slow screen never shows.
+struct CurveSample {
+    static constexpr size_t kFingers = 8;  ///< further fingers have no curve
+
+    double time = 0;                         ///< [s]
+    double grip_force = 0;                   ///< [N]
+    double load_force = 0;                   ///< [N]
+    std::array<double, kFingers> forces{};   ///< force sent to the handle, by finger [N]
+    std::array<double, kFingers> heights{};  ///< height of the handle, by finger [m]
+    double object_height = kUnmeasured;      ///< height of the object's origin [m]
+};
+
+struct Live {
+    /// Shortest time between frames handed over: a screen shows no more.
+    static constexpr Time kInterval = std::chrono::milliseconds(4);
+    /// Shortest time between samples of the curves.
+    static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
+
+    Latest<servo::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
+    /// While set, time stands still and no force acts, from the next tick on. A trial that a pause
+    /// interrupts begins anew.
+    std::atomic<bool> paused{false};
+    std::atomic<bool> ended{false};  ///< asks the session to end in an orderly way
+    std::atomic<bool> skip{false};   ///< asks the running trial to end in the next tick
+    std::atomic<double> done{0};     ///< share of the trials that are over
+    /// Knobs to reach; unset: those of the session stay. Some ease toward it, so that what is held
+    /// stays held. Another kind of proxy is taken, if settings.proxy.changeable, once all fingers
+    /// are clear of all bodies, so that no finger lets go of what it holds or pushes away what it
+    /// overlaps. The workspaces turn to the angle; the rate follows from it.
+    Latest<std::optional<servo::Knobs>> knobs;
+    static constexpr double kEase = 0.2;  // [s]
+
+    Live() {
+        for (servo::Frame& value : frame.values()) value.sequence = -1;
+    }
+    /// Call before the first tick: reserves memory for the frames of this servo and scene.
+    void prepare(const servo::Servo& servo, const scene::Scene& scene);
+    /// In the tick: hands over a frame and a sample when they are due.
+    void show(const servo::Frame& now) noexcept;
+    /// In the tick of h [s]: turns `now`, the knobs ordered last, toward those to reach.
+    void turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept;
+    /// The oldest sample not yet taken.
+    std::optional<CurveSample> take_sample() { return samples_.pop(); }
+
+    using Clock = std::chrono::steady_clock;
+    /// The watching thread may hang, and with it every key that switches force off. After its first
+    /// call it must keep calling this: force is switched off when a call is more than
+    /// kLongestSilence overdue, or, for this one time, more than kLongestSilence + `more` [s].
+    void note_alive(double more = 0) noexcept {
+        const Clock::time_point last = Clock::now() + from_seconds(more);
+        alive_.store(last.time_since_epoch().count(), std::memory_order_relaxed);
+    }
+    static constexpr double kLongestSilence = 1;  // [s]
+    /// In the tick: how long the watching thread has been silent, if that is too long; otherwise 0
+    /// [s].
+    double abandoned() const noexcept;
+
+    /// From the session's thread: tells why it paused by itself, and what to do. Sets `paused`; the
+    /// session goes on when the watching thread clears it.
+    void tell(const std::string& why);
+    /// What tell() said since the last call; "" if nothing.
+    std::string take_told();
+
+    /// From the window's thread: the picture of a tick was handed to the screen at `at`.
+    void note_shown(int64_t tick, Clock::time_point at) noexcept;
+    /// From one other thread: the oldest showing not yet taken.
+    std::optional<recording::Showing> take_showing() { return showings_.pop(); }
+
+  private:
+    void note_zero(Time now) noexcept;
+
+    static constexpr Clock::rep kNever = 0;
+    std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive(), plus its `more`
+
+    std::mutex told_guard_;
+    std::string told_;
+
+    std::atomic<Clock::rep> zero_{
+        std::numeric_limits<Clock::rep>::max()};    // of the session's clock
+    ValueRing<recording::Showing> showings_{4000};  // a minute's worth
+    ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
+    int object_ = -1;
+    task::Clearance clearance_;
+    bool changeable_ = false;  // the kind of the proxies
+    servo::Knobs goal_;        // newest of `knobs`
+    double left_ = 0;          // time until goal_ is reached [s]
+    Time shown_{0};
+    Time sampled_{0};
+};
+
+}  // namespace dihaptic::session

@@ -1,0 +1,40 @@
+// Fits a recorded movement to a scene: moves its grasp to where the block stands, and turns and
+// sizes the block so that the fingers reach its faces as they reached the recorded object.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hand/recorded.h"
+#include "scene/scene.h"
+#include "task/experiment.h"
+
+namespace dihaptic::session {
+
+/// What place_movement() found in a recorded movement.
+struct MovementReport {
+    std::string file;
+    std::vector<hand::Fault> faults;
+    std::vector<std::string> fingers;
+    double duration = 0;  ///< [s]
+    double bridged_share = 0;
+    hand::GraspSite site;
+    double block_width = 0;  ///< width of the block along the grasp [m]
+};
+
+constexpr const char* kNoGrasp =
+    "no grasp was found: the fingers never open, close and rest away from their start";
+
+/// Warns when so much of the path is bridged that it says little about the hand.
+void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics);
+
+/// Reads and repairs the movement, finds its grasp, turns and sizes the block of the scene, and
+/// turns the fingers' proxies to face it. Returns the driver, or null with errors in `diagnostics`.
+/// `asked_at`: where the experiment asks for the movement, for messages.
+std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spec,
+                                                   const std::string& file, const Place& asked_at,
+                                                   scene::Scene& scene,
+                                                   std::optional<MovementReport>& report,
+                                                   Diagnostics& diagnostics);
+
+}  // namespace dihaptic::session

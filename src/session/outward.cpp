@@ -1,0 +1,37 @@
+#include "session/outward.h"
+
+#include <fmt/format.h>
+
+namespace dihaptic::session {
+namespace {
+
+outlets::About about(const Plan& plan, const std::string& session) {
+    outlets::About out{session, 1 / plan.settings.tick(), {}};
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        for (const auto& [what, unit] : {std::pair("position", "m"), std::pair("force", "N")}) {
+            for (const char* axis : {"x", "y", "z"})
+                out.channels.push_back({fmt::format("{}_{}_{}", finger.name, what, axis), unit});
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+Outward::Outward(const Plan& plan, const std::string& session)
+    : station_(plan.rig.outlets, about(plan, session)) {
+    if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
+}
+
+void Outward::send(const servo::Frame& frame) noexcept {
+    for (size_t i = 0; i < values_.size() / 6; ++i) {
+        const servo::FingerFrame& finger = frame.fingers[i];
+        for (int k = 0; k < 3; ++k) {
+            values_[6 * i + static_cast<size_t>(k)] = static_cast<float>(finger.p_WH[k]);
+            values_[6 * i + 3 + static_cast<size_t>(k)] = static_cast<float>(finger.f_sent_W[k]);
+        }
+    }
+    station_.send(frame.task.marker, values_);
+}
+
+}  // namespace dihaptic::session

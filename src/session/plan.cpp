@@ -1,0 +1,438 @@
+#include "session/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <climits>
+#include <filesystem>
+
+#include "base/field_writer.h"
+#include "base/regular_file.h"
+#include "base/table.h"
+#include "base/text_file.h"
+#include "person/person.h"
+#include "person/simulated_limits.h"
+#include "session/plan_checks.h"
+#include "session/safety_limits.h"
+#include "task/task_director.h"
+#include "task/task_hand.h"
+
+namespace dihaptic::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string beside(const std::string& file, const std::string& named) {
+    if (fs::path(named).is_absolute()) return named;
+    return (fs::path(file).parent_path() / named).lexically_normal().string();
+}
+
+/// Turns "coupling.stiffness_N_m=600" into the mapping that a file would have.
+Node setting(const std::string& text) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+        throw Error({"--set", 0}, text, "has no value", "Write --set coupling.stiffness_N_m=600.");
+    }
+    std::string path = text.substr(0, equals);
+    Node value;
+    try {
+        value = parse_yaml(text.substr(equals + 1), "command line");
+    } catch (const Error&) {
+        throw Error({"--set", 0}, text, "its value cannot be read",
+                    "Write --set coupling.stiffness_N_m=600.");
+    }
+    for (size_t dot = path.rfind('.');; dot = path.rfind('.')) {
+        value.place = {"command line", 0};
+        Node outer = Node::mapping();
+        outer.place = value.place;
+        outer.set(dot == std::string::npos ? path : path.substr(dot + 1), value);
+        value = std::move(outer);
+        if (dot == std::string::npos) return value;
+        path.resize(dot);
+    }
+}
+
+void overlay(Plan& plan, const Node& settings, Diagnostics& diagnostics) {
+    read_given_fields(plan.settings, settings, diagnostics, &plan.origins);
+}
+
+/// Reads the experiment; for a scene file, returns an empty one. Throws Error.
+task::Experiment experiment_of(const std::string& file, Diagnostics& diagnostics) {
+    const task::FileKind kind = task::kind_of(file);
+    if (kind == task::FileKind::scene) return {};
+    if (kind != task::FileKind::experiment) {
+        throw Error({file, 0}, "", "is neither a scene nor an experiment",
+                    "A scene has 'bodies:', an experiment has 'scene:'.");
+    }
+    task::Experiment experiment = task::read_experiment(file, diagnostics);
+    diagnostics.throw_if_errors();
+    return experiment;
+}
+
+void plan_scene(Plan& plan, const Request& request, const task::Experiment& experiment,
+                Diagnostics& diagnostics) {
+    const std::string file =
+        experiment.scene.empty() ? plan.file : beside(plan.file, experiment.scene);
+    plan.scene_folder = fs::path(file).parent_path().string();
+    plan.scene = scene::read_scene(file, diagnostics, request.stop);
+    diagnostics.throw_if_errors();
+    plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
+    plan.study = experiment.study;
+}
+
+/// Path of the rig file; "" stands for ideal simulated devices.
+std::string rig_file(const Request& request, const task::Experiment& experiment) {
+    if (!request.rig.empty()) return request.rig;
+    return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
+}
+
+void plan_rig(Plan& plan, const Request& request, const task::Experiment& experiment,
+              Diagnostics& diagnostics) {
+    if (const std::string file = rig_file(request, experiment); !file.empty()) {
+        plan.rig = rig::read_rig(file, diagnostics);
+    } else {
+        // a mouse can turn the hand, which is felt only if orientation is measured
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
+    }
+    rig::check_age(plan.rig, recording::iso_now(), diagnostics);
+    const auto other = [](const rig::Device& device) { return device.backend != "simulated"; };
+    if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), other)) {
+        diagnostics.warning(plan.rig.place, "devices", "are not simulated: ideal ones stand in",
+                            "Rehearse on devices like them by --rig, or rig: another file.");
+        plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
+    }
+}
+
+/// Overlays the settings of scene, rig, experiment and command line, in this order; the later wins.
+void plan_settings(Plan& plan, const Request& request, const task::Experiment& experiment,
+                   Diagnostics& diagnostics) {
+    overlay(plan, plan.scene.settings, diagnostics);
+    overlay(plan, plan.rig.settings, diagnostics);
+    overlay(plan, experiment.settings, diagnostics);
+    std::vector<Node> typed;
+    for (const std::string& text : request.set) typed.push_back(setting(text));
+    for (const Node& one : typed) overlay(plan, one, diagnostics);
+    SafetySources safety{plan.rig.settings, {&plan.scene.settings, &experiment.settings}};
+    for (const Node& one : typed) safety.others.push_back(&one);
+    limit_safety(plan, safety, diagnostics);
+}
+
+/// Path of the movement file; "" if there is none.
+std::string movement_file(const Request& request, const task::Experiment& experiment) {
+    if (!request.movement.empty()) return request.movement;
+    if (!experiment.movement || experiment.movement->file.empty()) return "";
+    return beside(request.file, experiment.movement->file);
+}
+
+void check_use_of_movement(const Plan& plan, const Request& request,
+                           const task::Experiment& experiment, Diagnostics& diagnostics) {
+    if (!experiment.movement) {
+        if (request.movement.empty()) return;
+        throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
+                    "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
+    }
+    const Place& place = experiment.movement->place;
+    if (rig::is_real(plan.rig)) {
+        diagnostics.error(place, "movement",
+                          "moves simulated fingers, and this rig's devices are real",
+                          "Choose another rig: --rig rigs/premium-pair.yaml.");
+    }
+    if (experiment.task) {
+        diagnostics.error(place, "movement",
+                          "a task's hand follows its states, not a recorded movement",
+                          "Leave out movement, or task.");
+    }
+}
+
+/// The trials, and the hand that does them.
+void plan_trials(Plan& plan, const task::Task& task, const Request& request,
+                 Diagnostics& diagnostics) {
+    auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
+    const int number = request.order_number.value_or(task::participant_number(request.participant));
+    if (task::needs_number(task) && number < 0) {
+        diagnostics.error(
+            task.place, "participant",
+            request.participant.empty()
+                ? "the order of the trials depends on the participant's number"
+                : fmt::format("'{}' ends in no number, and the order of the trials depends on it",
+                              request.participant),
+            "Add e.g. --participant S07.");
+    }
+    diagnostics.throw_if_errors();
+    made->trials = task::make_trials(task, number, request.seed);
+    plan.task = made;
+}
+
+/// Driver for a person at real devices: one phase, as long as a session may be.
+std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
+    hand::HandSpec hand;
+    hand.centre = plan.hand.centre;
+    hand.script = {{"person", hand::kLongestScript, {}, Vec3::Zero(), false}};
+    return std::make_shared<hand::ScriptDriver>(hand, scene::finger_names(plan.scene));
+}
+
+/// Sets the driver. For a simulated person this is the file's hand, which the caller replaces.
+void seat_mover(Plan& plan, recording::Mover mover) {
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (mover == recording::Mover::devices) {
+        plan.driver = person_at_devices(plan);
+    } else if (mover == recording::Mover::mouse) {
+        plan.mouse = std::make_shared<hand::MouseDriver>(plan.hand, fingers);
+        plan.driver = plan.mouse;
+    } else {
+        plan.seeing = std::make_shared<task::TaskHand>(plan.task, plan.hand, fingers);
+        plan.driver = plan.seeing;
+    }
+    plan.moved_by.mover = mover;
+}
+
+/// Chooses what moves the hand, from the rig, the request and the files.
+void plan_driver(Plan& plan, const Request& request, const task::Experiment& experiment,
+                 Diagnostics& diagnostics) {
+    const std::string movement = movement_file(request, experiment);
+    if (rig::is_real(plan.rig)) {
+        seat_mover(plan, recording::Mover::devices);
+    } else if (request.mouse) {
+        seat_mover(plan, recording::Mover::mouse);
+    } else if (plan.task) {
+        seat_mover(plan, recording::Mover::script);
+    } else if (!movement.empty()) {
+        plan.moved_by.mover = recording::Mover::recorded_movement;
+        plan.driver = place_movement(*experiment.movement, movement, experiment.movement->place,
+                                     plan.scene, plan.movement, diagnostics);
+        diagnostics.throw_if_errors();
+    } else {
+        plan.driver =
+            std::make_shared<hand::ScriptDriver>(plan.hand, scene::finger_names(plan.scene));
+        plan.moved_by.mover = recording::Mover::script;
+    }
+}
+
+devices::Context context_of(const Plan& plan) {
+    devices::Context context;
+    context.tick = plan.settings.tick();
+    context.driver = plan.driver.get();
+    context.impedance = plan.hand.impedance;
+    context.tremor = plan.hand.tremor;
+    context.seed = plan.seed;
+    return context;
+}
+
+/// Checks the plan by what its rig says of the devices; opens none.
+void check_by_description(Plan& plan, Diagnostics& diagnostics) {
+    plan.devices = rig::describe(plan.rig, scene::finger_names(plan.scene), context_of(plan));
+    check_plan(plan, diagnostics);
+    plan.warnings = diagnostics.problems();
+}
+
+}  // namespace
+
+bool on_real_devices(const Request& request) {
+    if (request.simulate) return false;
+    Diagnostics ignored;
+    try {
+        task::Experiment experiment;
+        if (task::kind_of(request.file) == task::FileKind::experiment)
+            experiment = task::read_experiment(request.file, ignored);
+        const std::string file = rig_file(request, experiment);
+        return !file.empty() && rig::is_real(rig::read_rig(file, ignored));
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+Plan make_plan(const Request& request) {
+    Plan plan;
+    plan.file = request.file;
+    plan.seed = request.seed;
+    Diagnostics diagnostics;
+    const task::Experiment experiment = experiment_of(request.file, diagnostics);
+    plan_scene(plan, request, experiment, diagnostics);
+    plan_rig(plan, request, experiment, diagnostics);
+    plan_settings(plan, request, experiment, diagnostics);
+    read_given_fields(plan.hand, plan.scene.hand, diagnostics);
+    if (experiment.hand) plan.hand = *experiment.hand;
+    diagnostics.throw_if_errors();
+    check_use_of_movement(plan, request, experiment, diagnostics);
+    if (experiment.task) plan_trials(plan, *experiment.task, request, diagnostics);
+    diagnostics.throw_if_errors();
+    plan_driver(plan, request, experiment, diagnostics);
+    check_by_description(plan, diagnostics);
+    return plan;
+}
+
+void sit_down(Plan& plan, const person::Traits& traits) {
+    for (const Problem& limit : person::simulated_limits(*plan.task))
+        plan.warnings.push_back(limit);
+    plan.person = to_yaml(write_fields(traits));
+    plan.seeing = std::make_shared<person::Person>(
+        traits,
+        person::Situation{plan.task, plan.scene, plan.hand, plan.settings.tick(), plan.seed});
+    plan.driver = plan.seeing;
+    plan.moved_by = {
+        recording::Mover::simulated_person, recording::program_version(),
+        traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,
+        std::to_string(plan.seed)};
+}
+
+namespace {
+
+/// Reads the attempts from trials.csv, which has a row for each in the order they were made.
+std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file) {
+    const auto bad = [&](const char* what) {
+        return Error({file, 0}, "", what,
+                     "Make it anew from raw.log: dihaptic recover, on the session's folder.");
+    };
+    const std::string text = read_bytes(file, kMostTable);
+    if (text.empty()) throw bad("is empty");
+    if (!text.ends_with('\n')) throw bad("is cut off in its last line");
+    const CsvFile trials(file);
+    if (!trials.has("outcome")) throw bad("has no column 'outcome'");
+    std::vector<task::Attempt> out;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const double trial = trials.number(i, "trial_num");
+        const double attempt = trials.number(i, "attempt");
+        const auto all = static_cast<double>(plan.trials.size());
+        if (!(trial >= 1 && trial <= all && attempt >= 1 && attempt < INT_MAX))
+            throw bad("has a row without a trial of the session's, or its attempt");
+        const std::string outcome = trials.text(i, "outcome");
+        const auto same = [&](const task::TaskPlan::Outcome& o) { return o.name == outcome; };
+        const auto found = std::find_if(plan.outcomes.begin(), plan.outcomes.end(), same);
+        out.push_back(
+            {static_cast<int>(trial) - 1, static_cast<int>(attempt),
+             found == plan.outcomes.end() ? -1 : static_cast<int>(found - plan.outcomes.begin())});
+    }
+    return out;
+}
+
+/// What moved the hand of a session; throws Error if it cannot do so again. Earlier versions did
+/// not record it, but only a person holds real devices, and only a simulated person has its own
+/// file.
+recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
+                          const recording::SessionFolder& folder, Seat seat) {
+    using recording::Mover;
+    Mover mover = info.moved_by.mover;
+    if (mover == Mover::not_recorded && rig::is_real(plan.rig)) mover = Mover::devices;
+    if (mover == Mover::not_recorded && is_there(folder.file("person.yaml")))
+        mover = Mover::simulated_person;
+    const std::string file = folder.file("session.yaml");
+    if (mover == Mover::not_recorded) {
+        throw Error({file, 0}, "moved_by",
+                    "does not say whether a mouse or the file's script moved the hand, and the "
+                    "trials of the two must not be mixed",
+                    "If you know it, add it to that file: 'moved_by: { mover: mouse }', or script. "
+                    "Else run the experiment again.");
+    }
+    if (mover == Mover::mouse && seat == Seat::terminal) {
+        throw Error({file, 0}, "moved_by",
+                    "says that a person moved the hand by mouse, and here is none: a script's "
+                    "trials would stand under this participant's name",
+                    "Go on in the window: dihaptic gui.");
+    }
+    if ((mover == Mover::devices) != rig::is_real(plan.rig)) {
+        throw Error({file, 0}, "moved_by",
+                    fmt::format("says {}, and the rig's devices are {}", enum_name(mover),
+                                rig::is_real(plan.rig) ? "real" : "simulated"),
+                    "Put back the session.yaml, or the rig.yaml, of this session.");
+    }
+    return mover;
+}
+
+/// The plan of a session from its own files, with how each of its attempts ended.
+Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
+                 Diagnostics& diagnostics) {
+    if (!is_there(folder.file("task.yaml"))) {
+        throw Error({folder.path(), 0}, "", "has no trials that could go on",
+                    "Run the experiment again; dihaptic recover makes the files of what there is.");
+    }
+    diagnostics.add(folder.changed(info.inputs, Severity::error));
+    diagnostics.throw_if_errors();
+    Plan plan;
+    plan.file = info.experiment;
+    plan.title = info.title;
+    plan.study = info.study;
+    plan.seed = folder.seed_of(info);
+    plan.resumes = folder.path();
+    plan.scene_folder = folder.path();
+    plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    plan.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    overlay(plan, read_yaml(folder.file("settings.yaml")), diagnostics);
+    read_given_fields(plan.hand, plan.scene.hand, diagnostics);
+    task::Task task;
+    read_fields(task, read_yaml(folder.file("task.yaml")), diagnostics);
+    diagnostics.throw_if_errors();
+    auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
+    diagnostics.throw_if_errors();
+    made->trials = task::read_trial_list(task, folder.file("trial-list.csv"));
+    plan.task = made;
+    plan.done = attempts_made(*made, folder.file("trials.csv"));
+    return plan;
+}
+
+bool any_left(const Plan& plan) {
+    return task::TaskDirector(*plan.task, plan.seed, plan.settings.tick(), plan.done).share() < 1;
+}
+
+}  // namespace
+
+bool trials_left(const std::string& session) {
+    const auto folder = recording::SessionFolder::open(session);
+    Diagnostics diagnostics;
+    return any_left(frozen_plan(folder, folder.read_info(), diagnostics));
+}
+
+Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info) {
+    const auto folder = recording::SessionFolder::open(session);
+    info = folder.read_info();
+    Diagnostics diagnostics;
+    Plan plan = frozen_plan(folder, info, diagnostics);
+    if (!any_left(plan)) {
+        throw Error({session, 0}, "", "is complete: every trial is done",
+                    "Run the experiment again for another session.");
+    }
+    seat_mover(plan, mover_of(info, plan, folder, seat));
+    check_by_description(plan, diagnostics);
+    return plan;
+}
+
+void apply_setting(servo::Settings& settings, const std::string& text) {
+    Diagnostics diagnostics;
+    read_fields(settings, setting(text), diagnostics);
+    if (settings.coupling.stiffness_share || settings.coupling.damping_share) {
+        diagnostics.error({"--set", 0}, text, "is a share of what a device renders at most",
+                          "Here is no device that says so: write coupling.stiffness_N_m or "
+                          "coupling.damping_Ns_m.");
+    }
+    diagnostics.throw_if_errors();
+}
+
+std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper) {
+    std::optional<keeper::Keeping> keeping;
+    if (!keeper.empty()) {
+        // one tick more than the servo allows itself, as in its own watchdog
+        const double silence = plan.settings.safety.max_pause + plan.settings.tick();
+        keeping = {keeper, silence, plan.settings.real_time_priority};
+    }
+    auto out =
+        rig::make_devices(plan.rig, scene::finger_names(plan.scene), context_of(plan), keeping);
+    if (out->descriptions() == plan.devices) return out;
+    plan.devices = out->descriptions();
+    Diagnostics diagnostics;
+    check_devices(plan, diagnostics);
+    for (const Problem& problem : diagnostics.problems()) {
+        const auto same = [&](const Problem& old) { return old.text() == problem.text(); };
+        if (std::none_of(plan.warnings.begin(), plan.warnings.end(), same))
+            plan.warnings.push_back(problem);
+    }
+    return out;
+}
+
+std::unique_ptr<servo::Servo> make_servo(const Plan& plan,
+                                         std::unique_ptr<devices::DeviceGroup> devices) {
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (devices == nullptr) devices = rig::make_devices(plan.rig, fingers, context_of(plan));
+    return std::make_unique<servo::Servo>(plan.scene, plan.settings, std::move(devices),
+                                          rig::poses(plan.rig, fingers), rig::wall_box(plan.rig));
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,429 @@
+#include "session/plan_checks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "model/grasp.h"
+
+namespace dihaptic::session {
+namespace {
+
+/// Where a setting was given, for messages.
+Place place_of(const Plan& plan, const std::string& setting) {
+    const auto origin = plan.origins.find(setting);
+    return {origin == plan.origins.end() ? "" : origin->second, 0};
+}
+
+/// Whether a device has said what it can do, or its rig all that there is to say.
+bool is_known(const devices::DeviceInfo& info) {
+    return std::isfinite(info.peak_force);
+}
+
+/// Converts a share of what the devices render calmly to SI units. The device that renders least
+/// counts, since all fingers have the same coupling. The setting is then as if given in SI units.
+std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity quantity,
+                                 std::optional<double>& share,
+                                 std::optional<double> devices::DeviceInfo::*maximum,
+                                 Diagnostics& diagnostics) {
+    if (!share) return std::nullopt;
+    const std::string setting = "coupling." + name;
+    const std::string origin = place_of(plan, setting + "_share").file;
+    double least = std::numeric_limits<double>::infinity();
+    for (const devices::DeviceInfo& info : plan.devices) {
+        if (!(info.*maximum) && !is_known(info)) return std::nullopt;
+        if (!(info.*maximum)) {
+            diagnostics.error(
+                {origin, 0}, setting + "_share",
+                fmt::format("{} does not say what {} it renders at most", info.model, name),
+                fmt::format("Give coupling: {}, or another rig.", si_key(name, quantity)));
+            return std::nullopt;
+        }
+        least = std::min(least, *(info.*maximum));
+    }
+    plan.origins.erase(setting + "_share");
+    plan.origins[setting] = fmt::format("{} ({:g} of the device's {:g} {})", origin, *share, least,
+                                        si_symbol(quantity));
+    const double value = *share * least;
+    share.reset();
+    return value;
+}
+
+void resolve_shares(Plan& plan, Diagnostics& diagnostics) {
+    haptics::CouplingSettings& coupling = plan.settings.coupling;
+    if (const auto k = of_maximum(plan, "stiffness", Quantity::stiffness, coupling.stiffness_share,
+                                  &devices::DeviceInfo::max_stiffness, diagnostics))
+        coupling.stiffness = *k;
+    if (const auto c = of_maximum(plan, "damping", Quantity::damping, coupling.damping_share,
+                                  &devices::DeviceInfo::max_damping, diagnostics))
+        coupling.damping = *c;
+}
+
+bool is_point(const Plan& plan, const scene::Finger& finger) {
+    return plan.settings.proxy.of(finger) == haptics::ProxyKind::point;
+}
+
+bool any_finger(const Plan& plan, haptics::ProxyKind kind) {
+    return std::any_of(
+        plan.scene.fingers.begin(), plan.scene.fingers.end(),
+        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger) == kind; });
+}
+
+/// Warns of a stiffness that the loop may not hold calmly. The limit is passivity's: below it no
+/// hand makes the loop shake; above it, some do (bench grasp measures how far one can go).
+void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
+    const haptics::CouplingSettings& coupling = plan.settings.coupling;
+    if (coupling.stiffness_share) return;  // of a maximum that is not known yet
+    const double h = plan.settings.step();
+    const Place place = place_of(plan, "coupling.stiffness");
+    for (const devices::DeviceInfo& info : plan.devices) {
+        if (info.damping <= 0) continue;
+        const double limit =
+            model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
+        if (coupling.stiffness <= limit) continue;
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), up to which the hand's damping of "
+                        "{:g} N*s/m surely keeps {} calm",
+                        coupling.stiffness, limit, info.damping, info.model),
+            "It may be calm above too, as in bench grasp, or shake: look at the forces, or lower "
+            "it.");
+        break;
+    }
+    for (const devices::DeviceInfo& info : plan.devices) {
+        if (info.peak_torque <= 0 || info.turn_damping <= 0) continue;
+        const double limit =
+            model::passive_stiffness(info.turn_damping, plan.settings.tick() + 2 * info.delay);
+        if (coupling.turn_stiffness <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.turn_stiffness"), "coupling.turn_stiffness",
+            fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), up to which the hand's "
+                        "damping of {:g} N*m*s/rad surely keeps {} calm",
+                        coupling.turn_stiffness, limit, info.turn_damping, info.model),
+            "Lower it, or look at the torques.");
+        break;
+    }
+    const double explicit_limit = coupling.body_mass / (h * h);
+    if (coupling.kind == haptics::CouplingKind::dual_spring &&
+        any_finger(plan, haptics::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
+        diagnostics.warning(
+            place, "coupling.stiffness",
+            fmt::format(
+                "{:g} N/m is more than an explicit spring can hold with a proxy of {:g} g: about "
+                "{:.0f} N/m (m / h^2)",
+                coupling.stiffness, coupling.body_mass * 1e3, explicit_limit),
+            "Lower it, raise coupling: body_mass_g, or use coupling: kind: implicit.");
+    }
+}
+
+/// Warns of too much damping. A damper that takes more than the handle's momentum in a tick throws
+/// the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
+void check_damping(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.settings.coupling.damping) return;
+    for (const devices::DeviceInfo& info : plan.devices) {
+        const double limit = 2 * info.mass / (plan.settings.tick() + 2 * info.delay);
+        if (info.mass <= 0 || *plan.settings.coupling.damping <= limit) continue;
+        diagnostics.warning(
+            place_of(plan, "coupling.damping"), "coupling.damping",
+            fmt::format("{:g} N*s/m is more than a handle of {:g} g can bear: about {:.0f} N*s/m "
+                        "(2 m / T)",
+                        *plan.settings.coupling.damping, info.mass * 1e3, limit),
+            "Lower it, or leave it out: k h / 2 follows the stiffness.");
+        break;
+    }
+}
+
+/// Warns of settings that a point proxy has no use for.
+void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
+    if (!any_finger(plan, haptics::ProxyKind::point)) return;
+    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit &&
+        !any_finger(plan, haptics::ProxyKind::rigid)) {
+        diagnostics.warning(
+            place_of(plan, "coupling.kind"), "coupling.kind",
+            fmt::format("{} ties handles to rigid proxies; these proxies are points",
+                        enum_name(plan.settings.coupling.kind)),
+            "Leave it out, or use proxy: kind: rigid.");
+    }
+    if (plan.settings.proxy.friction == haptics::PointFriction::together) return;
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
+        diagnostics.warning(finger.place, "torsion_radius",
+                            "where its friction is apart from the dynamics, a point carries no "
+                            "moment about a contact's normal",
+                            "Leave it out, or use proxy: friction: together.");
+    }
+}
+
+/// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
+void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
+    const std::string& finger = plan.settings.safety.dead_man_finger;
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (finger.empty() || std::find(fingers.begin(), fingers.end(), finger) != fingers.end())
+        return;
+    diagnostics.error(place_of(plan, "safety.dead_man_finger"), "safety.dead_man_finger",
+                      fmt::format("the scene has no finger '{}'", finger),
+                      fmt::format("Name one of {}, whose device has the switch, or leave it out.",
+                                  fmt::join(fingers, ", ")));
+}
+
+/// Warns of a force limit above a device's own peak, which then is the limit that holds.
+void check_limits(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.settings.safety.max_force) return;
+    for (const devices::DeviceInfo& info : plan.devices) {
+        const double peak = info.peak_force / info.scale;  // force in the hand
+        if (*plan.settings.safety.max_force <= peak) continue;
+        diagnostics.warning(place_of(plan, "safety.max_force"), "safety.max_force",
+                            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
+                                        *plan.settings.safety.max_force, info.model, peak),
+                            "The device's peak holds: lower it, or leave it out.");
+        break;
+    }
+}
+
+/// Warns of soft bodies and fingers whose torsion radius the chosen solver ignores.
+void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
+    if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
+    const bool apart = plan.settings.proxy.friction == haptics::PointFriction::apart;
+    std::string soft;
+    const auto look = [&](const auto& item) {
+        if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
+    };
+    for (const scene::Body& body : plan.scene.bodies) look(body);
+    for (const scene::Finger& finger : plan.scene.fingers) {
+        if (!(apart && is_point(plan, finger))) look(finger);
+    }
+    if (soft.empty()) return;
+    diagnostics.warning(
+        place_of(plan, "dynamics.solver"), "dynamics.solver",
+        fmt::format("sequential_impulse takes no notice of torsion radii: contacts of {} carry no "
+                    "moment about their normal",
+                    soft),
+        "Use newton, staggered_projections or stewart_trinkle, or leave out torsion_radius_mm.");
+}
+
+void check_grip(const Plan& plan, Diagnostics& diagnostics) {
+    const int object = plan.scene.object_index();
+    if (object < 0 || plan.scene.fingers.size() < 2) return;
+    const double weight =
+        scene::mass(plan.scene.bodies[static_cast<size_t>(object)]) * plan.scene.gravity.norm();
+    double force = 0;
+    for (const devices::DeviceInfo& info : plan.devices) force += info.peak_force;
+    if (weight <= force) return;
+    diagnostics.warning(
+        plan.scene.bodies[static_cast<size_t>(object)].place,
+        plan.scene.bodies[static_cast<size_t>(object)].name,
+        fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
+        "Make it lighter: it cannot be felt as it is.");
+}
+
+/// An object that the task's trials want lifted, and how heavy and slippery it is there.
+struct Lifting {
+    std::string what;  // in words
+    double weight;     // [N]
+    double friction;   // coefficient with the most slippery finger
+};
+
+std::vector<Lifting> liftings(const Plan& plan) {
+    std::set<std::string> lifted;
+    for (const task::State& state : plan.task->task.states) {
+        for (const task::Exit& exit : state.exits) {
+            if (exit.when == task::When::gripped || exit.when == task::When::lifted)
+                lifted.insert(exit.body);
+        }
+    }
+    std::vector<Lifting> out;
+    std::set<std::string> known;
+    for (const task::Trial& trial : plan.task->trials) {
+        const task::TaskPlan::Cell& cell = plan.task->cell(trial);
+        for (const std::string& name : lifted) {
+            const int index = plan.scene.find(name);
+            const scene::Body& body = plan.scene.bodies[static_cast<size_t>(index)];
+            double weight = scene::mass(body) * plan.scene.gravity.norm();
+            double friction = std::numeric_limits<double>::infinity();
+            for (const scene::Finger& finger : plan.scene.fingers) {
+                friction =
+                    std::min(friction, scene::pair_friction(plan.scene, body.name, body.friction,
+                                                            finger.name, finger.friction));
+            }
+            if (trial.perturb >= 0) {
+                const auto& changed =
+                    cell.perturbations[static_cast<size_t>(trial.perturb)].properties();
+                if (changed && changed->body == index) {
+                    weight *= changed->weight_scale;
+                    friction *= changed->friction_scale;
+                }
+            }
+            const std::string what =
+                fmt::format("{} of {:.0f} g with friction {:.2g}", name,
+                            weight / plan.scene.gravity.norm() * 1e3, friction);
+            if (known.insert(what).second) out.push_back({what, weight, friction});
+        }
+    }
+    std::sort(out.begin(), out.end(), [](const Lifting& a, const Lifting& b) {
+        return std::tie(a.weight, a.friction) < std::tie(b.weight, b.friction);
+    });
+    return out;
+}
+
+/// Warns of objects that two fingers cannot hold with these devices, however hard they pinch.
+void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
+    double peak = std::numeric_limits<double>::infinity();
+    double continuous = peak;
+    for (const devices::DeviceInfo& info : plan.devices) {
+        peak = std::min(peak, info.peak_force);
+        continuous = std::min(continuous, info.continuous_force);
+    }
+    if (plan.settings.safety.max_force) peak = std::min(peak, *plan.settings.safety.max_force);
+    std::string beyond;
+    std::string for_long;
+    for (const Lifting& lifting : liftings(plan)) {
+        const double force = model::smallest_hold(lifting.weight, lifting.friction);
+        std::string& list = force > peak ? beyond : for_long;
+        if (force <= std::min(peak, continuous)) continue;
+        list += fmt::format("{}{} ({:.1f} N)", list.empty() ? "" : ", ", lifting.what, force);
+    }
+    const auto warn = [&](double limit, const char* gives, const char* then,
+                          const std::string& which) {
+        if (which.empty()) return;
+        diagnostics.warning(
+            plan.task->task.place, "task",
+            fmt::format("takes more of each finger than the {:.1f} N that {} {}, so that it slips "
+                        "{}: {}",
+                        limit, plan.devices.front().model, gives, then, which),
+            "Make it lighter or less slippery, or use a rig with stronger devices.");
+    };
+    warn(peak, "gives at most", "however hard it is pinched", beyond);
+    warn(continuous, "can hold for long", "after some seconds", for_long);
+}
+
+/// Warns of a trial that waits for a trigger when the rig has no line for one.
+void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    for (const outlets::OutletConfig& outlet : plan.rig.outlets) {
+        const outlets::Kind* kind = outlets::find_kind(outlet.kind);
+        if (kind != nullptr && kind->triggers) return;
+    }
+    for (const task::State& state : plan.task->task.states) {
+        for (const task::Exit& exit : state.exits) {
+            if (exit.when != task::When::trigger) continue;
+            diagnostics.warning(exit.place, "when",
+                                "the rig has no line that a trigger could come in on: on the real "
+                                "clock this waits for ever",
+                                "Add to the rig e.g. outlets: [{ kind: serial, options: { port: "
+                                "/dev/ttyUSB0 } }].");
+            return;
+        }
+    }
+}
+
+/// Warns of a field on a handle that the loop cannot hold calmly, by the limits of a coupling's
+/// stiffness and damping.
+void check_fields(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    double stiffness = 0;
+    double damping = 0;
+    int stiffest = 0;
+    int most_damped = 0;
+    for (const task::TaskPlan::Cell& cell : plan.task->cells) {
+        for (const task::Perturbation& perturbation : cell.perturbations) {
+            const auto field = perturbation.on_handle();
+            if (field && field->stiffness > stiffness) {
+                stiffness = field->stiffness;
+                stiffest = field->finger;
+            }
+            if (field && std::abs(field->damping) > damping) {
+                damping = std::abs(field->damping);
+                most_damped = field->finger;
+            }
+        }
+    }
+    const auto period = [&](const devices::DeviceInfo& info) {
+        return plan.settings.tick() + 2 * info.delay;
+    };
+    const devices::DeviceInfo& stiff = plan.devices[static_cast<size_t>(stiffest)];
+    if (const double limit = model::passive_stiffness(stiff.damping, period(stiff));
+        stiff.damping > 0 && stiffness > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "stiffness",
+            fmt::format("a channel of {:g} N/m is above {:.0f} N/m (2 b / T), up to which the "
+                        "hand's damping of {:g} N*s/m surely keeps {} calm",
+                        stiffness, limit, stiff.damping, stiff.model),
+            "Lower it, or look whether the handle shakes.");
+    }
+    const devices::DeviceInfo& damped = plan.devices[static_cast<size_t>(most_damped)];
+    if (const double limit = 2 * damped.mass / period(damped); damped.mass > 0 && damping > limit) {
+        diagnostics.warning(
+            plan.task->task.place, "damping",
+            fmt::format("a field of {:g} N*s/m is more than a handle of {:g} g can bear: about "
+                        "{:.0f} N*s/m (2 m / T)",
+                        damping, damped.mass * 1e3, limit),
+            "Lower it.");
+    }
+}
+
+/// Warns of a wall that is in the wrong place: it would push all the time.
+void check_wall(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.rig.wall) return;
+    const Eigen::AlignedBox3d box = plan.rig.wall->box();
+    const char* const remedy = "See dihaptic workspace for a wall, and an origin, that fit.";
+    if (const int object = plan.scene.object_index(); object >= 0) {
+        const scene::Body& body = plan.scene.bodies[static_cast<size_t>(object)];
+        if (!box.contains(body.position)) {
+            diagnostics.warning(
+                plan.rig.wall->place, "wall",
+                fmt::format("keeps hands from the {}, which lies outside of it", body.name),
+                remedy);
+        }
+    }
+    if (plan.task || plan.open_ended() || plan.driver == nullptr) return;
+    constexpr int kMoments = 200;
+    constexpr double kNear = 5e-3;  // [m]
+    int out = 0;
+    for (int i = 0; i < kMoments; ++i) {
+        const double t = plan.driver->duration() * i / kMoments;
+        for (size_t finger = 0; finger < plan.scene.fingers.size(); ++finger) {
+            const Vec3 p = plan.driver->target(static_cast<int>(finger), t).p_WT;
+            if (box.exteriorDistance(p) > kNear) {
+                ++out;
+                break;
+            }
+        }
+    }
+    if (out == 0) return;
+    diagnostics.warning(
+        plan.rig.wall->place, "wall",
+        fmt::format("pushes the hand back in {:.0f} % of its movement", 100.0 * out / kMoments),
+        remedy);
+}
+
+}  // namespace
+
+void check_devices(Plan& plan, Diagnostics& diagnostics) {
+    resolve_shares(plan, diagnostics);
+    check_stiffness(plan, diagnostics);
+    diagnostics.throw_if_errors();
+    if (!std::all_of(plan.devices.begin(), plan.devices.end(), is_known)) return;
+    check_damping(plan, diagnostics);
+    check_limits(plan, diagnostics);
+    check_grip(plan, diagnostics);
+    check_liftings(plan, diagnostics);
+    check_fields(plan, diagnostics);
+}
+
+void check_plan(Plan& plan, Diagnostics& diagnostics) {
+    check_dead_man(plan, diagnostics);
+    diagnostics.throw_if_errors();
+    check_devices(plan, diagnostics);
+    check_proxy(plan, diagnostics);
+    check_torsion(plan, diagnostics);
+    check_wall(plan, diagnostics);
+    check_triggers(plan, diagnostics);
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,66 @@
+#include "session/record.h"
+
+#include <fmt/format.h>
+
+#include "base/plural.h"
+
+namespace dihaptic::session {
+namespace {
+
+std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan) {
+    std::vector<std::string> out;
+    for (const std::string& what : {session.fault, session.stall}) {
+        if (!what.empty()) out.push_back("WARNING: " + what);
+    }
+    const analysis::SessionFigures& figures = session.figures;
+    uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
+    // that the operator stopped it is the fault that is told already
+    if (figures.ticks_with(servo::kStopped) > 0) told &= ~(servo::kStopped | servo::kForceOff);
+    for_each_status(told, [&](Status bit) {
+        const StatusRow& row = describe(bit);
+        out.push_back(
+            fmt::format("{}: in {} of {} {}{}", bit == servo::kNotFinite ? "WARNING" : "note",
+                        figures.ticks_with(bit), counted(figures.frames, "tick"), row.what,
+                        row.remedy.empty() ? "" : fmt::format(": {}", row.remedy)));
+    });
+    if (session.timing.refusals.any()) {
+        out.push_back("note: " +
+                      servo::describe(session.timing.refusals, plan.settings.real_time_priority));
+    }
+    if (session.dropped > 0) {
+        out.push_back(fmt::format("WARNING: {} could not be recorded: the disk is too slow",
+                                  counted(session.dropped, "frame")));
+    }
+    if (figures.log.left_out > 0)
+        out.push_back("note: " + recording::describe_left_out(figures.log.left_out, figures.tick));
+    return out;
+}
+
+}  // namespace
+
+Recorded record(const Plan& plan, RunOptions options, const std::atomic<bool>& stop,
+                const Progress& running, const Finishing& finishing,
+                std::unique_ptr<devices::DeviceGroup> devices) {
+    std::optional<analysis::SessionReader> reader;
+    if (!options.keep_log) {
+        options.in_place_of_log = [&](const recording::SessionFolder& folder,
+                                      const recording::SessionInfo& info,
+                                      const recording::LogHead& head) -> servo::FrameSink {
+            reader.emplace(folder, info, head);
+            return [&reader](const servo::Frame& frame) { reader->add(frame); };
+        };
+    }
+    Recorded out{run_session(plan, options, stop, running, std::move(devices)), {}, {}};
+    const auto progressed = [&](double share) {
+        if (finishing) finishing(out.folder, share);
+    };
+    progressed(0);
+    const auto folder = recording::SessionFolder::open_tables(out.folder);
+    out.figures = reader ? analysis::finish_tables(folder, out.info, std::move(*reader))
+                         : analysis::finish_session(folder, out.info, progressed);
+    out.lock.reset();
+    out.notes = closing_notes(out, plan);
+    return out;
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,58 @@
+// The director of a session (servo/servo.h): in each tick it orders what the trials want or,
+// without trials, what the phases say, with what the operator, the simulated hand, the triggers and
+// the watching thread add.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session/outward.h"
+#include "session/phase_director.h"
+#include "session/session_run.h"
+#include "session/wait.h"
+#include "task/task_director.h"
+
+namespace dihaptic::session {
+
+class SessionDirector {
+  public:
+    /// Makes everything that the ticks need, since they allocate nothing. What is given must
+    /// outlive the director. `outward`: null if nothing of the session goes out.
+    SessionDirector(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+                    const std::vector<recording::PhaseInfo>& phases, const servo::Servo& servo,
+                    Outward* outward);
+
+    void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                    servo::Commands& commands);
+
+    /// Call between two ticks: a running trial begins anew.
+    void interrupt() {
+        if (task_) task_->interrupt();
+    }
+    /// Share of the trials that are done, from any thread; unset without trials.
+    std::optional<double> share() const noexcept {
+        return task_ ? std::optional(task_->share()) : std::nullopt;
+    }
+    bool trials_left() const noexcept { return share().value_or(1) < 1; }
+    /// The wait that ended the session because it was too long; null if none did.
+    const Wait* endless_wait() const { return wait_ && wait_->over() ? &*wait_ : nullptr; }
+
+  private:
+    void direct_task(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                     servo::Commands& commands);
+    void be_steered(const servo::Frame& last, servo::Commands& commands);
+
+    const Plan& plan_;
+    const RunOptions& options_;
+    const std::atomic<bool>& stop_;
+    const servo::Servo& servo_;
+    Outward* const outward_;
+    Live* const live_;
+    const bool real_;
+    PhaseDirector phases_;
+    std::optional<task::TaskDirector> task_;
+    std::optional<Wait> wait_;
+};
+
+}  // namespace dihaptic::session

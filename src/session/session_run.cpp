@@ -1,0 +1,429 @@
+#include "session/session_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <random>
+#include <thread>
+
+#include "base/field_writer.h"
+#include "base/plural.h"
+#include "session/frozen_inputs.h"
+#include "session/session_director.h"
+
+namespace dihaptic::session {
+namespace {
+
+namespace fs = std::filesystem;
+using Wall = std::chrono::steady_clock;
+
+double since(Wall::time_point begin) {
+    return std::chrono::duration<double>(Wall::now() - begin).count();
+}
+
+/// Longest session: beyond it, a task waits for something that does not come.
+constexpr Time kLongest = std::chrono::hours(12);
+constexpr Time kLongestTimed = std::chrono::hours(1);
+
+std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
+    std::vector<recording::PhaseInfo> out;
+    for (const hand::Driver::Phase& phase : driver.phases())
+        out.push_back({phase.name, phase.start, phase.end});
+    return out;
+}
+
+/// Describes what the session's devices can do, by finger.
+std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
+                                                const scene::Scene& scene) {
+    std::vector<recording::DeviceRecord> out;
+    for (const scene::Finger& finger : scene.fingers)
+        out.push_back({servo.devices().descriptions()[out.size()], finger.name});
+    return out;
+}
+
+recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& settings,
+                            const recording::Setup& setup) {
+    recording::LogHead head;
+    static_cast<recording::Setup&>(head) = setup;
+    head.tick = settings.tick();
+    head.fingers = scene::finger_names(scene);
+    for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
+    return head;
+}
+
+/// On the virtual clock, a session that is run again gives the same file with the same identity,
+/// which is computed from all that the session depends on. On the real clock it is random.
+std::string identity_of(const recording::Setup& setup, const Plan& plan, bool real) {
+    if (real) {
+        std::random_device random;
+        return fmt::format("{:08x}{:08x}", random(), random());
+    }
+    std::string text = to_yaml(write_fields(setup));
+    for (const task::Attempt& done : plan.done)
+        text += fmt::format("{} {} {} ", done.trial, done.attempt, done.outcome);
+    return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
+}
+
+/// Calls `look` about ten times a second from a thread of its own while it lives, and once at the
+/// end.
+class Watcher {
+  public:
+    explicit Watcher(const std::function<void()>& look) {
+        thread_ = std::thread([this, look] {
+            std::unique_lock lock(mutex_);
+            while (!done_) {
+                condition_.wait_for(lock, std::chrono::milliseconds(100));
+                look();
+            }
+        });
+    }
+    ~Watcher() {
+        {
+            const std::lock_guard lock(mutex_);
+            done_ = true;
+        }
+        condition_.notify_all();
+        if (thread_.joinable()) thread_.join();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable condition_;
+    bool done_ = false;
+    std::thread thread_;
+};
+
+/// Waits for the end of a pause and wakes the servo. When its devices cannot be woken, says why and
+/// waits again. Returns false when the session is to end.
+bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
+    while (true) {
+        while (live.paused && !stop && !live.ended)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (stop || live.ended) return false;
+        try {
+            servo.resume();
+            return true;
+        } catch (const Error& e) {
+            live.tell(e.what());
+        }
+    }
+}
+
+/// One session, from making its folder to its last note; holds what the servo's callbacks share.
+class Run {
+  public:
+    Run(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+        const Progress& progress, std::unique_ptr<devices::DeviceGroup> devices)
+        : plan_(plan),
+          options_(options),
+          stop_(stop),
+          progress_(progress),
+          real_(options.clock == Clock::real),
+          name_(fs::path(plan.file).stem().string()),
+          folder_(recording::SessionFolder::create(
+              options.out,
+              options.participant.id.empty() ? name_ : name_ + "_" + options.participant.id)),
+          live_(options.live),
+          servo_(make_servo(plan, std::move(devices))) {}
+
+    RunResult run();
+
+  private:
+    void describe();
+    void describe_task();
+    void open_record();
+    void begin();
+    void make_director();
+
+    void take(const servo::Frame& frame);
+    void run_ticks();
+    void run_real_ticks(const servo::Director& director, const servo::FrameSink& sink);
+    double share() const noexcept;
+    std::string fault_text() const;
+    std::string stall_text(const servo::Timing::Stall& stall) const;
+
+    void close_record();
+    void note_how_it_ended();
+    void conclude();
+
+    const Plan& plan_;
+    const RunOptions& options_;
+    const std::atomic<bool>& stop_;
+    const Progress& progress_;
+    const bool real_;
+    const std::string name_;
+    const recording::SessionFolder folder_;
+    Live* const live_;
+
+    RunResult result_;
+    recording::SessionInfo& info_ = result_.info;
+    std::unique_ptr<servo::Servo> servo_;
+    std::optional<recording::Recorder> recorder_;
+    servo::FrameSink read_;           // takes the frames in place of recorder_
+    std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
+    std::optional<SessionDirector> director_;
+    Time whole_{0};                    // the session is over after this time
+    std::atomic<int64_t> reached_{0};  // session time [ns]
+};
+
+RunResult Run::run() {
+    result_.folder = folder_.path();
+    describe();
+    open_record();
+    begin();
+    make_director();
+    const auto begun = Wall::now();
+    run_ticks();
+    result_.elapsed = since(begun);
+    servo_->deactivate();
+    close_record();
+    note_how_it_ended();
+    conclude();
+    return std::move(result_);
+}
+
+void Run::describe() {
+    info_.title = plan_.title.empty() ? name_ : plan_.title;
+    info_.program = recording::program_version();
+    info_.started = recording::iso_now();
+    info_.command = options_.command;
+    info_.experiment = plan_.file;
+    info_.clock = real_ ? "real" : "virtual";
+    info_.seed = std::to_string(plan_.seed);
+    info_.participant = options_.participant;
+    info_.moved_by = plan_.moved_by;
+    info_.study = plan_.study;
+    if (const int object = plan_.scene.object_index(); object >= 0)
+        info_.object = plan_.scene.bodies[static_cast<size_t>(object)].name;
+    info_.devices = records_of(*servo_, plan_.scene);
+    if (plan_.task) {
+        describe_task();
+    } else {
+        info_.phases = phases_of(*plan_.driver);
+    }
+    for (const Problem& warning : plan_.warnings) info_.notes.push_back(warning.text());
+    if (plan_.movement) {
+        info_.notes.push_back(fmt::format("{:.1f} % of the movement was bridged",
+                                          100 * plan_.movement->bridged_share));
+    }
+    info_.inputs = freeze_inputs(plan_, folder_);
+    info_.identity = identity_of(info_, plan_, real_);
+    folder_.write_info(info_);
+}
+
+void Run::describe_task() {
+    for (const std::string& phase : plan_.task->phases()) info_.phases.push_back({phase, 0, 0});
+    for (const task::TaskPlan::Outcome& outcome : plan_.task->outcomes)
+        info_.outcomes.push_back(outcome.name);
+    info_.messages = plan_.task->messages;
+    info_.resumes = plan_.resumes;
+}
+
+void Run::open_record() {
+    const recording::LogHead head = log_head(plan_.scene, plan_.settings, info_);
+    if (options_.in_place_of_log) {
+        read_ = options_.in_place_of_log(folder_, info_, head);
+    } else {
+        recorder_.emplace(folder_.raw_log(), head,
+                          real_ ? recording::Writing::in_thread : recording::Writing::in_place,
+                          options_.sync);
+    }
+    result_.lock.emplace(folder_);
+    if (real_ || options_.sync > 0) folder_.sync();  // the inputs, before the session begins
+}
+
+/// Opens outlets and devices. If one of them, or options.check, refuses, the session is removed.
+void Run::begin() {
+    if (plan_.seeing) plan_.seeing->restart();
+    try {
+        if (real_ && !plan_.rig.outlets.empty())
+            outward_.emplace(plan_, fs::path(folder_.path()).filename().string());
+        servo_->activate();
+        if (options_.check) {
+            for (const Problem& warning : options_.check(servo_->devices()))
+                info_.notes.push_back(warning.text());
+            folder_.write_info(info_);
+        }
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(folder_.path(), ignored);
+        throw;
+    }
+}
+
+/// Makes everything that the ticks need before the first one, since ticks allocate nothing.
+void Run::make_director() {
+    whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
+    result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
+                           2);
+    if (live_ != nullptr) live_->prepare(*servo_, plan_.scene);
+    director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
+                      outward_ ? &*outward_ : nullptr);
+}
+
+void Run::take(const servo::Frame& frame) {
+    if (recorder_) {
+        recorder_->record(frame);
+    } else {
+        read_(frame);
+        ++result_.ticks;
+    }
+    if (outward_) outward_->send(frame);
+    if (plan_.seeing) plan_.seeing->see(frame);
+    if (live_ != nullptr) live_->show(frame);
+    reached_.store(frame.time.count(), std::memory_order_relaxed);
+}
+
+void Run::run_ticks() {
+    const servo::FrameSink sink = [this](const servo::Frame& frame) { take(frame); };
+    const servo::Director director = [this](const servo::Frame& last,
+                                            std::span<const haptics::Handle> handles,
+                                            servo::Commands& commands) {
+        (*director_)(last, handles, commands);
+        commands.stop = commands.stop || (recorder_ && recorder_->failed());
+    };
+    recording::ShowingsWriter showings(folder_);
+    const Watcher watcher([&] {
+        if (progress_) progress_(std::min(1.0, share()));
+        if (live_ == nullptr) return;
+        while (const auto showing = live_->take_showing()) showings.add(*showing);
+        showings.flush();
+    });
+    if (real_) {
+        run_real_ticks(director, sink);
+    } else {
+        servo::run_virtual(*servo_, director, sink, whole_, stop_, &result_.timing.ticks);
+    }
+}
+
+/// Runs the ticks once; if the session is steered, from pause to pause and from fault to remedy.
+void Run::run_real_ticks(const servo::Director& director, const servo::FrameSink& sink) {
+    const auto stuck = [this](const servo::Timing::Stall& stall) {
+        if (options_.stuck) options_.stuck(stall_text(stall));
+    };
+    const std::atomic<bool> never{false};  // the director stops the session, with a last tick
+    Time first{0};
+    while (true) {
+        servo::run_real(*servo_, director, sink, first, whole_, never, result_.timing, stuck);
+        servo_->rest();
+        if (live_ == nullptr) return;
+        if (servo_->fault() && !stop_) {
+            info_.notes.push_back(fault_text());
+            director_->interrupt();
+            live_->tell(info_.notes.back());
+        } else if (!servo_->resting()) {
+            return;
+        } else {
+            director_->interrupt();
+        }
+        first = result_.timing.reached + servo_->period();
+        if (first > whole_ || !wait_to_go_on(*servo_, *live_, stop_)) return;
+    }
+}
+
+double Run::share() const noexcept {
+    if (const auto of_trials = director_->share()) return *of_trials;
+    return static_cast<double>(reached_.load(std::memory_order_relaxed)) /
+           static_cast<double>(std::max<int64_t>(1, whole_.count()));
+}
+
+std::string Run::stall_text(const servo::Timing::Stall& stall) const {
+    return fmt::format(
+        "{}. The call has not returned since, so the session ends here. Switch the "
+        "devices off and on; dihaptic recover {} makes the session's files.",
+        servo::describe(stall), folder_.path());
+}
+
+std::string Run::fault_text() const {
+    const haptics::Fault& fault = servo_->fault();
+    const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
+    std::string out =
+        haptics::describe(fault, info_.devices[device].finger, info_.devices[device].model);
+    if (const std::string said = servo_->devices().explain(static_cast<int>(device));
+        fault.device >= 0 && !said.empty())
+        out += " Its driver says: " + said;
+    const bool stopped = fault.kind == haptics::FaultKind::stopped;
+    if (!stopped) out += " The second before it is in fault.csv.";
+    if (live_ != nullptr) return out;  // the window says how to go on
+    if (plan_.task) {
+        out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
+                           folder_.path());
+    } else if (!stopped) {
+        out += " Then start the session again.";
+    }
+    return out;
+}
+
+void Run::close_record() {
+    if (recorder_) {
+        recorder_->finish();
+        result_.ticks = recorder_->frames();
+        result_.dropped = recorder_->dropped();
+    }
+    if (outward_) {
+        for (const std::string& failure : outward_->finish()) info_.notes.push_back(failure);
+    }
+    result_.simulated = seconds(Time(reached_.load()));
+    if (plan_.open_ended()) info_.phases.back().end = result_.simulated;
+}
+
+void Run::note_how_it_ended() {
+    // an open-ended session, with a mouse or a person, is finished whenever it is ended
+    const bool unfinished = plan_.task ? director_->trials_left() : !plan_.open_ended();
+    const bool ended = live_ != nullptr && live_->ended;
+    result_.interrupted = stop_.load() || (ended && unfinished);
+    if (servo_->fault()) {
+        result_.fault = fault_text();
+        // a session that waited for a remedy has noted the fault already
+        if (info_.notes.empty() || info_.notes.back() != result_.fault)
+            info_.notes.push_back(result_.fault);
+    }
+    if (const Wait* wait = director_->endless_wait()) {
+        result_.interrupted = true;
+        result_.fault = wait->describe(info_.phases);
+        info_.notes.push_back(result_.fault);
+    }
+    if (result_.timing.stall) {
+        result_.stall = servo::describe(*result_.timing.stall);
+        info_.notes.push_back(result_.stall);
+    }
+    if (result_.timing.pauses > 0) info_.notes.push_back(servo::describe_pauses(result_.timing));
+}
+
+/// The session's state on the disk stays `running` until its other files are there.
+void Run::conclude() {
+    if (progress_ && !result_.interrupted) progress_(1);
+    info_.ticks = static_cast<int>(result_.ticks + result_.dropped);
+    info_.interrupted = result_.interrupted;
+    info_.finished =
+        fmt::format("{}, {}, {} not recorded", counted(info_.ticks, "tick"),
+                    counted(result_.timing.overruns, "overrun"), counted(result_.dropped, "frame"));
+    if (real_) info_.finished += "; " + servo::describe(result_.timing);
+    if (result_.timing.refusals.any()) {
+        info_.notes.push_back(
+            servo::describe(result_.timing.refusals, plan_.settings.real_time_priority));
+    }
+    folder_.write_info(info_);
+    // a fault ends a session too: dihaptic resume does the trials that are left
+    const bool cut_short = servo_->fault() && director_->trials_left();
+    info_.state = result_.interrupted || cut_short ? recording::SessionState::interrupted
+                                                   : recording::SessionState::complete;
+}
+
+}  // namespace
+
+RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+                      const Progress& progress, std::unique_ptr<devices::DeviceGroup> devices) {
+    if (options.clock != Clock::real && rig::is_real(plan.rig)) {
+        throw Error(plan.rig.place, "devices", "are real, and keep real time",
+                    "Run them on the real clock, or choose a rig of simulated devices.");
+    }
+    if (devices != nullptr) return Run(plan, options, stop, progress, std::move(devices)).run();
+    Plan opened = plan;
+    devices = open_devices(opened);
+    return Run(opened, options, stop, progress, std::move(devices)).run();
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,67 @@
+// Runs a plan as a session: from the first tick to a folder with its raw log, complete or not.
+#pragma once
+
+#include <atomic>
+#include <optional>
+
+#include "recording/recorder.h"
+#include "recording/session.h"
+#include "servo/run.h"
+#include "session/live.h"
+#include "session/plan.h"
+
+namespace dihaptic::session {
+
+enum class Clock { virtual_clock, real };
+
+struct RunOptions {
+    Clock clock = Clock::virtual_clock;
+    std::string out = "sessions";  ///< folder in which session folders are made
+    std::string command;           ///< command line as typed, for the record
+    double sync = 0;  ///< interval at which raw.log is synchronised to the disk [s]; 0: at its end
+    recording::Participant participant;
+    std::atomic<char>* keys = nullptr;  ///< the operator's newest key, until a tick takes it
+    /// Called from another thread when a call to the devices never returns, so that run_session()
+    /// cannot return either. It must show the message and end the program.
+    std::function<void(const std::string& message)> stuck;
+    /// Called on active devices, before the first tick and without force; returns warnings. An
+    /// exception from it ends the session, and its folder is removed.
+    std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
+    /// For record(), on the virtual clock only: when false, the session has no raw.log and no
+    /// session.nwb, but the same tables.
+    bool keep_log = true;
+    /// Virtual clock only: makes the sink that takes the frames in place of raw.log, which is then
+    /// not written. The folder has its frozen inputs.
+    std::function<servo::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
+                                   const recording::LogHead&)>
+        in_place_of_log;
+    Live* live = nullptr;  ///< real clock only: link to the watching thread; must outlive the run
+};
+
+struct RunResult {
+    std::string folder;
+    recording::SessionInfo info;  ///< as it will be once the session's other files are written
+    std::optional<recording::SessionLock> lock;  ///< keeps others from recovering it until then
+    bool interrupted = false;
+    double simulated = 0;  ///< session time reached [s]
+    double elapsed = 0;    ///< wall time of the ticks [s]
+    int64_t ticks = 0;
+    int64_t dropped = 0;  ///< frames that the recorder could not take
+    servo::Timing timing;
+    std::string fault;  ///< why force was switched off, and what to do; empty if it was not
+    std::string stall;  ///< what the watchdog did; empty if nothing
+};
+
+/// Gets the share of the session done, from 0 to 1, about ten times per second of wall time.
+using Progress = std::function<void(double share)>;
+
+/// Runs to the end of the driver's movement, until `stop`, or until a second after a fault. On the
+/// real clock `stop` comes from the operator and switches force off at once. Throws Error when the
+/// disk fails; what was written stays and can be recovered. The session's state stays `running`:
+/// record() makes its other files and sets the final state. `devices`: those that open_devices()
+/// opened for this plan; null: opens them, for this process to own.
+RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
+                      const Progress& progress,
+                      std::unique_ptr<devices::DeviceGroup> devices = nullptr);
+
+}  // namespace dihaptic::session

@@ -1,0 +1,440 @@
+// Tests sessions that another thread watches and steers, as a window does.
+#include "session/live.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+#include <thread>
+
+#include "outlets/test/fallible.h"
+#include "recording/raw_log.h"
+#include "session/replay.h"
+#include "session/test/reaches.h"
+
+namespace dihaptic::session::live_test {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Runs a session in a thread of its own until it ends by itself or the desk ends it.
+class Desk {
+  public:
+    explicit Desk(const Request& request) {
+        plan = make_plan(request);
+        knobs = servo::Knobs::of(plan.settings);
+        RunOptions options;
+        options.out = folder_.path();
+        options.clock = Clock::real;
+        options.live = &live;
+        thread_ = std::thread(
+            [this, options] { result = run_session(plan, options, stop_, Progress()); });
+    }
+    ~Desk() { end(); }
+    void end() {
+        live.ended = true;
+        join();
+    }
+    void join() {
+        if (thread_.joinable()) thread_.join();
+    }
+
+    /// The newest frame, once session time has reached `t` or the thread has had ten seconds.
+    const servo::Frame& at(double t) {
+        for (int i = 0; i < 10000; ++i) {
+            const servo::Frame& frame = live.frame.read();
+            if (frame.sequence >= 0 && seconds(frame.time) >= t) return frame;
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        ADD_FAILURE() << "session time " << t << " s was not reached";
+        return live.frame.read();
+    }
+    double now() { return seconds(live.frame.read().time); }
+
+    void squeeze(double aperture) {
+        hand::Posture goal = plan.mouse->goal();
+        goal.aperture = aperture;
+        plan.mouse->follow(goal, now());
+    }
+    /// Lifts at 5 cm/s of session time, each step after the last was made: if the hand went on
+    /// while a busy machine makes the session lose ticks, it would be torn off what it holds.
+    void lift(double height) {
+        hand::Posture goal = plan.mouse->goal();
+        const double end = goal.centre.z() + height;
+        while (goal.centre.z() < end) {
+            goal.centre.z() = std::min(end, goal.centre.z() + 0.0005);
+            plan.mouse->follow(goal, now());
+            at(now() + 0.01);
+        }
+    }
+
+    Live live;
+    Plan plan;
+    servo::Knobs knobs;  // those that the watching thread wants
+    RunResult result;
+
+  private:
+    testing::TemporaryFolder folder_;
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
+Request block(bool mouse) {
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    request.mouse = mouse;
+    return request;
+}
+
+std::vector<servo::Frame> frames_of(const std::string& session) {
+    std::vector<servo::Frame> frames;
+    recording::RawLogReader log(session + "/raw.log");
+    while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+    return frames;
+}
+
+TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
+    Desk desk(block(false));
+    desk.at(1.3);  // gripped
+    desk.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(100));
+    const double paused_at = desk.now();
+    std::this_thread::sleep_for(milliseconds(300));
+    EXPECT_EQ(desk.now(), paused_at);
+    desk.live.paused = false;
+    desk.join();
+    EXPECT_FALSE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.fault, "");
+
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    int resumed = 0;
+    for (size_t i = 2; i < frames.size(); ++i) {
+        // missed ticks have no frame; the pause is not in session time
+        EXPECT_LT(seconds(frames[i].time - frames[i - 1].time), 0.2);
+        if ((frames[i].status & servo::kResumed) == 0) continue;
+        ++resumed;
+        EXPECT_NE(frames[i].status & servo::kSoftStarted, 0u);
+        EXPECT_LT(frames[i].fingers[0].f_sent_W.norm(), 0.05);
+        EXPECT_NE(frames[i - 1].status & servo::kPaused, 0u);
+        EXPECT_EQ(frames[i - 1].status & servo::kForceOff, 0u);
+        for (const servo::FingerFrame& finger : frames[i - 1].fingers)
+            EXPECT_EQ(finger.f_sent_W,
+                      Vec3::Zero());  // already in the last tick before the resumption
+        EXPECT_GT(frames[i - 2].fingers[0].f_sent_W.norm(), 0.5);
+    }
+    EXPECT_EQ(resumed, 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
+    Desk desk(block(true));
+    desk.at(0.2);
+    desk.squeeze(0.034);
+    desk.at(0.8);
+    desk.lift(0.06);
+    const servo::Frame& frame = desk.at(desk.now() + 0.3);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.08, 0.005);
+    desk.knobs.solver = dynamics::Solver::stewart_trinkle;
+    desk.live.knobs.publish(desk.knobs);
+    const servo::Frame& after = desk.at(desk.now() + 0.3);
+    EXPECT_EQ(after.solver, dynamics::Solver::stewart_trinkle);
+    EXPECT_NEAR(after.bodies[1].X_WB.p.z(), 0.08, 0.005);
+    desk.end();
+    EXPECT_FALSE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.info.state, recording::SessionState::complete);
+    EXPECT_EQ(desk.result.info.phases.back().end, desk.result.simulated);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, WorkspacesTurnAndFrictionChangesWhileABlockIsHeldAndTheReplayIsExact) {
+    Desk desk(block(true));
+    desk.at(0.2);
+    desk.squeeze(0.034);
+    desk.at(0.8);
+    desk.lift(0.05);
+    const double before = desk.at(desk.now() + 0.5).bodies[1].X_WB.p.z();
+    ASSERT_GT(before, 0.06);
+    desk.knobs.friction_scale = 1.5;
+    desk.knobs.workspace_turn = std::numbers::pi / 2;
+    desk.live.knobs.publish(desk.knobs);
+    const servo::Frame& frame = desk.at(desk.now() + 3);
+    EXPECT_NEAR(frame.workspace_turn, std::numbers::pi / 2, 0.02);
+    EXPECT_EQ(frame.friction_scale, 1.5);
+    EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), before, 0.003);
+    EXPECT_NEAR(angle_between(frame.bodies[1].X_WB.R, Quat::Identity()), std::numbers::pi / 2,
+                0.05);
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
+    Request request = block(true);
+    request.set.emplace_back("proxy.changeable=yes");
+    Desk desk(request);
+    desk.at(0.2);
+    const double open = desk.plan.mouse->goal().aperture;
+    desk.squeeze(0.034);
+    EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
+    desk.knobs.proxy = haptics::ProxyKind::point;
+    desk.live.knobs.publish(desk.knobs);
+    // unchanged while the fingers hold the block
+    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, haptics::ProxyKind::rigid);
+    desk.squeeze(open);
+    EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, haptics::ProxyKind::point);
+    desk.squeeze(0.03);  // points close on the block as pads do
+    const servo::Frame& held = desk.at(desk.now() + 1);
+    EXPECT_GT(held.grip_force, 0.3);
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
+    Files files;
+    files.replace("hand: { centre_mm: [0, 0, 120] }",
+                  "hand: { centre_mm: [0, 0, 120] }\nsettings: { safety: { max_speed_m_s: 0.2 } }");
+    // a reach of 50 mm in 0.2 s is faster than that; in 0.8 s it is not
+    Desk desk(files.request());
+    std::string told;
+    for (int i = 0; i < 10000 && told.empty(); ++i) {
+        told = desk.live.take_told();
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_NE(told.find("moved at"), std::string::npos) << told;
+    EXPECT_TRUE(desk.live.paused);
+    const double at = desk.now();
+    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_EQ(desk.now(), at);  // the session waits
+    desk.live.paused = false;
+    desk.at(at + 0.3);
+    desk.end();
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    int resumed = 0;
+    bool off = false;
+    int attempt = 0;
+    for (const servo::Frame& frame : frames) {
+        if ((frame.status & servo::kResumed) == 0) {
+            off = off || (frame.status & servo::kForceOff) != 0;
+            continue;
+        }
+        ++resumed;
+        EXPECT_TRUE(off);
+        EXPECT_EQ(frame.status & servo::kForceOff, 0u);
+        EXPECT_EQ(frame.trial, 1);
+        attempt = frame.task.attempt;
+    }
+    EXPECT_EQ(resumed, 1);
+    EXPECT_EQ(attempt, 2);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, ATrialThatAPauseInterruptsBeginsAnew) {
+    Files files;
+    files.keep_first_block();
+    Desk desk(files.request());
+    desk.at(0.1);
+    desk.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(50));
+    desk.live.paused = false;
+    desk.join();
+    EXPECT_FALSE(desk.result.interrupted);
+    int attempts = 0;
+    for (const servo::Frame& frame : frames_of(desk.result.folder)) {
+        if (frame.trial == 1) attempts = std::max(attempts, frame.task.attempt);
+        if (frame.trial > 1) {
+            EXPECT_LE(frame.task.attempt, 1);
+        }
+    }
+    EXPECT_EQ(attempts, 2);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AWatcherThatFallsSilentTakesForceAwayWithinASecond) {
+    Desk desk(block(true));
+    desk.at(0.2);
+    desk.squeeze(0.034);
+    double last = 0;
+    const auto end = Live::Clock::now() + milliseconds(1500);
+    while (Live::Clock::now() < end) {  // answers for longer than it may be silent
+        desk.live.note_alive();
+        last = desk.now();
+        std::this_thread::sleep_for(milliseconds(20));
+    }
+    std::string told;
+    for (int i = 0; i < 5000 && told.empty(); ++i) {
+        told = desk.live.take_told();
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    EXPECT_NE(told.find("the window has not answered for 1."), std::string::npos) << told;
+    EXPECT_TRUE(desk.live.paused);
+    desk.live.note_alive();
+    desk.live.paused = false;
+    desk.at(desk.now() + 0.5);
+    desk.end();
+    int off = 0;
+    for (const servo::Frame& frame : frames_of(desk.result.folder)) {
+        const double silence = seconds(frame.time) - last;
+        const double force = frame.fingers[0].f_sent_W.norm();
+        if (silence > 0 && silence < 0.9) {
+            EXPECT_GT(force, 0.3) << silence;
+        }
+        if ((frame.status & servo::kAbandoned) != 0) {
+            ++off;
+            EXPECT_NEAR(silence, Live::kLongestSilence, 0.1);
+        }
+        if ((frame.status & servo::kForceOff) != 0) {
+            EXPECT_EQ(force, 0);
+        }
+    }
+    EXPECT_EQ(off, 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
+    Files files;
+    files.keep_first_block();
+    Desk desk(files.request());
+    desk.at(0.1);
+    desk.live.skip = true;
+    desk.join();
+    EXPECT_EQ(desk.live.done, 1);
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    std::vector<std::string> outcomes;
+    for (const servo::Frame& frame : frames) {
+        if (frame.task.outcome < 0) continue;
+        EXPECT_EQ(frame.task.attempt, 1);
+        outcomes.push_back(desk.result.info.outcomes[static_cast<size_t>(frame.task.outcome)]);
+    }
+    ASSERT_EQ(outcomes.size(), desk.plan.task->trials.size());
+    EXPECT_EQ(outcomes.front(), "skipped");
+    EXPECT_EQ(std::count(outcomes.begin(), outcomes.end(), "reached"),
+              static_cast<int>(outcomes.size()) - 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, TriggersComeInAndEventCodesGoOutOnTheRigsSerialLine) {
+    const testing::FarEnd far;
+    Files files;
+    files.experiment = "rig: rig.yaml\n" + files.experiment;
+    files.replace("{ when: inside, region: start, hold_s: 0.2, to: reach }",
+                  "{ when: trigger, to: reach }");
+    files.folder.write("rig.yaml",
+                       "devices: [{ finger: index, backend: simulated }]\n"
+                       "outlets: [{ kind: serial, options: { port: " +
+                           far.port + " } }]\n");
+    Desk desk(files.request());
+    EXPECT_TRUE(desk.plan.warnings.empty());
+    desk.at(0.3);
+    EXPECT_EQ(desk.live.frame.read().phase, 1);  // the trial waits
+    far.send(200);
+    EXPECT_EQ(far.receive(1), (std::vector<int>{7}));
+    desk.end();
+    for (const std::string& note : desk.result.info.notes)
+        EXPECT_EQ(note.find("serial"), std::string::npos) << note;
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+class LiveOutlet : public ::testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        ASSERT_NE(fallible, nullptr) << "fallible.h does not say how this kind fails";
+        files.experiment = "rig: rig.yaml\n" + files.experiment;
+        files.folder.write("rig.yaml",
+                           fmt::format("devices: [{{ finger: index, backend: simulated }}]\n"
+                                       "outlets: [{{ kind: {}, options: {} }}]\n",
+                                       GetParam(), fallible->options()));
+    }
+    Files files;
+    std::unique_ptr<outlets::Fallible> fallible = outlets::make_fallible(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, LiveOutlet, ::testing::ValuesIn([] {
+                             std::vector<std::string> out;
+                             for (const outlets::Kind& kind : outlets::kinds())
+                                 out.emplace_back(kind.name);
+                             return out;
+                         }()),
+                         [](const auto& instance) { return instance.param; });
+
+TEST_P(LiveOutlet, ThatCannotBeOpenedLeavesNoHalfSession) {
+    fallible->never_open();
+    RunOptions options;
+    options.clock = Clock::real;
+    options.out = files.folder.path() + "/sessions";
+    const std::atomic<bool> stop{false};
+    EXPECT_THROW(run_session(make_plan(files.request()), options, stop, {}), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(options.out));
+}
+
+TEST_P(LiveOutlet, ThatFailsIsInTheNotesOfASessionThatGoesOn) {
+    files.keep_first_block();
+    Desk desk(files.request());
+    desk.at(0.1);
+    fallible->fail();
+    desk.join();
+    EXPECT_FALSE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.fault, "");
+    const auto told = [&](const std::string& note) { return note.starts_with(GetParam() + ": "); };
+    EXPECT_EQ(std::ranges::count_if(desk.result.info.notes, told), 1);
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, AScriptThatIsEndedEarlyIsInterruptedWithoutAFault) {
+    Desk desk(block(false));
+    desk.at(0.3);
+    desk.end();
+    EXPECT_TRUE(desk.result.interrupted);
+    EXPECT_EQ(desk.result.fault, "");
+    EXPECT_TRUE(replay_session(desk.result.folder, {false}, {}).good());
+}
+
+TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
+    Live live;
+    const servo::Frame last;
+    constexpr double kTick = 1e-3;
+    servo::Knobs now = servo::Knobs::of({});
+    const auto turn = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i) live.turn_knobs(last, kTick, now);
+    };
+    turn(10);
+    EXPECT_EQ(now.stiffness, 1000);  // nobody wants anything yet
+    servo::Knobs wanted = now;
+    wanted.stiffness = 2000;
+    wanted.smoothing = 0.5;
+    wanted.proxy = haptics::ProxyKind::point;
+    live.knobs.publish(wanted);
+    turn(100);
+    EXPECT_NEAR(now.stiffness, 1500, 1e-6);
+    EXPECT_TRUE(std::isnan(now.damping));
+    EXPECT_EQ(now.smoothing, 0.5);
+    EXPECT_EQ(now.proxy, haptics::ProxyKind::rigid);  // the session lets none change
+    wanted.friction_scale = 2;                        // on the way, which begins not anew
+    live.knobs.publish(wanted);
+    turn(1);
+    EXPECT_EQ(now.friction_scale, 2);
+    EXPECT_NEAR(now.stiffness, 1505, 1e-6);
+    turn(100);
+    EXPECT_EQ(now.stiffness, 2000);
+    wanted.damping = 3;  // from k h / 2, which is no number
+    live.knobs.publish(wanted);
+    turn(1);
+    EXPECT_EQ(now.damping, 3);
+}
+
+TEST(Live, EndsInAPause) {
+    Desk desk(block(true));
+    desk.at(0.1);
+    desk.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(50));
+    desk.end();
+    EXPECT_EQ(desk.result.fault, "");
+    // in session time: a busy machine leaves ticks out
+    EXPECT_GE(desk.result.simulated, 0.1);
+    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    ASSERT_FALSE(frames.empty());
+    EXPECT_NE(frames.back().status & servo::kPaused, 0u);
+}
+
+}  // namespace
+}  // namespace dihaptic::session::live_test

@@ -1,0 +1,535 @@
+#include "session/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <sstream>
+
+#include "session/check.h"
+#include "testing/files.h"
+
+namespace dihaptic::session::plan_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The shipped files, which tests run and check.
+std::vector<std::string> shipped(const std::string& folder, const std::string& extension) {
+    std::vector<std::string> out;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() == extension) out.push_back(entry.path().string());
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+TEST(ShippedFiles, AreInOrder) {
+    for (const char* folder : {"scenes", "rigs", "experiments"}) {
+        for (const std::string& file : shipped(folder, ".yaml")) {
+            Diagnostics diagnostics;
+            EXPECT_NE(check_file(file, diagnostics).what, "unknown");
+            for (const Problem& p : diagnostics.problems()) ADD_FAILURE() << p.text();
+        }
+    }
+}
+
+TEST(ShippedFiles, TheMovementHasTheFaultsThatItIsToShow) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(check_file("movements/reach-to-grasp.csv", diagnostics).what, "movement");
+    EXPECT_FALSE(diagnostics.has_errors());
+    std::string all;
+    for (const Problem& p : diagnostics.problems()) all += p.text() + "\n";
+    for (const char* fault :
+         {"missing frames", "missing marker", "frozen marker", "wild position"}) {
+        EXPECT_NE(all.find(fault), std::string::npos) << fault;
+    }
+}
+
+/// An experiment with its files, and the messages of planning it.
+struct Files {
+    testing::TemporaryFolder folder;
+    std::string scene =
+        "bodies:\n  - {name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100}\n"
+        "settings: {coupling: {stiffness_N_m: 500}}\n";
+    std::string rig =
+        "devices:\n  - {finger: thumb, backend: simulated}\n  - {finger: index, backend: "
+        "simulated}\n"
+        "settings: {coupling: {stiffness_N_m: 600}, rate_Hz: 500}\n";
+    std::string experiment = "scene: scene.yaml\nrig: rig.yaml\n";
+
+    Request request() {
+        folder.write("scene.yaml", scene);
+        folder.write("rig.yaml", rig);
+        Request out;
+        out.file = folder.write("experiment.yaml", experiment);
+        return out;
+    }
+    std::string messages() {
+        try {
+            std::string all;
+            for (const Problem& p : make_plan(request()).warnings) all += p.text() + "\n";
+            return all;
+        } catch (const Error& e) {
+            return e.what();
+        }
+    }
+};
+
+TEST(Plan, SettingsComeFromSceneThenRigThenExperimentThenCommandLine) {
+    Files files;
+    Plan plan = make_plan(files.request());
+    EXPECT_EQ(plan.settings.coupling.stiffness, 600);
+    EXPECT_EQ(plan.settings.rate, 500);
+    EXPECT_NE(plan.origins["coupling.stiffness"].find("rig.yaml:4"), std::string::npos)
+        << plan.origins["coupling.stiffness"];
+    files.experiment += "settings: {coupling: {stiffness_N_m: 700}}\n";
+    EXPECT_EQ(make_plan(files.request()).settings.coupling.stiffness, 700);
+    Request request = files.request();
+    request.set = {"coupling.stiffness_N_m=800", "dynamics.solver=sequential_impulse"};
+    plan = make_plan(request);
+    EXPECT_EQ(plan.settings.coupling.stiffness, 800);
+    EXPECT_EQ(plan.origins["coupling.stiffness"], "command line");
+}
+
+/// Stiffness and damping as shares of what a Premium renders calmly: 1000 N/m, 8 N*s/m.
+struct SharedFiles : Files {
+    SharedFiles() {
+        rig =
+            "devices:\n"
+            "  - {finger: thumb, backend: simulated, options: {preset: premium_1_0}}\n"
+            "  - {finger: index, backend: simulated, options: {preset: premium_1_0}}\n";
+    }
+};
+
+TEST(Plan, StiffnessAndDampingMayBeSharesOfWhatTheDeviceRenders) {
+    SharedFiles files;
+    files.experiment +=
+        "settings: {coupling: {stiffness_share: 0.5, damping_share: 0.1}, proxy: {kind: point}}\n";
+    Plan plan = make_plan(files.request());
+    EXPECT_EQ(plan.settings.coupling.stiffness, 500);
+    EXPECT_EQ(plan.settings.coupling.damping, 0.8);
+    // a session freezes the values only, not the shares
+    EXPECT_FALSE(plan.settings.coupling.stiffness_share);
+    EXPECT_FALSE(plan.settings.coupling.damping_share);
+    EXPECT_NE(
+        plan.origins["coupling.stiffness"].find("experiment.yaml:3 (0.5 of the device's 1000 N/m)"),
+        std::string::npos)
+        << plan.origins["coupling.stiffness"];
+    EXPECT_EQ(plan.origins.count("coupling.stiffness_share"), 0u);
+    // a later setting counts, whether it is a value or a share
+    Request request = files.request();
+    request.set = {"coupling.stiffness_N_m=700"};
+    EXPECT_EQ(make_plan(request).settings.coupling.stiffness, 700);
+    request.set.emplace_back("coupling.stiffness_share=0.25");
+    plan = make_plan(request);
+    EXPECT_EQ(plan.settings.coupling.stiffness, 250);
+    EXPECT_EQ(plan.origins["coupling.stiffness"], "command line (0.25 of the device's 1000 N/m)");
+}
+
+TEST(Plan, ASharesMaximumIsThatOfTheDeviceThatRendersLeast) {
+    SharedFiles files;
+    files.rig += "  - {finger: middle, backend: simulated, options: {max_stiffness_N_m: 400}}\n";
+    files.scene +=
+        "fingers: [{name: thumb, shape: sphere, radius_mm: 8}, {name: middle, shape: "
+        "sphere, radius_mm: 8}]\nhand: {fingers: [{name: thumb, side: [-1, 0, 0]}, "
+        "{name: middle, side: [1, 0, 0]}]}\n";
+    files.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
+    EXPECT_EQ(make_plan(files.request()).settings.coupling.stiffness, 200);
+}
+
+TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
+    SharedFiles both;
+    both.experiment += "settings: {coupling: {stiffness_share: 0.5, stiffness_N_m: 600}}\n";
+    EXPECT_NE(both.messages().find("experiment.yaml:3: error: stiffness_share: the same stiffness "
+                                   "is given as stiffness_N_m too. Keep one of the two."),
+              std::string::npos)
+        << both.messages();
+    SharedFiles damping;
+    damping.experiment += "settings: {coupling: {damping_Ns_m: 2, damping_share: 0.5}}\n";
+    EXPECT_NE(damping.messages().find("the same damping is given as damping_Ns_m too"),
+              std::string::npos)
+        << damping.messages();
+    SharedFiles large;
+    large.experiment += "settings: {coupling: {stiffness_share: 1.5}}\n";
+    EXPECT_NE(large.messages().find("stiffness_share: must be above 0 and at most 1, is 1.5"),
+              std::string::npos)
+        << large.messages();
+    Files ideal;
+    ideal.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
+    EXPECT_NE(
+        ideal.messages().find("experiment.yaml:3: error: coupling.stiffness_share: simulated plant "
+                              "does not say what stiffness it renders at most. Give "
+                              "coupling: stiffness_N_m, or another rig."),
+        std::string::npos)
+        << ideal.messages();
+    servo::Settings settings;
+    EXPECT_THROW(apply_setting(settings, "coupling.stiffness_share=0.5"), Error);
+}
+
+TEST(Plan, WarnsOfTurningStiffnessThatTheLoopCannotHold) {
+    Files files;
+    files.rig =
+        "devices:\n"
+        "  - {finger: thumb, backend: simulated, options: {preset: sigma_7}}\n"
+        "  - {finger: index, backend: simulated, options: {preset: sigma_7}}\n";
+    files.experiment += "settings: {coupling: {turn_stiffness_Nm_rad: 39}}\n";
+    EXPECT_EQ(files.messages(), "");
+    files.experiment =
+        "scene: scene.yaml\nrig: rig.yaml\n"
+        "settings: {coupling: {turn_stiffness_Nm_rad: 50}}\n";
+    EXPECT_NE(files.messages().find("warning: coupling.turn_stiffness: 50 N*m/rad is above 40 "
+                                    "N*m/rad (2 b / T), up to which the hand's damping of 0.02 "
+                                    "N*m*s/rad surely keeps simulated sigma_7 calm"),
+              std::string::npos)
+        << files.messages();
+}
+
+TEST(Plan, RefusesTorqueFromADeviceThatDoesNotMeasureOrientation) {
+    Files files;
+    files.rig = "devices:\n  - {finger: thumb, backend: simulated, options: {peak_torque_Nm: 1}}\n";
+    EXPECT_NE(files.messages().find("a device that renders torque measures orientation. Add "
+                                    "orientation: yes, or leave out peak_torque_Nm."),
+              std::string::npos)
+        << files.messages();
+}
+
+TEST(Plan, ASceneAloneRunsOnIdealDevices) {
+    Files files;
+    files.request();
+    Request request;
+    request.file = files.folder.file("scene.yaml");
+    EXPECT_EQ(make_plan(request).rig.devices.size(), 2u);
+}
+
+TEST(Plan, WarnsOfStiffnessThatTheLoopCannotHold) {
+    Files files;
+    files.experiment += "settings: {coupling: {stiffness_N_m: 9000}, rate_Hz: 1000}\n";
+    EXPECT_NE(files.messages().find("warning: coupling.stiffness: 9000 N/m is above 6000 N/m (2 b "
+                                    "/ T), up to which the hand's damping of 3 N*s/m surely "
+                                    "keeps simulated plant calm"),
+              std::string::npos)
+        << files.messages();
+    files.experiment =
+        "scene: scene.yaml\nrig: rig.yaml\nsettings: {coupling: {stiffness_N_m: 2500}, rate_Hz: "
+        "1000}\n";
+    EXPECT_EQ(files.messages(), "");
+    files.rig.replace(files.rig.find("simulated}"), 10, "simulated, options: {delay_ticks: 1}}");
+    EXPECT_NE(files.messages().find("above 2000 N/m"), std::string::npos) << files.messages();
+}
+
+TEST(Plan, WarnsOfAnExplicitSpringThatDiverges) {
+    Files files;
+    files.experiment +=
+        "settings: {coupling: {kind: dual_spring, body_mass_g: 1, stiffness_N_m: 4000}, rate_Hz: "
+        "1000}\n";
+    EXPECT_NE(files.messages().find(
+                  "more than an explicit spring can hold with a proxy of 1 g: about 1000 N/m"),
+              std::string::npos)
+        << files.messages();
+}
+
+TEST(Plan, WarnsOfAnObjectTooHeavyForTheDevices) {
+    Files files;
+    files.scene.replace(files.scene.find("mass_g: 100"), 11, "mass_kg: 3");
+    EXPECT_NE(files.messages().find("weighs 29.4 N, more than the devices' 17.0 N together"),
+              std::string::npos)
+        << files.messages();
+}
+
+TEST(Plan, SaysWhichWeightsAndSurfacesADeviceCannotRender) {
+    Diagnostics diagnostics;
+    check_file("experiments/grip-and-lift.yaml", diagnostics, "rigs/premium-pair.yaml");
+    EXPECT_FALSE(diagnostics.has_errors());
+    std::string said;
+    for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
+    const size_t for_long = said.find("can hold for long");
+    const size_t at_most = said.find("8.5 N that simulated premium_1_0 gives at most");
+    ASSERT_NE(for_long, std::string::npos) << said;
+    ASSERT_NE(at_most, std::string::npos) << said;
+    // W / (2 mu) and W / 2 together, by hand
+    EXPECT_GT(said.find("block of 800 g with friction 0.35 (11.9 N)"), at_most) << said;
+    EXPECT_LT(said.find("block of 800 g with friction 0.35 (11.9 N)"), for_long) << said;
+    EXPECT_NE(said.find("block of 400 g with friction 0.7 (3.4 N)", for_long), std::string::npos);
+    EXPECT_EQ(said.find("block of 200 g with friction 1.2"), std::string::npos) << said;  // 1.28 N
+}
+
+TEST(Plan, WarnsOfSoftFingersThatTheSolverTakesForHard) {
+    Files files;
+    files.scene +=
+        "fingers:\n"
+        "  - {name: thumb, shape: sphere, radius_mm: 8, torsion_radius_mm: 6}\n"
+        "  - {name: index, shape: sphere, radius_mm: 8}\n";
+    files.scene.replace(files.scene.find("mass_g: 100"), 11, "mass_g: 100, torsion_radius_mm: 3");
+    EXPECT_EQ(files.messages(), "");
+    files.experiment += "settings: {dynamics: {solver: sequential_impulse}}\n";
+    const std::string said = files.messages();
+    EXPECT_NE(said.find("experiment.yaml:3: warning: dynamics.solver: sequential_impulse takes no "
+                        "notice of torsion radii: contacts of block, thumb carry no moment about "
+                        "their normal. Use newton, staggered_projections or stewart_trinkle, or "
+                        "leave out torsion_radius_mm."),
+              std::string::npos)
+        << said;
+    Diagnostics diagnostics;
+    check_file(files.request().file, diagnostics);
+    EXPECT_EQ(diagnostics.problems().size(), 1u);
+    for (const std::string radius : {"torsion_radius_mm: 6", "torsion_radius_mm: 3"})
+        files.scene.replace(files.scene.find(radius), radius.size(), "torsion_radius_mm: 0");
+    EXPECT_EQ(files.messages(), "");
+}
+
+TEST(Plan, WarnsOfWhatAPointHasNoUseFor) {
+    Files files;
+    files.experiment += "settings: {proxy: {kind: point}}\n";
+    EXPECT_EQ(files.messages(), "");
+    files.experiment.replace(
+        files.experiment.find("settings:"), std::string::npos,
+        "settings: {proxy: {kind: point, friction: apart}, coupling: {kind: dual_spring}}\n");
+    files.scene += "fingers: [{name: thumb, shape: sphere, radius_mm: 8, torsion_radius_mm: 6}]\n";
+    const std::string said = files.messages();
+    EXPECT_NE(said.find("warning: coupling.kind: dual_spring ties handles to rigid proxies"),
+              std::string::npos)
+        << said;
+    EXPECT_NE(said.find("a point carries no moment"), std::string::npos) << said;
+}
+
+struct Bad {
+    const char* what;
+    void (*damage)(Files& files);
+    const char* says;
+};
+void PrintTo(const Bad& bad, std::ostream* out) {
+    *out << bad.what;
+}
+class BadExperiment : public ::testing::TestWithParam<Bad> {};
+TEST_P(BadExperiment, IsReported) {
+    Files files;
+    GetParam().damage(files);
+    EXPECT_NE(files.messages().find(GetParam().says), std::string::npos) << files.messages();
+}
+INSTANTIATE_TEST_SUITE_P(
+    Plan, BadExperiment,
+    ::testing::Values(
+        Bad{"unknown key", [](Files& f) { f.experiment += "raet_Hz: 1\n"; },
+            "experiment.yaml:3: error: raet_Hz: is not known here"},
+        Bad{"missing scene", [](Files& f) { f.experiment = "scene: gone.yaml\n"; },
+            "gone.yaml: error: cannot be read"},
+        Bad{"missing rig", [](Files& f) { f.experiment = "scene: scene.yaml\nrig: gone.yaml\n"; },
+            "gone.yaml: error: cannot be read"},
+        Bad{"rig as scene", [](Files& f) { f.experiment = "scene: rig.yaml\n"; },
+            "rig.yaml:1: error: devices: is not known here"},
+        Bad{"unknown solver",
+            [](Files& f) { f.experiment += "settings: {dynamics: {solver: magic}}\n"; },
+            "'magic' is not known. Use sequential_impulse, stewart_trinkle, "
+            "staggered_projections"},
+        Bad{"unknown finger",
+            [](Files& f) { f.experiment += "hand: {fingers: [{name: pinky}]}\n"; },
+            "the hand's finger 'pinky' is not among the scene's fingers"},
+        Bad{"finger without device",
+            [](Files& f) { f.rig = "devices:\n  - {finger: thumb, backend: simulated}\n"; },
+            "no device is held by the scene's finger 'index'"},
+        Bad{"negative duration",
+            [](Files& f) { f.experiment += "hand: {script: [{name: a, duration_s: -1}]}\n"; },
+            "duration_s: must be positive"},
+        Bad{"movement without block",
+            [](Files& f) { f.experiment += "movement: {file: m.csv, axes: world}\n"; },
+            "block: is missing"},
+        Bad{"missing movement",
+            [](Files& f) {
+                f.experiment += "movement: {file: m.csv, axes: world, block: block}\n";
+            },
+            "m.csv: error: cannot be read"},
+        Bad{"an unknown finger's line",
+            [](Files& f) { f.experiment += "hand:\n  fingers:\n    - {name: pinky}\n"; },
+            "experiment.yaml:5: error: name: the hand's finger"},
+        Bad{"a finger without direction",
+            [](Files& f) { f.experiment += "hand: {fingers: [{name: thumb, side: [0, 0, 0]}]}\n"; },
+            "experiment.yaml:3: error: side: 'thumb' has no direction"},
+        Bad{"a finger given twice",
+            [](Files& f) {
+                f.experiment +=
+                    "hand: {fingers: [{name: thumb, side: [1, 0, 0]}, {name: thumb, "
+                    "side: [1, 0, 0]}]}\n";
+            },
+            "experiment.yaml:3: error: name: 'thumb' is given twice"},
+        Bad{"tremor's band upside down",
+            [](Files& f) { f.experiment += "hand: {tremor: {low_Hz: 20, high_Hz: 10}}\n"; },
+            "experiment.yaml:3: error: tremor: its band goes from 20 Hz down to 10 Hz"},
+        Bad{"negative aperture",
+            [](Files& f) {
+                f.experiment += "hand: {script: [{name: a, duration_s: 1, aperture_mm: -5}]}\n";
+            },
+            "aperture_mm: must be at least 0"},
+        Bad{"endless duration",
+            [](Files& f) { f.experiment += "hand: {script: [{name: a, duration_s: 1e12}]}\n"; },
+            "experiment.yaml:3: error: duration_s: must be above 0 and at most 3600, is 1e12"},
+        Bad{"endless script",
+            [](Files& f) {
+                f.experiment +=
+                    "hand: {script: [{name: a, duration_s: 3600}, {name: b, duration_s: 1}]}\n";
+            },
+            "experiment.yaml:3: error: script: lasts 3601 s, where 3600 s are the most"},
+        Bad{"a step of unknown fingers",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, fingers: [thmub]}\n";
+            },
+            "experiment.yaml:5: error: fingers: 'a' is to move 'thmub', which is not among the "
+            "scene's fingers. Known: thumb, index."},
+        Bad{"a steady step that ends with another speed",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, steady: yes, "
+                    "end_velocity_m_s: [1, 0, 0]}\n";
+            },
+            "experiment.yaml:5: error: end_velocity: 'a' is steady: it has one speed throughout"},
+        Bad{"a turn in millimetres",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, turn_mm: [1, 0, 0]}\n";
+            },
+            "experiment.yaml:5: error: turn_mm"},
+        Bad{"a throw beyond all hands",
+            [](Files& f) {
+                f.experiment +=
+                    "hand:\n  script:\n    - {name: a, duration_s: 1, end_velocity_m_s: [0, 0, "
+                    "1200]}\n";
+            },
+            "experiment.yaml:5: error: end_velocity_m_s: must be"},
+        Bad{"a hand too damped to simulate",
+            [](Files& f) { f.experiment += "hand: {impedance: {damping_Ns_m: 1e4}}\n"; },
+            "experiment.yaml:3: error: impedance: the hand is stiffer or more damped"},
+        Bad{"a hand too stiff to simulate",
+            [](Files& f) { f.experiment += "hand: {impedance: {stiffness_N_m: 1e9}}\n"; },
+            "experiment.yaml:3: error: stiffness_N_m: must be at least 0.001 and at most 100000"},
+        Bad{"absurd coupling damping",
+            [](Files& f) {
+                f.experiment += "settings: {rate_Hz: 1000, coupling: {damping_Ns_m: 1000}}\n";
+            },
+            "experiment.yaml:3: warning: coupling.damping: 1000 N*s/m is more than a handle of 75 "
+            "g can bear: about 150 N*s/m"},
+        Bad{"a force limit beyond the device's",
+            [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
+            "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated plant can "
+            "give: 8.5 N"},
+        Bad{"a dead-man switch that no finger has",
+            [](Files& f) { f.experiment += "settings: {safety: {dead_man_finger: toe}}\n"; },
+            "experiment.yaml:3: error: safety.dead_man_finger: the scene has no finger 'toe'"},
+        Bad{"a dead-man button that no device has",
+            [](Files& f) { f.experiment += "settings: {safety: {dead_man_button: 32}}\n"; },
+            "experiment.yaml:3: error: dead_man_button:"},
+        Bad{"an energy guard of a mode that is not known",
+            [](Files& f) { f.experiment += "settings: {safety: {energy_guard: maybe}}\n"; },
+            "experiment.yaml:3: error: energy_guard:"},
+        Bad{"a heating time of no motor",
+            [](Files& f) { f.experiment += "settings: {safety: {heating_time_ms: 10}}\n"; },
+            "experiment.yaml:3: error: heating_time_ms:"},
+        Bad{"a movement without the scene's index",
+            [](Files& f) {
+                std::istringstream in(testing::read_file("movements/reach-to-grasp.csv"));
+                std::string text, line;
+                while (std::getline(in, line)) {
+                    size_t comma = 0;
+                    for (int i = 0; i < 4; ++i) comma = line.find(',', comma) + 1;
+                    text += line.substr(0, comma - 1) + "\n";
+                }
+                f.folder.write("m.csv", text);
+                f.experiment += "movement: {file: m.csv, axes: y_up, block: block}\n";
+            },
+            "m.csv:1: error: index: the movement has no such finger, but thumb"},
+        Bad{"a grasp after the end",
+            [](Files& f) {
+                f.folder.write("m.csv", testing::read_file("movements/reach-to-grasp.csv"));
+                f.experiment +=
+                    "movement: {file: m.csv, axes: y_up, block: block, grasp_at_s: 99}\n";
+            },
+            "99 s is after the movement's end"},
+        Bad{"movement's block is no box",
+            [](Files& f) {
+                f.experiment += "movement: {file: m.csv, axes: world, block: ball}\n";
+                f.folder.write("m.csv", "");
+            },
+            "the scene has no box named 'ball'"}));
+
+TEST(Plan, SetWithoutValueSaysHow) {
+    Files files;
+    Request request = files.request();
+    request.set = {"coupling.stiffness_N_m"};
+    EXPECT_THROW(make_plan(request), Error);
+}
+
+TEST(Plan, SetIsAnsweredInItsOwnTerms) {
+    Files files;
+    Request request = files.request();
+    const auto said = [&](const std::string& set) -> std::string {
+        request.set = {set};
+        try {
+            make_plan(request);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(said("coupling=3"),
+              "command line: error: coupling: must have keys of its own. Name one of them: "
+              "coupling.KEY=VALUE.");
+    EXPECT_EQ(said("coupling.stiffness_N_m=[1"),
+              "--set: error: coupling.stiffness_N_m=[1: its value cannot be read. Write --set "
+              "coupling.stiffness_N_m=600.");
+}
+
+/// Problems that check finds in a movement, one per line.
+std::string said_of_movement(const std::function<void(std::string&)>& change) {
+    const testing::TemporaryFolder folder;
+    std::string text = testing::read_file("movements/reach-to-grasp.csv");
+    change(text);
+    Diagnostics diagnostics;
+    check_file(folder.write("m.csv", text), diagnostics);
+    std::string all;
+    for (const Problem& p : diagnostics.problems()) all += p.text() + "\n";
+    return all;
+}
+
+TEST(CheckFile, TellsOfFingersOfAMovementThatNobodyKnows) {
+    const std::string said = said_of_movement([](std::string& text) {
+        for (size_t at = 0; (at = text.find("thumb", at)) != std::string::npos;)
+            text.replace(at, 5, "thmub");
+    });
+    EXPECT_NE(said.find("m.csv:1: warning: thmub: is no usual name of a finger. Did you mean "
+                        "thumb?"),
+              std::string::npos)
+        << said;
+}
+
+TEST(CheckFile, TellsOfAMovementThatIsMostlyBridged) {
+    const std::string said = said_of_movement([](std::string& text) {
+        // keeps only one frame in twelve after a while
+        std::istringstream in(text);
+        std::string line, thin;
+        for (int i = 0; std::getline(in, line); ++i) {
+            if (i > 120 && i % 12 != 0) line.replace(line.find(','), std::string::npos, ",,,,,,,0");
+            thin += line + "\n";
+        }
+        text = thin;
+    });
+    EXPECT_NE(said.find("% of the movement is bridged: more guessed than measured"),
+              std::string::npos)
+        << said;
+    EXPECT_EQ(said.find("nan mm"), std::string::npos) << said;
+}
+
+TEST(Plan, AMovementNeedsAnExperimentThatKnowsWhatToDoWithIt) {
+    Files files;
+    Request request = files.request();
+    request.movement = "movements/reach-to-grasp.csv";
+    EXPECT_THROW(make_plan(request), Error);
+}
+
+TEST(CheckFile, SaysWhatItDoesNotKnow) {
+    const testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    EXPECT_EQ(check_file(folder.write("x.yaml", "hello: 1\n"), diagnostics).what, "unknown");
+    EXPECT_TRUE(diagnostics.has_errors());
+}
+
+}  // namespace
+}  // namespace dihaptic::session::plan_test

@@ -1,0 +1,86 @@
+// Tests that one call makes a whole session, and says once how it ended.
+#include "session/record.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "session/test/reaches.h"
+
+namespace dihaptic::session::record_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Record, MakesAllFilesOfASessionAndSetsItsState) {
+    Files files;
+    RunOptions options;
+    options.out = files.folder.file("sessions");
+    std::string folder;
+    std::vector<double> shares;
+    const Recorded recorded = record(make_plan(files.request()), options, kGoOn, {},
+                                     [&](const std::string& of, double share) {
+                                         folder = of;
+                                         shares.push_back(share);
+                                     });
+    EXPECT_TRUE(recorded.good());
+    EXPECT_EQ(recorded.notes, std::vector<std::string>());
+    EXPECT_EQ(recorded.folder, folder);
+    ASSERT_FALSE(shares.empty());
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    for (const char* name : {"raw.log", "session.nwb", "trials.csv", "phases.csv", "events.csv"})
+        EXPECT_TRUE(fs::exists(folder + "/" + name)) << name;
+    const auto made = recording::SessionFolder::open(folder);
+    EXPECT_EQ(made.read_info().state, recording::SessionState::complete);
+    EXPECT_NO_THROW(recording::SessionLock{made});  // given back
+}
+
+TEST(Record, WithoutALogMakesTheTablesOnly) {
+    Files files;
+    RunOptions options;
+    options.out = files.folder.file("sessions");
+    options.keep_log = false;
+    const Recorded recorded = record(make_plan(files.request()), options, kGoOn);
+    EXPECT_TRUE(recorded.good());
+    EXPECT_EQ(recorded.figures.frames, recorded.ticks);
+    EXPECT_TRUE(fs::exists(recorded.folder + "/trials.csv"));
+    EXPECT_FALSE(fs::exists(recorded.folder + "/raw.log"));
+    EXPECT_FALSE(fs::exists(recorded.folder + "/session.nwb"));
+}
+
+TEST(Record, TellsOfAFaultFirst) {
+    const testing::TemporaryFolder folder;
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    request.set = {"safety.max_speed_m_s=0.01"};
+    RunOptions options;
+    options.out = folder.path();
+    const Recorded recorded = record(make_plan(request), options, kGoOn);
+    EXPECT_FALSE(recorded.good());
+    ASSERT_FALSE(recorded.notes.empty());
+    EXPECT_EQ(recorded.notes.front(), "WARNING: " + recorded.fault);
+    for (size_t i = 1; i < recorded.notes.size(); ++i)
+        EXPECT_TRUE(recorded.notes[i].starts_with("note: in ")) << recorded.notes[i];
+}
+
+TEST(Record, TellsOfTheOperatorsStopOnce) {
+    const testing::TemporaryFolder folder;
+    Request request;
+    request.file = "scenes/block-on-table.yaml";
+    RunOptions options;
+    options.out = folder.path();
+    options.clock = Clock::real;
+    std::atomic<bool> stop{false};
+    const Recorded recorded =
+        record(make_plan(request), options, stop, [&](double) { stop = true; });
+    EXPECT_TRUE(recorded.interrupted);
+    EXPECT_FALSE(recorded.good());
+    ASSERT_FALSE(recorded.notes.empty());
+    EXPECT_EQ(recorded.notes.front(), "WARNING: " + recorded.fault);
+    const std::string again(describe(servo::kStopped).what);
+    for (size_t i = 1; i < recorded.notes.size(); ++i)
+        EXPECT_EQ(recorded.notes[i].find(again), std::string::npos) << recorded.notes[i];
+}
+
+}  // namespace
+}  // namespace dihaptic::session::record_test

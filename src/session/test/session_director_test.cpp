@@ -1,0 +1,59 @@
+// Tests what a session's director adds to the orders of its trials, without a session.
+#include "session/session_director.h"
+
+#include "session/test/reaches.h"
+
+namespace dihaptic::session::session_director_test {
+namespace {
+
+struct Bench {
+    Files files;
+    Plan plan = make_plan(files.request());
+    std::unique_ptr<servo::Servo> servo = make_servo(plan);
+    RunOptions options;
+    std::atomic<bool> stop{false};
+    servo::Frame last;
+
+    Bench() {
+        for (const scene::Body& body : plan.scene.bodies)
+            last.bodies.emplace_back().X_WB = body.pose();
+        last.fingers.resize(1);
+        last.fingers[0].p_WP = {0, 0, 0.12};
+    }
+    servo::Commands order(SessionDirector& director) {
+        const haptics::Handle handle{{0, 0, 0.12}};
+        servo::Commands commands;
+        director(last, {&handle, 1}, commands);
+        return commands;
+    }
+};
+
+TEST(SessionDirector, TakesForceAwayAtTheOperatorsStopOnTheRealClockOnly) {
+    Bench bench;
+    bench.stop = true;
+    for (const Clock clock : {Clock::virtual_clock, Clock::real}) {
+        bench.options.clock = clock;
+        SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr);
+        EXPECT_EQ(bench.order(director).force_off, clock == Clock::real);
+    }
+}
+
+TEST(SessionDirector, DoesAsTheWatchingThreadAsks) {
+    Bench bench;
+    Live live;
+    live.prepare(*bench.servo, bench.plan.scene);
+    bench.options.clock = Clock::real;
+    bench.options.live = &live;
+    SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr);
+    EXPECT_FALSE(bench.order(director).rest);
+    live.paused = true;
+    EXPECT_TRUE(bench.order(director).rest);
+    EXPECT_FALSE(bench.order(director).stop);
+    live.ended = true;
+    EXPECT_TRUE(bench.order(director).stop);
+    EXPECT_TRUE(director.trials_left());
+    EXPECT_EQ(director.endless_wait(), nullptr);
+}
+
+}  // namespace
+}  // namespace dihaptic::session::session_director_test

@@ -1,0 +1,45 @@
+#include "session/wait.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dihaptic::session {
+
+Wait::Wait(const std::vector<task::TaskPlan::Stage>& stages) : bounds_{kLongestBetween} {
+    for (const task::TaskPlan::Stage& stage : stages) {
+        double longest = 0;
+        for (const task::TaskPlan::Way& way : stage.ways) {
+            if (way.exit.when == task::When::time) longest = std::max(longest, way.exit.hold);
+        }
+        bounds_.push_back(longest + kLongest);
+        attempt_bound_ += kRounds * bounds_.back();
+    }
+}
+
+void Wait::look(const servo::Frame& last, const servo::Commands& commands) noexcept {
+    const double now = seconds(last.time);
+    if (last.trial != trial_ || last.task.attempt != attempt_) begun_ = since_ = now;
+    if (last.phase != phase_) since_ = now;
+    trial_ = last.trial;
+    attempt_ = last.task.attempt;
+    phase_ = last.phase;
+    seen_ = now;
+    const bool same = commands.trial == trial_ && commands.phase == phase_;
+    over_ = (same && now - since_ > bounds_[static_cast<size_t>(phase_)]) ||
+            now - begun_ > attempt_bound_;
+}
+
+std::string Wait::describe(const std::vector<recording::PhaseInfo>& phases) const {
+    const auto i = static_cast<size_t>(phase_);
+    return fmt::format(
+        "The simulated hand never ended '{}' of trial {}: the session ends after {:.0f} s of it. "
+        "{}",
+        i < phases.size() ? phases[i].name : "a state", trial_, seen_ - since_,
+        phase_ == task::kBetween
+            ? "Its fingers stay where an object is put back: let the last state lead them away."
+            : "Give the state an exit by time, or the hand steps that meet one; states that lead "
+              "back to each other need a way out.");
+}
+
+}  // namespace dihaptic::session

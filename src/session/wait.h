@@ -1,0 +1,42 @@
+// Ends a session in which a trial waits for something that its simulated hand never does: such a
+// session would go on until it had filled the disk.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/session.h"
+#include "servo/servo.h"
+#include "task/task_plan.h"
+
+namespace dihaptic::session {
+
+class Wait {
+  public:
+    /// `stages`: the task's stages.
+    explicit Wait(const std::vector<task::TaskPlan::Stage>& stages);
+
+    /// Call in each tick, with the last frame and the commands for this tick.
+    void look(const servo::Frame& last, const servo::Commands& commands) noexcept;
+    /// Whether the wait is too long and the session is to end.
+    bool over() const noexcept { return over_; }
+    /// Says what was waited for, and what to do. `phases`: the session's phases.
+    std::string describe(const std::vector<recording::PhaseInfo>& phases) const;
+
+  private:
+    static constexpr double kLongestBetween = 60;  // between trials [s]
+    static constexpr double kLongest = 60;         // in a state, beyond its exit by time [s]
+    static constexpr double kRounds = 10;          // rounds of all states in one attempt
+
+    int trial_ = 0;
+    int attempt_ = 0;
+    int phase_ = 0;
+    double since_ = 0;            // when the state began [s]
+    double begun_ = 0;            // when the attempt began [s]
+    double seen_ = 0;             // time of the last frame [s]
+    std::vector<double> bounds_;  // longest time in each phase [s]
+    double attempt_bound_ = kLongestBetween;
+    bool over_ = false;
+};
+
+}  // namespace dihaptic::session

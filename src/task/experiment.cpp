@@ -1,0 +1,24 @@
+#include "task/experiment.h"
+
+namespace dihaptic::task {
+
+Experiment read_experiment(const std::string& file, Diagnostics& diagnostics) {
+    Experiment experiment;
+    try {
+        read_fields(experiment, read_yaml(file), diagnostics);
+    } catch (const Error& e) {
+        diagnostics.add(e.problems());
+    }
+    return experiment;
+}
+
+FileKind kind_of(const std::string& file) {
+    if (file.ends_with(".csv")) return FileKind::movement;
+    const Node root = read_yaml(file);
+    if (root.find("scene") != nullptr) return FileKind::experiment;
+    if (root.find("bodies") != nullptr) return FileKind::scene;
+    if (root.find("devices") != nullptr) return FileKind::rig;
+    return FileKind::unknown;
+}
+
+}  // namespace dihaptic::task

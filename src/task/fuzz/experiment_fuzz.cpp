@@ -1,0 +1,16 @@
+// Feeds the fuzzer's input to the experiment reader.
+#include "task/experiment.h"
+
+#include "testing/fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    using namespace dihaptic;
+    const std::string file = testing::as_file({data, size}, "experiment.yaml");
+    Diagnostics diagnostics;
+    try {
+        (void)task::read_experiment(file, diagnostics);
+    } catch (const Error&) {
+        // an Error, with file, line and remedy, is the right answer
+    }
+    return 0;
+}

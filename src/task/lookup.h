@@ -1,0 +1,51 @@
+// Looks up the names that experiment files use, and words the error for a name that is unknown.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::task {
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& list) {
+    std::vector<std::string> out;
+    for (const T& item : list) out.push_back(item.name);
+    return out;
+}
+
+/// Index of the name in `names`, or -1 with the error "'x' is `what`".
+inline int look_up(const std::vector<std::string>& names, const std::string& name,
+                   const Place& place, const std::string& key, const std::string& what,
+                   Diagnostics& diagnostics) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<int>(found - names.begin());
+    const std::string guess = nearest(name, names);
+    diagnostics.error(place, key,
+                      name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
+                      names.empty()    ? "There is none to name: add one first."
+                      : !guess.empty() ? fmt::format("Did you mean {}?", guess)
+                                       : fmt::format("Known: {}.", fmt::join(names, ", ")));
+    return -1;
+}
+
+/// Reports an error for each name that is given twice.
+template <class T>
+void check_names(const std::vector<T>& list, const char* what, Diagnostics& diagnostics) {
+    for (size_t i = 0; i < list.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+            if (list[i].name != list[j].name || list[i].name.empty()) continue;
+            diagnostics.error(list[i].place, "name",
+                              fmt::format("there are two {} '{}'", what, list[i].name),
+                              "Give each a name of its own.");
+            break;
+        }
+    }
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,35 @@
+// An adaptive procedure chooses the level of each trial by the answers so far. Procedure wraps any
+// of the procedures as a value: copies are independent, and the same answers always lead to the
+// same state, so a session is resumed by giving the answers again.
+#pragma once
+
+#include <variant>
+
+#include "task/procedures/quest.h"
+#include "task/procedures/quest_plus.h"
+#include "task/procedures/staircase.h"
+
+namespace dihaptic::task {
+
+class Procedure {
+  public:
+    using Kind = std::variant<Staircase, Quest, QuestPlus>;
+
+    Procedure(Kind kind) : kind_(std::move(kind)) {}
+
+    /// Level that the next trial should have.
+    double level() const;
+    /// Takes the answer of a trial at this level (as a rule the one proposed). `yes`: the answer
+    /// was "yes", or correct: the one that grows likelier with the level. Throws Error when the
+    /// level is not finite or the procedure is done.
+    void answer(double level, bool yes);
+    bool done() const;
+    Estimate estimate() const;
+
+    const Kind& kind() const { return kind_; }
+
+  private:
+    Kind kind_;
+};
+
+}  // namespace dihaptic::task

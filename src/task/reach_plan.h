@@ -1,0 +1,33 @@
+// How each trial's reach is measured (ReachMeasure): frozen in trial-list.csv, beside the trial, in
+// columns named reach_...
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "task/task_plan.h"
+
+namespace dihaptic::task {
+
+struct ReachPlan {
+    std::string finger;          ///< name
+    double distance = 0;         ///< distance from from_W at which the angle is measured [m]
+    Vec3 from_W = Vec3::Zero();  ///< [m]
+    Vec3 to_W = Vec3::Zero();
+    Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
+    int phase = -1;               ///< phase in which it is measured; -1: none
+    Measure measure = Measure::angle;
+};
+
+/// Adds the columns of the reaches to a list with a row for each of the plan's trials. The task
+/// must measure a reach.
+void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
+
+/// Name of the first of these columns: the list's own stand before it.
+inline constexpr const char* kFirstReachColumn = "reach_finger";
+
+/// Reads the reaches from trial-list.csv, by trial; none if its task measures none. Of a line that
+/// is cut off, the finger is empty and numbers are NaN from there on.
+std::vector<ReachPlan> read_reaches(const std::string& file);
+
+}  // namespace dihaptic::task

@@ -1,0 +1,79 @@
+// Measures the precision of the thresholds of experiments/visual-scaling.yaml: its own staircases
+// are run on two hundred observers who judge a ratio of lengths with noise, and fitted as in the
+// report. analysis/fits/README.md has the figures.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/fits/psychometric_fit.h"
+#include "base/random.h"
+#include "task/experiment.h"
+#include "task/procedure_spec.h"
+
+namespace dihaptic::task {
+namespace {
+
+/// An observer who answers "more" when the logarithm of the ratio, with noise, is above 0, and
+/// sometimes lapses.
+struct Observer {
+    double sd;
+    static constexpr double kLapse = 0.015;
+
+    /// Probability that the answer is right when `scale` is shown with that share.
+    double right(double scale, double share) const {
+        const double ratio = std::abs(std::log(1 + share * (scale - 1)));
+        return kLapse + (1 - 2 * kLapse) * 0.5 * std::erfc(-ratio / sd / std::sqrt(2.0));
+    }
+    /// Share at which three of four answers would be right without lapses.
+    double threshold(double scale) const {
+        return std::abs(std::exp((scale > 1 ? 1 : -1) * 0.6744897501960817 * sd) - 1) /
+               std::abs(scale - 1);
+    }
+};
+
+TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
+    Diagnostics diagnostics;
+    const Experiment experiment = read_experiment("experiments/visual-scaling.yaml", diagnostics);
+    diagnostics.throw_if_errors();
+    Random random(11, "scaling");
+    constexpr int kObservers = 200;
+    double bias = 0;
+    double square = 0;
+    int held = 0;
+    for (int i = 0; i < kObservers; ++i) {
+        const Observer observer{0.12 * std::exp(0.25 * random.normal())};  // as in adults.yaml
+        const ProcedureSpec& spec = experiment.task->procedures[static_cast<size_t>(i % 2)];
+        const double scale = i % 2 == 0 ? 2 : 0.5;
+        Procedure procedure = make_procedure(spec);
+        std::vector<analysis::Answer> answers;
+        while (!procedure.done()) {
+            const double level = procedure.level();
+            const bool yes = random.uniform(0, 1) < observer.right(scale, spec.share(level));
+            answers.push_back({level, yes});
+            procedure.answer(level, yes);
+        }
+        const analysis::PsychometricFitSettings settings{.sigmoid = spec.sigmoid,
+                                                         .guess = spec.guess};
+        const auto counts = analysis::count(answers);
+        const auto fit = analysis::fit_psychometric(counts, settings);
+        const auto interval =
+            analysis::bootstrap(counts, fit, settings, 500, static_cast<uint64_t>(i)).threshold;
+        const double truth = observer.threshold(scale);
+        const double error = fit.function.threshold - truth;
+        bias += error / truth / kObservers;
+        square += error * error / truth / truth / kObservers;
+        held += interval.low <= truth && truth <= interval.high ? 1 : 0;
+    }
+    const double coverage = static_cast<double>(held) / kObservers;
+    fmt::print("bias {:.2f} and rms error {:.2f} of the threshold; intervals hold it in {:.2f}\n",
+               bias, std::sqrt(square), coverage);
+    // the thresholds are rough, as the README says; if they get better, the README must change
+    EXPECT_GT(std::sqrt(square), 0.5);
+    EXPECT_LT(std::sqrt(square), 5);
+    EXPECT_GT(coverage, 0.7);
+    EXPECT_LT(coverage, 0.95);
+}
+
+}  // namespace
+}  // namespace dihaptic::task

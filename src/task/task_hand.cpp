@@ -1,0 +1,86 @@
+#include "task/task_hand.h"
+
+#include <algorithm>
+
+#include "hand/places.h"
+#include "model/minimum_jerk.h"
+
+namespace dihaptic::task {
+
+TaskHand::TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
+                   const std::vector<std::string>& fingers)
+    : plan_(std::move(plan)),
+      places_(hand::finger_places(spec, fingers)),
+      start_{spec.centre, spec.aperture} {
+    for (const hand::FingerPlace& place : places_) {
+        if (!place.centre && !place.aperture) continue;
+        throw Error(place.place, place.centre ? "centre" : "aperture",
+                    "a task moves one hand: its fingers have no centre or aperture of their own",
+                    "Leave it out, and use offset.");
+    }
+    for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
+    restart();
+}
+
+void TaskHand::restart() {
+    trial_ = attempt_ = 0;
+    phase_ = -1;
+    step_ = 0;
+    begun_ = 0;
+    from_ = to_ = start_;
+}
+
+TaskHand::Posture TaskHand::posture(double t) const noexcept {
+    const double share = model::minimum_jerk((t - begun_) / duration_).share;
+    return {from_.centre + share * (to_.centre - from_.centre),
+            from_.aperture + share * (to_.aperture - from_.aperture)};
+}
+
+hand::FingerTarget TaskHand::do_target(int finger, double t) const noexcept {
+    const hand::FingerPlace& place = places_[static_cast<size_t>(finger)];
+    const Posture now = posture(t);
+    const double s = (t - begun_) / duration_;
+    const double rate = s >= 0 && s < 1 ? model::minimum_jerk(s).rate / duration_ : 0;
+    hand::FingerTarget target;
+    target.p_WT = now.centre + place.offset + now.aperture / 2 * place.side;
+    target.v_WT =
+        rate * (to_.centre - from_.centre + (to_.aperture - from_.aperture) / 2 * place.side);
+    return target;
+}
+
+void TaskHand::do_see(const servo::Frame& frame) noexcept {
+    const double now = seconds(frame.time);
+    // between trials the hand still ends the steps that it has begun
+    const bool between = frame.phase == kBetween || frame.trial < 1;
+    const bool entered = !between && (frame.trial != trial_ || frame.phase != phase_ ||
+                                      frame.task.attempt != attempt_);
+    if (between && phase_ < 1) return;
+    const auto& steps =
+        plan_->stages[static_cast<size_t>((between ? phase_ : frame.phase) - 1)].hand;
+    if (entered) {
+        trial_ = frame.trial;
+        phase_ = frame.phase;
+        attempt_ = frame.task.attempt;
+        step_ = 0;
+        if (!steps.empty()) begin_step(now);
+        return;
+    }
+    if (step_ + 1 < steps.size() && now - begun_ >= duration_) {
+        ++step_;
+        begin_step(now);
+    }
+}
+
+void TaskHand::begin_step(double now) noexcept {
+    const TaskPlan::Step& next = plan_->stages[static_cast<size_t>(phase_ - 1)].hand[step_];
+    const Trial& trial = plan_->trials[static_cast<size_t>(trial_ - 1)];
+    from_ = posture(now);
+    begun_ = now;
+    duration_ = next.step.duration;
+    to_.aperture = next.step.aperture.value_or(from_.aperture);
+    to_.centre =
+        next.reach < 0 ? from_.centre : plan_->cell(trial).p_W[static_cast<size_t>(next.reach)];
+    to_.centre += next.step.move;
+}
+
+}  // namespace dihaptic::task

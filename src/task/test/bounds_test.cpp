@@ -1,0 +1,77 @@
+// Tests that every number in a file has two finite bounds, so that none can be added without them,
+// and that a value that overflows by its unit is refused.
+#include <gtest/gtest.h>
+
+#include "devices/forcedimension/group.h"
+#include "devices/haply/options.h"
+#include "devices/openhaptics/group.h"
+#include "devices/simulated/options.h"
+#include "rig/rig.h"
+#include "servo/settings.h"
+#include "task/experiment.h"
+#include "testing/bounds.h"
+
+namespace dihaptic::task::bounds_test {
+namespace {
+
+template <class Struct>
+void expect_bounds(Struct value = {}) {
+    testing::BoundsFinder finder;
+    finder("", value);
+    EXPECT_GT(finder.numbers, 0);
+    for (const std::string& path : finder.unbounded)
+        ADD_FAILURE() << path << " of " << typeid(Struct).name() << " lacks a bound";
+}
+
+TEST(Bounds, AreOfEverySettingAndOfScenesAndHands) {
+    expect_bounds<servo::Settings>();
+    expect_bounds<scene::Scene>();
+    expect_bounds<hand::HandSpec>();
+    for (size_t kind = 0; kind < enum_names(scene::ShapeKind{}).size(); ++kind) {
+        scene::Body body;
+        body.shape.kind = static_cast<scene::ShapeKind>(kind);
+        expect_bounds(body);
+    }
+}
+
+TEST(Bounds, AreOfRigsCalibrationsAndDevices) {
+    expect_bounds<rig::Rig>();
+    expect_bounds<rig::Calibration>();
+    expect_bounds<devices::simulated::Options>();
+    expect_bounds<devices::haply::Options>();
+    expect_bounds<devices::forcedimension::Options>();
+    expect_bounds<devices::openhaptics::Options>();
+}
+
+TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
+    expect_bounds<Experiment>();
+    for (size_t when = 0; when < enum_names(When{}).size(); ++when) {
+        Exit exit;
+        exit.when = static_cast<When>(when);
+        expect_bounds(exit);
+    }
+}
+
+/// Problems of reading a line of settings.
+std::string said_of(const std::string& line) {
+    Diagnostics diagnostics;
+    servo::Settings settings;
+    read_fields(settings, parse_yaml(line, "settings.yaml"), diagnostics);
+    return diagnostics.problems().empty() ? "" : diagnostics.problems().front().text();
+}
+
+TEST(Bounds, HoldAfterTheConversionOfUnits) {
+    EXPECT_EQ(said_of("safety: { max_force_rate_N_ms: 3 }"), "");
+    EXPECT_NE(said_of("safety: { max_force_rate_N_ms: 1e308 }").find("max_force_rate_N_ms"),
+              std::string::npos);
+    EXPECT_NE(said_of("safety: { max_force_rate_N_ms: 1e308 }").find("too large"),
+              std::string::npos);
+    EXPECT_NE(said_of("safety: { max_force_rate_N_s: 20 }").find("at least 85"), std::string::npos);
+    EXPECT_EQ(said_of("coupling: { stiffness_N_mm: 100 }"), "");
+    EXPECT_NE(said_of("coupling: { stiffness_N_mm: 101 }").find("at most 100"), std::string::npos);
+    EXPECT_NE(said_of("coupling: { damping_Ns_mm: 1e308 }").find("too large"), std::string::npos);
+    EXPECT_NE(said_of("coupling: { body_mass_g: 1e-300 }").find("body_mass_g"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dihaptic::task::bounds_test

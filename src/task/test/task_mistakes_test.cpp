@@ -1,0 +1,105 @@
+// Tests the error message for every mistake that a task's file can have.
+#include <gtest/gtest.h>
+
+#include "session/test/reaches.h"
+
+namespace dihaptic::task::task_mistakes_test {
+namespace {
+
+using session::Mistake;
+
+class BrokenFile : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BrokenFile, IsRefusedWithFileLineAndRemedy) {
+    session::Files files;
+    session::expect_refused(files, GetParam());
+}
+
+const char* const kExit = "{ when: outside, region: shell, outcome: reached, feedback: Good }";
+const char* const kRotation =
+    "visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 }";
+const char* const kChannel =
+    "field: { kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
+    "damping_Ns_m: 5 }";
+const char* const kBlock = "{ name: before, kind: baseline, repeats: 1 }";
+
+INSTANTIATE_TEST_SUITE_P(
+    Task, BrokenFile,
+    ::testing::Values(
+        Mistake{"name: shell,", "name: target,", "there are two regions 'target'"},
+        Mistake{"name: shell,", "nam: shell,", "nam"},
+        Mistake{"name: start, position_mm: [0, 0, 120]", "name: start", "position"},
+        Mistake{"position_mm: [50, 0, 120]", "position_mm: [50, 120]", "must be three numbers"},
+        Mistake{"position_mm: [50, 0, 120]", "position: [50, 0, 120]", "position"},
+        Mistake{"radius_mm: 45", "radius_mm: -45", "radius_mm"},
+        Mistake{"name: clamp\n", "name: rotation\n", "there are two perturbations 'rotation'"},
+        Mistake{kRotation, "visual: { moves: [proxy], about: start }",
+                "'proxy' is nothing to move"},
+        Mistake{kRotation, "visual: { about: start, angle_deg: 30 }", "moves"},
+        Mistake{kRotation, "visual: { moves: [proxies], about: strat }", "Did you mean start?"},
+        Mistake{kRotation, "visual: { moves: [proxies], about: start, angle_deg: 30 }", "axis"},
+        Mistake{kRotation,
+                "visual: { moves: [proxies], about: start, axis: [0, 0, 0], angle_deg: 30 }",
+                "has no direction"},
+        Mistake{kRotation, "visual: { moves: [proxies], about: start, size: 2 }",
+                "is the object's, which is not moved"},
+        Mistake{"toward: target }", "toward: target, axis: [0, 0, 1], angle_deg: 3 }",
+                "neither rotated nor scaled"},
+        Mistake{kRotation, "body: { body: blok, mass_scale: [2, 2, 1] }", "Did you mean block?"},
+        Mistake{kRotation, "body: { body: table, mass_scale: [2, 2, 1] }", "'table' cannot move"},
+        Mistake{kRotation, "body: { body: block, mass_scale: 2 }", "must be three numbers"},
+        Mistake{kRotation, "body: { body: block, weight_scale: heavy }", "must be a number"},
+        Mistake{kRotation, "visual:", "visual"},
+        Mistake{kChannel, "field: { kind: tunnel, on: index }", "tunnel"},
+        Mistake{kChannel, "field: { kind: viscous, on: index }", "damping"},
+        Mistake{kChannel, "field: { kind: viscous, on: idnex, damping_Ns_m: 5 }",
+                "Did you mean index?"},
+        Mistake{kChannel, "field: { kind: curl, on: index, damping_Ns_m: 5 }", "axis"},
+        Mistake{kChannel, "field: { kind: channel, on: index, from: start, to: target }",
+                "stiffness"},
+        Mistake{kChannel, "field: { kind: channel, on: index, stiffness_N_m: 500 }", "from"},
+        Mistake{"name: reach\n      show", "name: home\n      show", "there are two states 'home'"},
+        Mistake{"show: [target]", "show: [tarket]", "Did you mean target?"},
+        Mistake{"marker: 7", "marker: 700", "marker"},
+        Mistake{"marker: 7", "marker: seven", "marker"},
+        Mistake{kExit, "{ region: shell, outcome: reached }", "when"},
+        Mistake{kExit, "{ when: outside, region: shel, outcome: reached }", "Did you mean shell?"},
+        Mistake{kExit, "{ when: outside, outcome: reached }", "region"},
+        Mistake{kExit, "{ when: outside, region: shell }", "leads nowhere"},
+        Mistake{kExit, "{ when: outside, region: shell, to: home, outcome: reached }",
+                "leads to a state and out of the trial"},
+        Mistake{kExit, "{ when: outside, region: shell, to: hom }", "Did you mean home?"},
+        Mistake{kExit, "{ when: outside, region: shell, finger: thumb, outcome: reached }",
+                "none of the scene's fingers"},
+        Mistake{kExit, "{ when: outside, region: shell, outcome: lost }", "'lost' is done again"},
+        Mistake{kExit, "{ when: outside, region: shell, outcome: skipped }",
+                "that the operator skipped"},
+        Mistake{kExit, "{ when: lifted, body: table, outcome: reached }", "'table' cannot move"},
+        Mistake{kExit, "{ when: gripped, body: block, outcome: reached }", "a grip takes two"},
+        Mistake{kExit, "{ when: key, key: enter, outcome: reached }", "is no key"},
+        Mistake{kExit, "{ when: time, outcome: reached }", "how long is missing"},
+        Mistake{kExit, "{ when: trigger, code: 256, outcome: reached }", "code"},
+        Mistake{kExit, "{ when: trigger, hold_s: 1, outcome: reached }", "is over at once"},
+        Mistake{kExit, "{ when: button, button: 40, outcome: reached }", "button"},
+        Mistake{kExit, "{ when: outside, region: shell, height_mm: 20, outcome: reached }",
+                "height_mm"},
+        Mistake{"duration_s: 0.2, reach: target", "duration_s: 0, reach: target", "duration_s"},
+        Mistake{"duration_s: 0.2, reach: target", "reach: target", "duration"},
+        Mistake{"during: reach", "during: rech", "Did you mean reach?"},
+        Mistake{"distance_mm: 30", "distance_mm: 0", "distance_mm"},
+        Mistake{"name: far\n", "name: right\n", "there are two conditions 'right'"},
+        Mistake{"[{ name: target, position_mm: [0, 50, 120]",
+                "[{ name: targe, position_mm: [0, 50, 120]", "Did you mean target?"},
+        Mistake{"redo: next", "redo: later", "redo"},
+        Mistake{kBlock, "{ name: before, kind: base }", "kind"},
+        Mistake{kBlock, "{ name: before, conditions: [left] }", "'left' is no condition"},
+        Mistake{kBlock, "{ name: before, repeats: 0 }", "repeats"},
+        Mistake{kBlock, "{ name: before, order: random }", "order"},
+        Mistake{kBlock, "{ name: before, kind: perturbed }", "is missing in a perturbed block"},
+        Mistake{kBlock, "{ name: before, ramp: 3 }", "there is nothing to ramp"},
+        Mistake{"perturb: rotation", "perturb: rotatoin", "Did you mean rotation?"},
+        Mistake{"count: 1 }", "count: 5 }", "more than the block's 4 trials"},
+        Mistake{"  blocks:\n", "  block:\n", "blocks"}));
+
+}  // namespace
+}  // namespace dihaptic::task::task_mistakes_test

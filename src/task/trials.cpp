@@ -1,0 +1,317 @@
+#include "task/trials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+#include "task/lookup.h"
+
+namespace dihaptic::task {
+namespace {
+
+/// Shuffles by the method of Fisher and Yates.
+void shuffle(std::vector<int>& list, Random& random) {
+    for (size_t i = list.size(); i > 1; --i) {
+        const auto j = static_cast<size_t>(random.uniform(0, static_cast<double>(i)));
+        std::swap(list[i - 1], list[std::min(j, i - 1)]);
+    }
+}
+
+/// (0, n-1, 1, n-2, ...) + row, modulo n; for odd n, rows from n on are mirrored.
+std::vector<int> williams_row(int n, int row) {
+    std::vector<int> out;
+    const bool mirrored = n % 2 == 1 && row % (2 * n) >= n;
+    for (int i = 0; i < n; ++i) {
+        const int zigzag = i % 2 == 0 ? i / 2 : n - 1 - i / 2;
+        out.push_back((zigzag + row) % n);
+    }
+    if (mirrored) std::reverse(out.begin(), out.end());
+    return out;
+}
+
+std::vector<int> permutation(int n, int64_t number) {
+    std::vector<int> left(static_cast<size_t>(n));
+    std::iota(left.begin(), left.end(), 0);
+    std::vector<int64_t> factorial(left.size() + 1, 1);
+    for (size_t i = 1; i < factorial.size(); ++i)
+        factorial[i] = factorial[i - 1] * static_cast<int64_t>(i);
+    number %= factorial.back();
+    std::vector<int> out;
+    for (size_t i = left.size(); i > 0; --i) {
+        const auto pick = static_cast<std::ptrdiff_t>(number / factorial[i - 1]);
+        number %= factorial[i - 1];
+        out.push_back(left[static_cast<size_t>(pick)]);
+        left.erase(left.begin() + pick);
+    }
+    return out;
+}
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// The largest number of trials of each procedure, mixed, so that the turn tells a participant
+/// nothing.
+std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
+                                    Random& random) {
+    trial.share = std::numeric_limits<double>::quiet_NaN();
+    std::vector<int> turns;
+    for (const std::string& name : block.procedures) {
+        const int i = index_of(names_of(task.procedures), name);
+        turns.insert(turns.end(),
+                     static_cast<size_t>(task.procedures[static_cast<size_t>(i)].trials), i);
+    }
+    shuffle(turns, random);
+    std::vector<Trial> out;
+    for (const int i : turns) {
+        trial.procedure = i;
+        trial.perturb =
+            index_of(names_of(task.perturbations), task.procedures[static_cast<size_t>(i)].perturb);
+        out.push_back(trial);
+    }
+    return out;
+}
+
+/// The block's conditions, as indices among the task's; all if the block names none, and the one
+/// without a name if the task has none.
+std::vector<int> conditions_of(const Task& task, const Block& block) {
+    std::vector<int> out;
+    for (const std::string& name : block.conditions)
+        out.push_back(index_of(names_of(task.conditions), name));
+    if (out.empty()) {
+        out.resize(std::max<size_t>(1, task.conditions.size()));
+        std::iota(out.begin(), out.end(), 0);
+    }
+    return out;
+}
+
+/// Gives trials their conditions in the block's order, which is repeated until all have one.
+void deal_conditions(const std::vector<int>& conditions, Order order, int number, Random& random,
+                     std::vector<Trial>& trials) {
+    const int n = static_cast<int>(conditions.size());
+    for (size_t i = 0; i < trials.size();) {
+        for (const int k : ordered(n, order, number, random)) {
+            if (i == trials.size()) break;
+            trials[i++].condition = conditions[static_cast<size_t>(k)];
+        }
+    }
+}
+
+/// Every condition once in each repeat.
+std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Block& block,
+                                   Trial trial, int number, Random& random) {
+    const int n = static_cast<int>(conditions.size());
+    std::vector<Trial> out;
+    for (int repeat = 0; repeat < block.repeats; ++repeat) {
+        // a Latin square goes on from repeat to repeat
+        const int row = block.order == Order::latin_square ? number + repeat : number;
+        for (const int i : ordered(n, block.order, row, random)) {
+            trial.condition = conditions[static_cast<size_t>(i)];
+            out.push_back(trial);
+        }
+    }
+    return out;
+}
+
+/// Inserts trials at random places, each after another trial, so that none comes first.
+void insert_trials(const Insert& insert, const Task& task, Random& random,
+                   std::vector<Trial>& trials) {
+    const auto places = ordered(static_cast<int>(trials.size()), Order::shuffled, 0, random);
+    std::vector<int> which;
+    for (int k = 0; k < insert.count; ++k)
+        which.push_back(places[static_cast<size_t>(k) % places.size()]);
+    std::sort(which.rbegin(), which.rend());
+    for (const int i : which) {
+        Trial extra = trials[static_cast<size_t>(i)];
+        extra.kind = insert.kind;
+        extra.perturb = index_of(names_of(task.perturbations), insert.perturb);
+        extra.procedure = -1;
+        if (std::isnan(extra.share)) extra.share = 1;
+        trials.insert(trials.begin() + i + 1, extra);
+    }
+}
+
+/// The block's trials, in their order.
+std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
+                             Random& random) {
+    Trial trial;
+    trial.round = round;
+    trial.kind = block.kind;
+    trial.perturb = index_of(names_of(task.perturbations), block.perturb);
+    const std::vector<int> conditions = conditions_of(task, block);
+    std::vector<Trial> out;
+    if (block.procedures.empty()) {
+        out = repeated_trials(conditions, block, trial, number, random);
+    } else {
+        out = procedure_trials(task, block, trial, random);
+        deal_conditions(conditions, block.order, number, random, out);
+    }
+    for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
+        out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
+    for (const Insert& insert : block.insert) insert_trials(insert, task, random, out);
+    for (size_t i = 0; i < out.size(); ++i) out[i].in_block = static_cast<int>(i) + 1;
+    return out;
+}
+
+std::string name_at(const std::vector<std::string>& names, int i) {
+    return i >= 0 && i < static_cast<int>(names.size()) ? names[static_cast<size_t>(i)] : "";
+}
+
+}  // namespace
+
+std::vector<int> ordered(int n, Order order, int number, Random& random) {
+    switch (order) {
+        case Order::latin_square:
+            return williams_row(n, std::max(0, number));
+        case Order::counterbalanced:
+            return permutation(n, std::max(0, number));
+        case Order::sequential:
+        case Order::shuffled:
+            break;
+    }
+    std::vector<int> out(static_cast<size_t>(n));
+    std::iota(out.begin(), out.end(), 0);
+    if (order == Order::shuffled) shuffle(out, random);
+    return out;
+}
+
+int participant_number(const std::string& id) {
+    size_t digits = 0;
+    while (digits < id.size() && digits < 8 &&
+           std::isdigit(static_cast<unsigned char>(id[id.size() - 1 - digits])) != 0)
+        ++digits;
+    return digits == 0 ? -1 : std::atoi(id.substr(id.size() - digits).c_str());
+}
+
+bool needs_number(const Task& task) {
+    const auto by_number = [](Order order) {
+        return order == Order::latin_square || order == Order::counterbalanced;
+    };
+    return (by_number(task.round_order) && task.rounds.size() > 1) ||
+           std::any_of(task.blocks.begin(), task.blocks.end(),
+                       [&](const Block& block) { return by_number(block.order); });
+}
+
+std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
+    // the first participant gets the first row: participants are counted from 1
+    const int row = std::max(0, number - 1);
+    Random rounds_random(seed, "rounds");
+    const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
+    std::vector<Trial> out;
+    int block_number = 0;
+    for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
+        for (size_t b = 0; b < task.blocks.size(); ++b) {
+            // each block has its own random stream: a change to one leaves the others as they were
+            Random random(seed, fmt::format("trials of block {} in round {}", b, round));
+            ++block_number;
+            for (Trial trial : trials_of(task, task.blocks[b], round, row, random)) {
+                trial.block = static_cast<int>(b);
+                trial.number = block_number;
+                out.push_back(trial);
+            }
+        }
+    }
+    return out;
+}
+
+Table trial_list(const Task& task, const std::vector<Trial>& trials) {
+    Table table;
+    table.columns = kTrialListColumns;
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const Trial& t = trials[i];
+        table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
+                              task.blocks[static_cast<size_t>(t.block)].name,
+                              static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
+                              name_at(names_of(task.rounds), t.round),
+                              name_at(names_of(task.conditions), t.condition),
+                              name_at(names_of(task.perturbations), t.perturb), t.share,
+                              name_at(names_of(task.procedures), t.procedure)});
+    }
+    return table;
+}
+
+std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
+    const auto rows = read_csv(file);
+    std::vector<Trial> out;
+    if (rows.size() < 2) {
+        throw Error({file, 0}, "", "has no trial",
+                    "Put back the list that the session was recorded with.");
+    }
+    for (size_t i = 1; i < rows.size(); ++i) {
+        const auto& row = rows[i];
+        const auto bad = [&](const char* column) {
+            return Error({file, static_cast<int>(i) + 1}, column, "is none of this task's",
+                         "Put back the list that the session was recorded with.");
+        };
+        if (row.size() < 10) throw bad("trial_num");
+        Trial t;
+        t.number = std::atoi(row[1].c_str());
+        t.block = index_of(names_of(task.blocks), row[2]);
+        t.in_block = std::atoi(row[3].c_str());
+        const auto kinds = enum_names(TrialKind{});
+        const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
+        t.round = task.rounds.empty() ? 0 : index_of(names_of(task.rounds), row[5]);
+        t.condition = task.conditions.empty() ? 0 : index_of(names_of(task.conditions), row[6]);
+        t.perturb = index_of(names_of(task.perturbations), row[7]);
+        t.share = row[8].empty() ? std::numeric_limits<double>::quiet_NaN()
+                                 : std::strtod(row[8].c_str(), nullptr);
+        t.procedure = index_of(names_of(task.procedures), row[9]);
+        if (t.block < 0) throw bad("block");
+        if (kind == kinds.end()) throw bad("kind");
+        if (t.round < 0) throw bad("round");
+        if (t.condition < 0) throw bad("condition");
+        if (t.perturb < 0 && !row[7].empty()) throw bad("perturbation");
+        if (t.procedure < 0 && !row[9].empty()) throw bad("procedure");
+        t.kind = static_cast<TrialKind>(kind - kinds.begin());
+        out.push_back(t);
+    }
+    return out;
+}
+
+TrialQueue::TrialQueue(const std::vector<Trial>& trials, Redo redo, int most_attempts,
+                       uint64_t seed)
+    : trials_(&trials),
+      redo_(redo),
+      most_attempts_(most_attempts),
+      random_(seed, "trials to be done again"),
+      attempts_(trials.size(), 1) {
+    queue_.reserve(trials.size() * static_cast<size_t>(most_attempts));
+    queue_.resize(trials.size());
+    std::iota(queue_.begin(), queue_.end(), 0);
+}
+
+bool TrialQueue::go_to(int trial, int attempt) noexcept {
+    const auto next = queue_.begin() + static_cast<std::ptrdiff_t>(at_);
+    const auto found = std::find(next, queue_.end(), trial);
+    if (found == queue_.end()) return false;
+    std::rotate(next, found, found + 1);
+    int& made = attempts_[static_cast<size_t>(trial)];
+    made = std::max(made, attempt);
+    return true;
+}
+
+void TrialQueue::finish(bool redo) noexcept {
+    const int now = trial();
+    ++at_;
+    int& attempt = attempts_[static_cast<size_t>(now)];
+    if (!redo || redo_ == Redo::never || attempt >= most_attempts_) return;
+    ++attempt;
+    const int block = (*trials_)[static_cast<size_t>(now)].number;
+    size_t end = at_;
+    while (end < queue_.size() && (*trials_)[static_cast<size_t>(queue_[end])].number == block)
+        ++end;
+    size_t place = redo_ == Redo::next ? at_ : end;
+    if (redo_ == Redo::random) {
+        const double last = static_cast<double>(end - at_ + 1);
+        place = at_ + std::min(end - at_, static_cast<size_t>(random_.uniform(0, last)));
+    }
+    queue_.insert(queue_.begin() + static_cast<std::ptrdiff_t>(place), now);
+}
+
+}  // namespace dihaptic::task

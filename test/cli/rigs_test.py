@@ -1,0 +1,111 @@
+"""Rigs: tuning, workspaces, calibration.
+
+Usage: rigs_test.py PROGRAM, from the project's folder.
+"""
+import os
+import pathlib
+import re
+import tempfile
+import time
+import unittest
+
+from program import dihaptic, session_of
+
+
+class Commands(unittest.TestCase):
+    def test_tune_refuses_a_rig_that_is_not_simulated_and_a_map_that_cannot_be(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            pathlib.Path(rig).write_text("devices:\n  - { finger: thumb, backend: replay }\n"
+                                         "  - { finger: index, backend: replay }\n")
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(rig + ":2: error: backend: devices of the backend 'replay' need a recording. Use", result.stderr)
+            pathlib.Path(rig).write_text("devices:\n  - { finger: toe, backend: simulated }\n")
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("no device is held by the scene's finger 'thumb'", result.stderr)
+            result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("map.svg: error: cannot be written. Name another file by --map", result.stderr)
+
+    def test_workspace_measures_and_draws(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = folder + "/workspace.svg"
+            result = dihaptic("workspace", "rigs/premium-arms.yaml", "-o", picture)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"shared +\d+\.\d\d litres")
+            self.assertIn("largest sphere in it", pathlib.Path(picture).read_text())
+            # what it proposes is what a rig file may say, and then says so
+            rig = folder + "/rig.yaml"
+            proposed = "".join(re.findall(r"^(?:origin_mm|wall): .*\n", result.stdout, re.MULTILINE))
+            pathlib.Path(rig).write_text(pathlib.Path("rigs/premium-arms.yaml").read_text() + proposed)
+            again = dihaptic("workspace", rig, "-o", picture)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertIn("keeps hands where all devices reach", again.stdout)
+            self.assertIn(proposed, again.stdout.replace(" }\n\n", " }\n"))
+            pathlib.Path(rig).write_text(pathlib.Path("rigs/premium-arms.yaml").read_text()
+                                         + "wall: { centre_mm: [0, 0, 70], size_mm: [600, 600, 600] }\n")
+            result = dihaptic("workspace", rig, "-o", picture)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertRegex(result.stdout, r"not all devices reach: \d\d\.\d % of it")
+            result = dihaptic("workspace", "rigs/ideal-pair.yaml", "-o", picture)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not say where its reach ends."
+                          " Give it workspace_mm", result.stderr)
+
+    def test_calibrate_finds_what_is_misplaced_and_sessions_use_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            text = pathlib.Path("rigs/premium-misplaced.yaml").read_text()
+            pathlib.Path(rig).write_text(text.replace("jig:", "calibration: mine.yaml\njig:"))
+            result = dihaptic("check", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("rig.yaml:", result.stdout)
+            self.assertIn("calibration: mine.yaml cannot be used. Calibrate the rig", result.stdout)
+            result = dihaptic("calibrate", rig)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            agree = re.search(r"agree to ([\d.]+) mm rms", result.stdout)
+            self.assertLess(float(agree[1]), 0.1, result.stdout)
+            before = re.search(r"before +([\d.]+) mm rms", result.stdout)
+            self.assertGreater(float(before[1]), 1, result.stdout)
+            self.assertTrue(pathlib.Path(folder + "/mine.svg").exists())
+            result = dihaptic("check", rig)
+            self.assertEqual(result.returncode, 0, result.stdout)
+            # an old one is warned of, and a session keeps the one that it was made with
+            mine = pathlib.Path(folder + "/mine.yaml")
+            mine.write_text(re.sub(r"date: .*", "date: 2020-01-01", mine.read_text()))
+            result = dihaptic("run", "experiments/lift-block.yaml", "--rig", rig, "--out", folder + "/sessions")
+            self.assertIn("Calibrate it again: dihaptic calibrate", result.stderr)
+            mine.unlink()
+            session = session_of(folder + "/sessions")
+            self.assertTrue(pathlib.Path(session + "/calibration.yaml").exists())
+            result = dihaptic("replay", session)
+            self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_calibrate_writes_over_no_input_and_says_at_once_where_it_cannot(self):
+        with tempfile.TemporaryDirectory() as folder:
+            rig = folder + "/rig.yaml"
+            text = pathlib.Path("rigs/premium-misplaced.yaml").read_text()
+            pathlib.Path(rig).write_text(text)
+            os.mkdir(folder + "/taken.svg")
+            for out, message in [(rig, "is the rig file itself"), (folder + "/c.svg", "is a name for the picture"),
+                                 (folder + "/none/c.yaml", "cannot be written: No such file or directory"),
+                                 (folder + "/taken.yaml", "cannot be written: it is a folder")]:
+                began = time.monotonic()
+                result = dihaptic("calibrate", rig, "-o", out)
+                self.assertEqual(result.returncode, 2, out)
+                self.assertIn(message, result.stderr)
+                self.assertLess(time.monotonic() - began, 2)
+            result = dihaptic("workspace", rig, "-o", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertEqual(pathlib.Path(rig).read_text(), text)
+            self.assertEqual(sorted(os.listdir(folder)), ["rig.yaml", "taken.svg"])
+            pathlib.Path(rig).write_text(text[:text.index("jig:")] + "jig: [{name: post, position_mm: [0, 0, 100]}]\n")
+            result = dihaptic("calibrate", rig)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertRegex(result.stderr, r"rig.yaml:\d+: error: jig: its points are on a line")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,72 @@
+"""How many ticks a session on the real clock misses, and how soon what changed is seen. Needs the machine alone."""
+import csv
+import glob
+import pathlib
+import time
+import unittest
+
+from window import Participants, Window
+
+
+class Sessions(Window):
+    def test_run_a_script_to_its_end(self):
+        self.open()
+        self.key("alt+h", "Down")
+        self.start()
+        time.sleep(1.5)
+        self.screenshot("script")
+        with self.ended("complete") as file:
+            # ticks that a busy machine misses are left out
+            self.assertGreater(len(self.series(file, "solver")), 2700)
+            self.assertLess(len(self.series(file, "solver")), 3002)
+        self.quit()
+
+
+class Trials(Participants):
+    def assert_changes_were_seen(self):
+        """Of what came on and stayed, events.csv says when it came to the subject's screen."""
+        with open(self.recording() + "events.csv") as file:
+            events = [row for row in csv.DictReader(file) if row["event"] in ("message", "perturbation")]
+        self.assertGreater(len(events), 10)
+        seen = [float(row["shown_s"]) - float(row["time_s"]) for row in events if row["shown_s"]]
+        self.assertGreater(len(seen), 0.8 * len(events))
+        self.assertGreater(min(seen), 0)
+        self.assertLess(sorted(seen)[len(seen) // 2], 0.5)  # this machine draws slowly
+
+    def test_run_from_start_to_end_by_the_simulated_hand(self):
+        def short(text):
+            return text[:text.index("  redo: end_of_block")] + """  redo: never
+  blocks:
+    - { name: baseline, conditions: [right far up], order: sequential }
+    - { name: rotation, kind: perturbed, perturb: rotation, conditions: [left near up] }
+"""
+        self.open(self.experiment("visuomotor-rotation", short))
+        self.key("alt+v", "s")
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)
+        self.key("alt+h", "Down")
+        time.sleep(1)
+        self.ask()
+        self.screenshot("participant")
+        self.answered("Escape")
+        self.assertEqual(glob.glob(self.out + "/*"), [])
+        self.start()
+        time.sleep(1)
+        self.screenshot("trial")
+        self.key("F8")
+        with self.ended("complete"):
+            pass
+        outcomes = self.outcomes()
+        self.assertEqual(len(outcomes), 8)
+        self.assertEqual(outcomes.count("skipped"), 1)
+        self.assertEqual(outcomes.count("reached"), 7)
+        info = pathlib.Path(self.recording() + "session.yaml").read_text()
+        for line in ("id: S07", "age: 31", "sex: F", "handedness: right"):
+            self.assertRegex(info, line.replace(": ", ": \"?"))
+        self.assert_changes_were_seen()
+        self.replay()
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+"""Rigs: calibrated in the window, moved since, or unable to start."""
+import glob
+import pathlib
+import time
+import unittest
+
+from window import PROGRAM, Window
+
+
+class Rigs(Window):
+    def with_rig(self, text):
+        pathlib.Path(self.folder.name + "/rig.yaml").write_text(text)
+        file = self.folder.name + "/experiment.yaml"
+        pathlib.Path(file).write_text("scene: block.yaml\nrig: rig.yaml\n")
+        self.open(file)
+
+    def dialog(self, name):
+        found = self.wait(f"the dialog '{name}'", lambda: self.xdotool("search", "--onlyvisible", "--name", name)).split()[-1]
+        time.sleep(0.5)
+        self.xdotool("windowfocus", found)
+        time.sleep(0.3)
+        return found
+
+    def gone(self, name):
+        self.wait(f"the end of '{name}'", lambda: not self.xdotool("search", "--onlyvisible", "--name", name))
+        self.xdotool("windowfocus", self.name)
+        time.sleep(0.5)
+
+    def test_are_calibrated_in_the_window(self):
+        self.with_rig(pathlib.Path("rigs/premium-misplaced.yaml").read_text())
+        mine = pathlib.Path(self.folder.name + "/rig-calibration.yaml")
+        for answer in ["Escape", "Return"]:
+            self.key("alt+s", "c")
+            self.dialog("^What the calibration found")
+            self.screenshot("calibration")
+            self.key(answer)
+            self.gone("^What the calibration found")
+            self.assertEqual(mine.exists(), answer == "Return")
+        self.assertIn("agreement_rms_m", mine.read_text())
+        self.assertIn("<svg", mine.with_suffix(".svg").read_text())
+        self.assertIn("\ncalibration: rig-calibration.yaml\n", pathlib.Path(self.folder.name + "/rig.yaml").read_text())
+        self.quit()
+
+    def on_fakes(self, together, more=""):
+        """Two devices that nobody moves, and how far apart they are said to have been; `more`: of the rig."""
+        library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
+        pathlib.Path(self.folder.name + "/mine.yaml").write_text(
+            f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: {together}}}]\n")
+        self.with_rig("title: Two fakes\ncalibration: mine.yaml\ndevices:\n" + "".join(
+            f"  - {{finger: {finger}, backend: openhaptics, options: {{library: {library}, name: PHANToM {i}}}}}\n"
+            for i, finger in [(1, "thumb"), (2, "index")]) + more)
+
+    def test_lead_a_person_through_a_calibration_who_gives_up(self):
+        self.on_fakes(0)
+        self.key("alt+s", "c")
+        self.dialog("^Calibration: Two fakes")
+        self.key("Return")  # reset
+        self.key("Return")  # link
+        time.sleep(1)
+        self.key("Return")  # carried too little: nobody moves them
+        time.sleep(1)
+        self.screenshot("guide")
+        self.key("Escape")
+        self.gone("^Calibration: Two fakes")
+        self.assertEqual(list(pathlib.Path(self.folder.name).glob("rig-calibration*")), [])
+        self.quit()
+
+    def test_that_were_moved_since_their_calibration_are_warned_of(self):
+        self.on_fakes(12)
+        for answer, notes in [("Return", True), ("alt+s", False)]:
+            before = len(glob.glob(self.out + "/*/raw.log"))
+            self.key("F5")
+            self.dialog("^Does the calibration still hold")
+            self.screenshot("together")
+            self.key(answer)
+            self.gone("^Does the calibration still hold")
+            self.wait("the start", lambda: len(glob.glob(self.out + "/*/raw.log")) > before)
+            time.sleep(0.5)
+            self.key("F7")
+            with self.ended("complete"):
+                pass
+            self.settle()
+            info = pathlib.Path(self.recording() + "session.yaml").read_text()
+            self.assertEqual("12.0 mm apart when the rig was calibrated" in info, notes, info)
+        self.quit()
+
+    def test_that_cannot_start_ask_for_nothing_more(self):
+        self.on_fakes(0, "outlets: [{ kind: serial, options: { port: /dev/no-such-line } }]\n")
+        self.key("F5")
+        time.sleep(2)
+        self.assertEqual(self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration still hold"), "")
+        self.assertEqual(glob.glob(self.out + "/*"), [])
+        self.xdotool("windowfocus", self.name)
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""Trials that wait for keys, and those that an earlier session left undone."""
+import csv
+import os
+import pathlib
+import time
+import unittest
+
+from window import Participants
+
+
+class Trials(Participants):
+    def focus(self, window):
+        """Of a window that comes up: there is no window manager that would give it."""
+        self.xdotool("windowfocus", self.wait("the window", window).split()[-1])
+        time.sleep(0.5)
+
+    def test_get_the_keys_that_they_wait_for(self):
+        def keys(text):
+            return text[:text.index("task:")] + """task:
+  regions:
+    - { name: start, position_mm: [0, 0, 120], radius_mm: 8 }
+  states:
+    - name: ready
+      show: [start]
+      message: Press G when you are ready
+      exits:
+        - { when: key, key: g, outcome: ready, feedback: Good }
+  blocks:
+    - { name: all, repeats: 2 }
+"""
+        self.open(self.experiment("visuomotor-rotation", keys))
+        self.start()
+        time.sleep(1)
+        self.screenshot("key")
+        self.key("h", "g")
+        time.sleep(0.5)
+        self.key("g")  # while the feedback is shown: no answer
+        time.sleep(1.5)
+        self.key("g")
+        with self.ended("complete"):
+            pass
+        self.assertEqual(self.outcomes(), ["ready", "ready"])
+
+    def test_that_were_not_finished_are_offered_before_new_ones(self):
+        """Three reaches by mouse, of which one is skipped; the rest is done in a second session."""
+        def short(text):
+            return text[:text.index("  redo: end_of_block")] + """  redo: never
+  blocks: [{ name: baseline, conditions: [right far up, left far up, right near up], order: sequential }]
+"""
+        question = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Go on")
+        self.open(self.experiment("visuomotor-rotation", short))
+        self.start()
+        time.sleep(1)
+        self.key("F8")
+        time.sleep(1)
+        self.key("F7")
+        with self.ended("interrupted"):
+            pass
+        first = self.recording()
+        self.settle()
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+        self.answered("Return")
+        self.focus(question)
+        self.screenshot("go-on")
+        self.key("Escape")
+        time.sleep(1)
+        self.assertEqual(self.recording(), first)  # nothing began
+        self.xdotool("windowfocus", self.name)
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+        self.answered("Return")
+        self.focus(question)
+        self.key("Return")
+        self.wait("the session", lambda: self.recording() != first)
+        self.xdotool("windowfocus", self.name)
+        time.sleep(1)
+        self.screenshot("goes-on")
+        for _ in range(12):  # three in each round
+            self.key("F8")
+            time.sleep(0.3)
+        with self.ended("complete"):
+            pass
+        info = pathlib.Path(self.recording() + "session.yaml").read_text()
+        self.assertIn("resumes: ", info)
+        self.assertIn(os.path.basename(first.rstrip("/")), info)
+        self.assertRegex(info, "mover: mouse")
+        with open(self.recording() + "trials.csv") as file:
+            rows = list(csv.DictReader(file))
+        finished = [row["session_num"] for row in rows if row["outcome"] != "interrupted"]
+        self.assertEqual(finished[0], "1")
+        self.assertEqual(finished[-1], "2")
+        self.replay()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,184 @@
+"""The operator's window as its user meets it: real mouse and key events, in an X server of its own. What the tests
+beside this file share.
+
+Usage: gui/NAME_test.py PROGRAM [SCREENSHOTS [CLASS[.TEST]]], from the project's folder. Pictures of the window go to
+the folder SCREENSHOTS.
+"""
+import csv
+import glob
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+
+sys.path.append("test")  # felt.py
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
+SIZE = "1400x900"
+SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
+
+
+def end_display(display):
+    """One that is stopped, or was asked just before it began to wait, does not hear that it is to end."""
+    display.terminate()
+    try:
+        display.wait(5)
+    except subprocess.TimeoutExpired:
+        display.kill()
+        display.wait()
+
+
+class Window(unittest.TestCase):
+    """Each test has a display, a home and a window of its own."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        read, write = os.pipe()
+        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", SIZE + "x24"],
+                                        pass_fds=[write], stderr=subprocess.DEVNULL)
+        self.addCleanup(end_display, self.display)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            number = pipe.readline().strip()
+        self.environment = dict(os.environ, DISPLAY=":" + number, HOME=self.folder.name, XDG_RUNTIME_DIR=self.folder.name)
+        self.scene = self.folder.name + "/block.yaml"
+        pathlib.Path(self.scene).write_text(SCENE)
+        self.out = self.folder.name + "/sessions"
+        self.window = None
+
+    def open(self, file=None):
+        self.log = open(self.folder.name + "/log", "w+")
+        self.addCleanup(self.log.close)
+        # a test that is run by nohup too
+        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, file or self.scene], env=self.environment,
+                                       stdout=self.log, stderr=self.log,
+                                       preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
+        self.addCleanup(self.window.wait)
+        self.addCleanup(self.window.kill)
+        name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", " - Dihaptic$"))
+        self.name = name.split()[-1]
+        # there is no window manager that would
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *SIZE.split("x"),
+                     "windowfocus", self.name, "mousemove", "450", "450")
+        self.settle()
+
+    def xdotool(self, *words):
+        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True, timeout=60).stdout
+
+    def key(self, *keys):
+        for key in keys:
+            self.xdotool("key", key)
+            time.sleep(0.2)
+
+    def hold(self, key, seconds):
+        self.xdotool("keydown", key)
+        time.sleep(seconds)
+        self.xdotool("keyup", key)
+
+    def move(self, x, y, steps):
+        """The pointer, sixty times a second, as a hand would."""
+        for _ in range(steps):
+            self.xdotool("mousemove_relative", "--", str(x), str(y))
+            time.sleep(0.016)
+
+    def wait(self, what, condition, seconds=60):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            value = condition()
+            if value:
+                return value
+            if self.window is not None and self.window.poll() is not None:
+                break
+            time.sleep(0.05)
+        self.log.seek(0)
+        self.fail(f"waited in vain for {what}: {self.log.read()}")
+
+    def settle(self):
+        """Until the window, of which no session runs, has drawn all: five looks in a row find its threads asleep."""
+        look = ["ps", "-L", "-o", "state=", "-p", str(self.window.pid)]
+        end, asleep = time.monotonic() + 5, 0
+        while asleep < 5 and time.monotonic() < end:
+            states = subprocess.run(look, capture_output=True, text=True).stdout
+            asleep = 0 if "R" in states or "D" in states else asleep + 1
+            time.sleep(0.03)
+
+    def screenshot(self, name):
+        pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i",
+                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True, timeout=60)
+
+    def recording(self):
+        """Folder of the session that runs, or the last one."""
+        return self.wait("a session", lambda: sorted(glob.glob(self.out + "/*/")))[-1]
+
+    def start(self):
+        before = len(glob.glob(self.out + "/*/raw.log"))
+        self.key("F5")
+        self.wait("the start", lambda: len(glob.glob(self.out + "/*/raw.log")) > before)
+        time.sleep(0.3)
+
+    def ended(self, state):
+        """The recording of the session that has just ended, in this state."""
+        folder = self.recording()
+        info = pathlib.Path(folder + "session.yaml")
+        self.wait("state: " + state, lambda: "state: " + state in info.read_text())
+        return h5py.File(folder + "session.nwb", "r")
+
+    def series(self, file, name):
+        return file[f"acquisition/{name}/data"][:]
+
+    def status(self, file, bit):
+        """Whether each tick has that bit."""
+        return (self.series(file, "status").astype(int) >> bit & 1) == 1
+
+    def replay(self):
+        """Every force of the last recording, to the bit."""
+        check = subprocess.run([PROGRAM, "replay", self.recording()], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
+
+    def quit(self):
+        self.key("ctrl+q")
+        self.assertEqual(self.window.wait(60), 0)
+
+
+class Participants(Window):
+    """Each test asks who does the trials of its experiment."""
+
+    def experiment(self, name, change):
+        text = change(pathlib.Path(f"experiments/{name}.yaml").read_text()).replace("../scenes", os.getcwd() + "/scenes")
+        file = self.folder.name + "/experiment.yaml"
+        pathlib.Path(file).write_text(text)
+        return file
+
+    def dialog(self):
+        return self.xdotool("search", "--onlyvisible", "--name", "^Who does the trials")
+
+    def ask(self):
+        self.key("F5")
+        self.wait("the dialog", self.dialog)
+        time.sleep(0.5)
+
+    def answered(self, key):
+        """There is no window manager that gives the focus back."""
+        self.key(key)
+        self.wait("the dialog's end", lambda: not self.dialog())
+        time.sleep(0.5)
+        self.xdotool("windowfocus", self.name)
+        time.sleep(0.5)
+
+    def start(self):
+        self.ask()
+        self.xdotool("type", "--delay", "50", "S07\t31\tF\tr")
+        self.answered("Return")
+        self.wait("the start", lambda: glob.glob(self.out + "/*/raw.log"))
+
+    def outcomes(self):
+        with open(self.recording() + "trials.csv") as file:
+            return [row["outcome"] for row in csv.DictReader(file)]
