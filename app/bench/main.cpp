@@ -7,6 +7,7 @@
 #include "base/figure_text.h"
 #include "bench/contact.h"
 #include "bench/friction.h"
+#include "bench/heap.h"
 #include "bench/jitter.h"
 #include "bench/scale.h"
 #include "bench/solvers.h"
@@ -103,6 +104,22 @@ void add_scale(CLI::App& app) {
     });
 }
 
+void add_heap(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "heap", "Whether a heap beside a held block costs the hand exactness or time");
+    auto options = std::make_shared<BenchOptions>();
+    auto loose = std::make_shared<std::vector<int>>(std::vector<int>{20, 60, 200});
+    add_settings(*command, *options);
+    command->add_option("--loose", *loose, "numbers of boxes and balls")->capture_default_str();
+    command->footer("\nExample:\n  dihaptic-bench heap --loose 20");
+    command->callback([options, loose] {
+        const auto figures = with_progress("bench heap", [&](const measure::Progress& progress) {
+            return bench::bench_heap(options->setup, *loose, progress);
+        });
+        print_rows("heap", figures, options->json);
+    });
+}
+
 void add_contact(CLI::App& app) {
     struct ContactOptions {
         std::vector<std::string> files;
@@ -118,8 +135,7 @@ void add_contact(CLI::App& app) {
                      "contact problems in the FCLIB layout (HDF5), or folders of *.hdf5")
         ->required();
     add_choice(*command, "--solver", options->solver,
-               "only this one; otherwise all but the sequential one, which needs bodies, and the "
-               "peers that are installed");
+               "only this one; otherwise all and the peers that are installed");
     command
         ->add_option("--directions", options->wanted.polygon.directions,
                      "of stewart_trinkle's friction polygon")
@@ -133,10 +149,6 @@ void add_contact(CLI::App& app) {
     command->callback([command, options] {
         bench::ContactBench& wanted = options->wanted;
         if (command->count("--solver") > 0) {
-            if (options->solver == contact::Solver::sequential_impulse)
-                throw Error({"--solver", 0}, std::string(enum_name(options->solver)),
-                            "solves bodies, which files lack",
-                            "Choose another, or see dihaptic-bench solvers.");
             wanted.solvers = {options->solver};
             wanted.peers = false;
         }
@@ -162,7 +174,6 @@ void add_solvers(CLI::App& app) {
         bench::SolversBench wanted;
         if (command->count("--solver") > 0) {
             wanted.solvers = {options->solver};
-            if (options->solver == contact::Solver::sequential_impulse) wanted.solvers.clear();
         }
         const auto figures = with_progress("bench solvers", [&](const measure::Progress& progress) {
             return bench::bench_solvers(wanted, progress);
@@ -262,6 +273,7 @@ int main(int argc, char** argv) {
         "own. dihaptic bench grasp measures how calmly a block is held.");
     cli::add_friction(app);
     cli::add_scale(app);
+    cli::add_heap(app);
     cli::add_contact(app);
     cli::add_solvers(app);
     cli::add_jitter(app);

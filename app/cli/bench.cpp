@@ -77,7 +77,7 @@ void add_grasp(CLI::App& bench) {
 /// Benches that only those who change this program need are in one of their own; who looks for one
 /// here is told so.
 void add_moved(CLI::App& bench) {
-    for (const char* name : {"friction", "scale", "contact", "solvers", "jitter", "view"}) {
+    for (const char* name : {"friction", "scale", "heap", "contact", "solvers", "jitter", "view"}) {
         auto* command = bench.add_subcommand(name)->group("")->allow_extras();
         command->set_help_flag();
         command->callback([name] {

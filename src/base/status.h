@@ -105,10 +105,12 @@ constexpr StatusRow kStatusTable[] = {
     {kOverrun, "the tick before had ended too late, and those that it missed were left out",
      "close other programs, lower the rate, or allow real time where a note asks for it"},
     {kSolverFallback, "the contact solver missed its tolerance and another answered",
-     "nothing, when it is rare; otherwise choose settings: dynamics: solver: newton"},
+     "nothing, when it is rare or there is a heap; otherwise choose settings: dynamics: solver: "
+     "newton"},
     {kSolverMissed, "the contact solver missed its tolerance, and the best answer was used",
-     "nothing with sequential_impulse, which ends near the answer, or in a heap; otherwise look at "
-     "what the objects do in these ticks, and report the session's folder as a bug"},
+     "nothing with sequential_impulse, which ends near the answer, or in a heap that no finger "
+     "touches (solver_held_residual); otherwise look at what the objects do in these ticks, and "
+     "report the session's folder as a bug"},
     {kForceOff, "force was off, after a fault", "look at the first fault"},
     {kBadReading,
      "a device gave a position or a velocity that is not a number",

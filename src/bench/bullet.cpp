@@ -33,8 +33,8 @@ Body make_body(const scene::Body& body) {
     info.m_friction = std::sqrt(body.friction);  // Bullet multiplies the two coefficients of a pair
     out.body = std::make_unique<btRigidBody>(info);
     if (moves) {
-        out.body->setLinearFactor(factors(body.moves));
-        out.body->setAngularFactor(factors(body.turns));
+        out.body->setLinearFactor(to_bullet(factors(body.moves)));
+        out.body->setAngularFactor(to_bullet(factors(body.turns)));
         out.body->setActivationState(DISABLE_DEACTIVATION);
     }
     return out;

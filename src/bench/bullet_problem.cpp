@@ -17,11 +17,11 @@ double inverse(double value, double largest) {
 }
 
 std::unique_ptr<btRigidBody> bullet_body(const contact::ProblemBody& body) {
-    const Vec3 lightness =
-        body.inverse_mass.diagonal();  // Bullet has one mass, and a switch per axis
+    // Bullet has one mass, and a switch per axis
+    const Vec3 lightness = body.inverse_mass.diagonal().head<3>();
     const double largest = lightness.maxCoeff();
-    assert(body.inverse_mass.isDiagonal());
-    const Eigen::SelfAdjointEigenSolver<Mat3> axes(body.inverse_inertia);
+    assert((body.inverse_mass.topLeftCorner<3, 3>().isDiagonal()));
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(body.inverse_mass.bottomRightCorner<3, 3>());
     Mat3 R = axes.eigenvectors();
     if (R.determinant() < 0) R.col(0) *= -1;
     Vec3 inertia;

@@ -36,7 +36,7 @@ ContactFigures measure(const contact::DelassusProblem& problem, contact::Solver 
     Eigen::VectorXd r;
     out.us = best_time([&] {
         const auto begin = std::chrono::steady_clock::now();
-        r = contact::solve(solver, polygon, problem, stats, &detail);
+        r = contact::solve(solver, {polygon, {}, contact::kUnbounded}, problem, stats, &detail);
         return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
             .count();
     });

@@ -13,9 +13,9 @@ namespace dihaptic::bench {
 
 /// The solvers to compare.
 struct ContactBench {
-    std::vector<contact::Solver> solvers{contact::Solver::newton,
-                                         contact::Solver::staggered_projections,
-                                         contact::Solver::stewart_trinkle};
+    std::vector<contact::Solver> solvers{
+        contact::Solver::newton, contact::Solver::staggered_projections,
+        contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
     contact::PolygonSettings polygon;
     bool peers = true;  ///< also other libraries' solvers, if this build has them
 };

@@ -88,7 +88,7 @@ class Measurement {
     const SolverCost& bullet() const { return bullet_; }
 
     SolverCost measure(Solver solver) {
-        SolverCost out = head(solver);
+        SolverCost out = head(enum_name(solver));
         std::vector<Impulse> r;
         std::vector<double> residuals;
         std::vector<char> seen(group_.problems.size());
@@ -143,7 +143,7 @@ class Measurement {
     }
 
   private:
-    SolverCost head(Solver solver) const {
+    SolverCost head(std::string_view solver) const {
         SolverCost out;
         out.solver = solver;
         out.family = group_.family;
@@ -180,7 +180,7 @@ class Measurement {
             residuals.push_back(
                 contact::natural_map_residual(group_.problems[i].problem, problems[i]->impulses()));
         }
-        bullet_ = head(Solver::sequential_impulse);
+        bullet_ = head(kBulletSolver);
         bullet_.residual_p99 = quantile(residuals, 0.99);
         bullet_us_ = all.us;
         fill(bullet_, all);
@@ -210,9 +210,9 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 std::vector<Growth> growth_of(const std::vector<SolverCost>& costs,
-                              const std::vector<Solver>& solvers) {
+                              const std::vector<std::string>& solvers) {
     std::vector<Growth> out;
-    for (const Solver solver : solvers) {
+    for (const std::string& solver : solvers) {
         for (const char* family : {"wall", "pile"}) {
             std::vector<double> contacts, median, p99;
             for (const SolverCost& cost : costs) {
@@ -238,25 +238,24 @@ SolversFigures bench_solvers(const SolversBench& bench, const measure::Progress&
             if (progress) progress(what, kRecording * share);
         });
     SolversFigures out;
-    std::vector<Solver> solvers{Solver::sequential_impulse};
-    solvers.insert(solvers.end(), bench.solvers.begin(), bench.solvers.end());
+    std::vector<std::string> solvers{kBulletSolver};
+    for (const Solver solver : bench.solvers) solvers.emplace_back(enum_name(solver));
     double done = 0;
     for (const ProblemGroup& group : groups) {
-        const auto say = [&](Solver solver) {
+        const auto say = [&](std::string_view solver) {
             if (progress) {
-                progress(fmt::format("{}, {} contacts, {}", group.family, group.contacts,
-                                     enum_name(solver)),
+                progress(fmt::format("{}, {} contacts, {}", group.family, group.contacts, solver),
                          kRecording + (1 - kRecording) * done++ /
                                           static_cast<double>(groups.size() * solvers.size()));
             }
         };
         if (group.problems.empty()) continue;
-        say(Solver::sequential_impulse);
+        say(kBulletSolver);
         Measurement measurement(group, bench.budget);
         out.problems.push_back(measurement.describe());
         out.costs.push_back(measurement.bullet());
         for (const Solver solver : bench.solvers) {
-            say(solver);
+            say(enum_name(solver));
             out.costs.push_back(measurement.measure(solver));
         }
     }

@@ -12,16 +12,16 @@ namespace dihaptic::bench {
 
 struct SolversBench {
     /// Solvers to measure beside Bullet's, which is always measured.
-    std::vector<contact::Solver> solvers{contact::Solver::newton,
-                                         contact::Solver::staggered_projections,
-                                         contact::Solver::stewart_trinkle};
+    std::vector<contact::Solver> solvers{
+        contact::Solver::newton, contact::Solver::staggered_projections,
+        contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
     size_t most_problems = 400;  ///< most problems of each scene
     double budget = 0.7;         ///< time for one solver on one scene's problems [s]
 };
 
 /// One solver on the problems of one scene.
 struct SolverCost {
-    contact::Solver solver{};
+    std::string solver;  ///< ours, or kBulletSolver
     std::string family;
     int contacts = 0;          ///< approximate number (ProblemGroup)
     double mean_contacts = 0;  ///< mean number in the problems solved
@@ -35,7 +35,7 @@ struct SolverCost {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("solver", f.solver, "", "sequential_impulse: Bullet's");
+        v("solver", f.solver, "", "ours, or Bullet's");
         v("family", f.family, "", "of scenes");
         v("contacts", f.contacts, "1", "of the scene, about");
         v("mean_contacts", f.mean_contacts, "1", "in the problems solved");
@@ -71,7 +71,7 @@ struct ProblemFigures {
 
 /// Power of the number of contacts, from 8 to 200, with which a solver's time grows.
 struct Growth {
-    contact::Solver solver{};
+    std::string solver;
     std::string family;
     double median = 0;
     double p99 = 0;
@@ -99,6 +99,7 @@ struct SolversFigures {
 };
 
 constexpr int kBulletIterations = 50;
+constexpr const char* kBulletSolver = "bullet";
 
 SolversFigures bench_solvers(const SolversBench& bench, const measure::Progress& progress);
 

@@ -7,15 +7,17 @@ namespace dihaptic::contact {
 namespace {
 
 /// L with L L' = A for a positive semi-definite A; a zero pivot gives a zero column.
-Mat3 root(const Mat3& A) noexcept {
-    Mat3 L = Mat3::Zero();
-    const double least = 1e-14 * A.diagonal().maxCoeff();
-    for (int k = 0; k < 3; ++k) {
+Mat6 root(const Mat6& A) noexcept {
+    Mat6 L = Mat6::Zero();
+    // lengths are measured in one unit, turns in another: each has pivots of its own size
+    const double linear = 1e-14 * A.diagonal().head<3>().maxCoeff();
+    const double angular = 1e-14 * A.diagonal().tail<3>().maxCoeff();
+    for (int k = 0; k < 6; ++k) {
         double pivot = A(k, k);
         for (int i = 0; i < k; ++i) pivot -= L(k, i) * L(k, i);
-        if (pivot <= least) continue;
+        if (pivot <= (k < 3 ? linear : angular)) continue;
         L(k, k) = std::sqrt(pivot);
-        for (int i = k + 1; i < 3; ++i) {
+        for (int i = k + 1; i < 6; ++i) {
             double sum = A(i, k);
             for (int j = 0; j < k; ++j) sum -= L(i, j) * L(k, j);
             L(i, k) = sum / L(k, k);
@@ -36,32 +38,29 @@ void BodySystem<Dim>::reserve(int bodies, int contacts) {
 }
 
 template <int Dim>
-bool BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
+void BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
     const size_t bodies = problem.bodies.size();
-    const size_t contacts = problem.contacts.size();
-    if (bodies > root_.capacity() || contacts > rows_.capacity()) return false;
     root_.resize(bodies);
     y_.resize(bodies);
-    rows_.resize(contacts);
-    edges_.clear();
+    rows_.resize(problem.contacts.size());
     finite_ = true;
     for (size_t i = 0; i < bodies; ++i) {
-        root_[i].setZero();
-        root_[i].template topLeftCorner<3, 3>() = root(problem.bodies[i].inverse_mass);
-        root_[i].template bottomRightCorner<3, 3>() = root(problem.bodies[i].inverse_inertia);
+        root_[i] = root(problem.bodies[i].inverse_mass);
         // a root hides values that are not numbers
-        finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum() +
-                                           problem.bodies[i].inverse_inertia.sum());
+        finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum());
     }
-    for (size_t j = 0; j < contacts; ++j) {
-        const ProblemContact& contact = problem.contacts[j];
-        assemble_row(problem, contact, rows_[j]);
-        if (contact.a != kFixed && contact.b != kFixed) {
-            const std::pair<int, int> edge = std::minmax(contact.a, contact.b);
-            if (edges_.empty() || edges_.back() != edge) edges_.push_back(edge);
-        }
+    for (size_t j = 0; j < rows_.size(); ++j) assemble_row(problem, problem.contacts[j], rows_[j]);
+}
+
+template <int Dim>
+bool BodySystem<Dim>::prepare_newton() noexcept {
+    edges_.clear();
+    for (const ContactRows& row : rows_) {
+        if (row.a == kFixed || row.b == kFixed) continue;
+        const std::pair<int, int> edge = std::minmax(row.a, row.b);
+        if (edges_.empty() || edges_.back() != edge) edges_.push_back(edge);
     }
-    if (!lu_.analyse(static_cast<int>(bodies), edges_)) return false;
+    if (!lu_.analyse(static_cast<int>(root_.size()), edges_)) return false;
     for (ContactRows& row : rows_) find_blocks(row);
     return true;
 }
@@ -92,10 +91,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
         const ProblemBody& body = problem.bodies[static_cast<size_t>(index)];
         const auto& L = root_[static_cast<size_t>(index)];
         const Row<D> J = sign * contact_row<D>(contact, arm);
-        H_t.template topRows<3>().noalias() =
-            L.template topLeftCorner<3, 3>().transpose() * J.template leftCols<3>().transpose();
-        H_t.template bottomRows<3>().noalias() = L.template bottomRightCorner<3, 3>().transpose() *
-                                                 J.template rightCols<3>().transpose();
+        H_t.noalias() = L.transpose() * J.transpose();
         diagonal += H_t.colwise().squaredNorm().transpose();
         row.q.noalias() += J.template leftCols<3>() * body.v_W;
         row.q.noalias() += J.template rightCols<3>() * body.w_W;

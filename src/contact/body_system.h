@@ -8,6 +8,8 @@
 // u^ / scale, and nothing depends on units.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -24,8 +26,10 @@ class BodySystem {
     using Vec = Eigen::Matrix<double, D, 1>;
 
     void reserve(int bodies, int contacts);
-    /// False if the problem is larger than reserved.
-    bool assemble(const ContactProblem& problem) noexcept;
+    /// Allocates if the problem is larger than reserved.
+    void assemble(const ContactProblem& problem) noexcept;
+    /// Finds the matrix for newton_step(). False if it is larger than reserved.
+    bool prepare_newton() noexcept;
 
     size_t size() const noexcept { return rows_.size(); }
     /// Whether everything in the problem is a number that can be computed with.
@@ -39,20 +43,15 @@ class BodySystem {
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     /// Solves (I + G W) d = -c.
     void newton_step(std::span<const Linearised<D>> contacts, std::span<Vec> d) noexcept;
-    /// Projected Gauss-Seidel sweeps on a law.
+    /// Projected Gauss-Seidel sweeps on a law, until one changes no contact's velocity by more than
+    /// `enough` [m/s]. Returns their number.
     template <class Law>
-    void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
+    int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);
-        for (int sweep = 0; sweep < sweeps; ++sweep) {
-            for (size_t j = 0; j < rows_.size(); ++j) {
-                const ContactRows& row = rows_[j];
-                Vec u = row.q;
-                add_velocity(row, u);
-                const Vec before = r[j];
-                law.template relax<D>(row.law, r[j], u, j);
-                apply(row, r[j] - before);
-            }
+        for (int sweep = 1; sweep <= most; ++sweep) {
+            if (pass(law, r) <= enough * std::abs(enough)) return sweep;
         }
+        return most;
     }
     /// Block of W for contacts j (rows) and k (columns).
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
@@ -63,6 +62,27 @@ class BodySystem {
     Vec6 change(int body) const noexcept;
 
   private:
+    /// One sweep; returns the square of the largest change of a contact's velocity.
+    template <class Law>
+    double pass(const Law& law, std::span<Vec> r) noexcept {
+        double most = 0;
+        for (size_t j = 0; j < rows_.size(); ++j) {
+            const ContactRows& row = rows_[j];
+            Vec u = row.q;
+            add_velocity(row, u);
+            const Vec before = r[j];
+            law.template relax<D>(row.law, r[j], u, j);
+            const Vec change = r[j] - before;
+            apply(row, change);
+            most = std::max(most, change.squaredNorm() / (row.unit * row.unit));
+        }
+        return most;
+    }
+    double pass(const law::NormalThenFriction& law, std::span<Vec> r) noexcept {
+        const double change = pass(law.normal, r);
+        return std::max(change, pass(law.friction, r));
+    }
+
     /// Transposed, so that a column fills whole SIMD packets.
     using Ht = Eigen::Matrix<double, 6, D>;
     struct ContactRows {
@@ -92,7 +112,7 @@ class BodySystem {
     }
 
     std::vector<ContactRows> rows_;
-    std::vector<Eigen::Matrix<double, 6, 6>> root_;  // of the inverse mass matrix, by body
+    std::vector<Mat6> root_;  // of the inverse mass matrix, by body
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;
     BlockLu lu_;

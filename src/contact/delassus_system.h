@@ -2,6 +2,8 @@
 // a dense matrix: for problems that are given without bodies. Allocates.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -23,23 +25,38 @@ class DelassusSystem {
 
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
-    /// Projected Gauss-Seidel sweeps on a law.
+    static bool prepare_newton() noexcept { return true; }
+    /// As BodySystem::sweep().
     template <class Law>
-    void sweep(const Law& law, std::span<Vec> r, int sweeps) noexcept {
-        const Eigen::Map<const Eigen::VectorXd> all(r.data()->data(), q_.size());
-        for (int sweep = 0; sweep < sweeps; ++sweep) {
-            for (size_t j = 0; j < size(); ++j) {
-                const auto row = 3 * static_cast<Eigen::Index>(j);
-                const Vec u = W_.middleRows<3>(row) * all + q_.segment<3>(row);
-                law.template relax<3>(scales_[j], r[j], u, j);
-            }
+    int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
+        for (int sweep = 1; sweep <= most; ++sweep) {
+            if (pass(law, r) <= enough * std::abs(enough)) return sweep;
         }
+        return most;
     }
     Mat3 delassus_block(size_t j, size_t k) const noexcept {
         return W_.block<3, 3>(3 * static_cast<Eigen::Index>(j), 3 * static_cast<Eigen::Index>(k));
     }
 
   private:
+    template <class Law>
+    double pass(const Law& law, std::span<Vec> r) noexcept {
+        const Eigen::Map<const Eigen::VectorXd> all(r.data()->data(), q_.size());
+        double most = 0;
+        for (size_t j = 0; j < size(); ++j) {
+            const auto row = 3 * static_cast<Eigen::Index>(j);
+            const Vec u = W_.middleRows<3>(row) * all + q_.segment<3>(row);
+            const Vec before = r[j];
+            law.template relax<3>(scales_[j], r[j], u, j);
+            most = std::max(most, (r[j] - before).squaredNorm() / (units_[j] * units_[j]));
+        }
+        return most;
+    }
+    double pass(const law::NormalThenFriction& law, std::span<Vec> r) noexcept {
+        const double change = pass(law.normal, r);
+        return std::max(change, pass(law.friction, r));
+    }
+
     Eigen::MatrixXd W_;
     Eigen::VectorXd q_;
     std::vector<Scale> scales_;

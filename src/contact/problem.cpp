@@ -8,14 +8,6 @@ namespace dihaptic::contact {
 namespace {
 
 using Vec4 = Eigen::Vector4d;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-Mat6 inverse_mass_matrix(const ProblemBody& body) {
-    Mat6 out = Mat6::Zero();
-    out.topLeftCorner<3, 3>() = body.inverse_mass;
-    out.bottomRightCorner<3, 3>() = body.inverse_inertia;
-    return out;
-}
 
 /// The impulse in the four-dimensional cone, in which the moment is divided by the torsion radius.
 Vec4 in_cone(const Impulse& r, const ProblemContact& contact) {
@@ -41,7 +33,7 @@ DelassusProblem delassus(const ContactProblem& problem) {
     out.mu.resize(n);
     for (Eigen::Index i = 0; i < m; ++i) {
         inverse_mass.block<6, 6>(6 * i, 6 * i) =
-            inverse_mass_matrix(problem.bodies[static_cast<size_t>(i)]);
+            problem.bodies[static_cast<size_t>(i)].inverse_mass;
     }
     for (Eigen::Index j = 0; j < n; ++j) {
         const ProblemContact& contact = problem.contacts[static_cast<size_t>(j)];
@@ -77,7 +69,7 @@ double natural_map_residual(const ContactProblem& problem, std::span<const Impul
                 contact_row<4>(contact, contact.p_AC_W).transpose() * impulse;
     }
     for (size_t i = 0; i < velocity.size(); ++i) {
-        velocity[i] = inverse_mass_matrix(problem.bodies[i]) * velocity[i];
+        velocity[i] = problem.bodies[i].inverse_mass * velocity[i];
     }
     double error = 0;
     double size = 0;

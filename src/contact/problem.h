@@ -13,13 +13,25 @@ namespace dihaptic::contact {
 /// Index of a body that no impulse moves.
 constexpr int kFixed = -1;
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
 struct ProblemBody {
-    Mat3 inverse_mass;  ///< in W; symmetric; may differ by direction; zero where the body is held
-                        ///< [1/kg]
-    Mat3 inverse_inertia;     ///< about the centre of mass, in W [1/(kg*m^2)]
+    /// Of linear velocity, then angular velocity, at the centre of mass in W: symmetric, and
+    /// singular where a joint holds the body (hold()) [1/kg], [1/(kg*m)], [1/(kg*m^2)].
+    Mat6 inverse_mass = Mat6::Zero();
     Vec3 v_W = Vec3::Zero();  ///< of the centre of mass, with all loads but contact [m/s]
     Vec3 w_W = Vec3::Zero();  ///< [rad/s]
 };
+
+/// Takes the motion along axis i out of an inverse mass matrix: M^-1 - M^-1 e (e' M^-1 e)^-1 e'
+/// M^-1, the inverse of what M is to all other motions. This is what a joint to the world does.
+inline void hold(Mat6& inverse_mass, int i) noexcept {
+    const Vec6 column = inverse_mass.col(i);
+    if (column[i] > 0) inverse_mass -= column * column.transpose() / column[i];
+    inverse_mass.row(i).setZero();
+    inverse_mass.col(i).setZero();
+}
 
 struct ProblemContact {
     int a = kFixed;  ///< index into bodies
@@ -91,7 +103,7 @@ double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r);
 /// As above, without allocating: `scratch` has as many elements as the problem has bodies.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r,
-                            std::span<Eigen::Matrix<double, 6, 1>> scratch) noexcept;
+                            std::span<Vec6> scratch) noexcept;
 double natural_map_residual(const DelassusProblem& problem, const Eigen::VectorXd& r);
 
 }  // namespace dihaptic::contact

@@ -7,7 +7,6 @@ namespace dihaptic::contact {
 
 template <int D>
 using Row = Eigen::Matrix<double, D, 6>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// J with u = J (v, w) for the velocity of a body's centre of mass and its angular velocity; the
 /// caller applies the sign that differs between a and b. D = 4 has the spin about the normal times

@@ -2,9 +2,11 @@
 
 #include "contact/body_system.h"
 #include "contact/delassus_system.h"
-#include "contact/newton.h"
-#include "contact/staggered_projections.h"
-#include "contact/stewart_trinkle.h"
+#include "contact/hand_over.h"
+#include "contact/newton/newton.h"
+#include "contact/sequential_impulse/sequential_impulse.h"
+#include "contact/staggered_projections/staggered_projections.h"
+#include "contact/stewart_trinkle/stewart_trinkle.h"
 
 namespace dihaptic::contact {
 namespace {
@@ -46,13 +48,22 @@ class Solve {
         newton_memory_.resize(r_.size());
     }
 
-    void run(Solver solver, const PolygonSettings& polygon, SolveDetail* detail) {
+    void run(Solver solver, SolveSettings settings, SolveDetail* detail) {
         project();
-        ask(solver, polygon, detail);
-        if (outcome_.iterations == 0) stats_.route = r_.empty() ? Route::none : Route::start;
-        stats_.iterations = outcome_.iterations;
-        stats_.fallback = !outcome_.converged;
-        hand_over(solver);
+        const bool sweeps = solver == Solver::sequential_impulse;
+        if (sweeps) settings.work = kUnbounded;  // it has bounds of its own
+        const bool bounded = settings.work < kUnbounded;
+        const bool exact = !sweeps && affords(kFewestSteps, settings) && system_.prepare_newton();
+        bool first = true;
+        for (const Route route : hand_over(solver, exact, bounded)) {
+            if (route == Route::none || outcome_.converged) break;
+            if (route == Route::coarse_polygon && System::D != 3) continue;
+            ask(route, first, settings, detail);
+            if (first && exact) stats_.fallback = !outcome_.converged;
+            first = false;
+        }
+        stats_.ended = bounded && stats_.route == Route::sequential_impulse;
+        if (!exact) stats_.fallback = !sweeps;
         const Residual residual = end_inside_cone();
         stats_.residual = residual.given;
         // Stewart and Trinkle's own answer solves another problem than Coulomb's
@@ -61,46 +72,67 @@ class Solve {
     }
 
   private:
-    void ask(Solver solver, const PolygonSettings& polygon, SolveDetail* detail) {
-        stats_.route = Route::newton;
-        if (solver == Solver::staggered_projections) {
-            stats_.route = Route::staggered_projections;
-            outcome_ = staggered_projections(system_, r_, kTolerance, kMostStaggeredIterations,
-                                             memory_.staggered);
-        } else if (solver == Solver::stewart_trinkle) {
-            StewartTrinkle<System> method(system_, polygon, kTolerance, memory_.stewart_trinkle);
-            const StewartTrinkleOutcome answer = method.solve(r_);
-            outcome_ = answer;
-            stats_.route = answer.route;
-            if (detail != nullptr) *detail = {answer.lcp_residual};
-        } else {
-            outcome_ = by_newton();
+    /// Whether the work allowed suffices for this many of Newton's steps.
+    bool affords(int steps, const SolveSettings& settings) const {
+        return static_cast<size_t>(settings.work) >= contacts_ * kVisitsPerStep * steps;
+    }
+
+    void ask(Route route, bool first, const SolveSettings& settings, SolveDetail* detail) {
+        stats_.route = route;
+        outcome_ = by(route, first, settings, detail);
+        stats_.iterations += outcome_.iterations;
+        const int visits = route == Route::sequential_impulse ? kVisitsPerSweep : kVisitsPerStep;
+        stats_.work += static_cast<int>(r_.size()) * visits * outcome_.iterations;
+        if (first && outcome_.iterations == 0)
+            stats_.route = r_.empty() ? Route::none : Route::start;
+    }
+
+    Outcome by(Route route, bool first, const SolveSettings& settings, SolveDetail* detail) {
+        switch (route) {
+            case Route::own_newton:
+                return by_stewart_trinkle(settings.polygon, detail);
+            case Route::coarse_polygon:
+                return by_coarse_polygon();
+            case Route::staggered_projections:
+                return by_staggered_projections(first);
+            case Route::sweeps:
+                return by_sweeps();
+            case Route::sequential_impulse:
+                return by_sweeps_alone(settings);
+            default:
+                return by_newton(kNewtonStarts,
+                                 static_cast<size_t>(settings.work) / kVisitsPerStep);
         }
     }
 
-    void hand_over(Solver asked) {
-        const auto unless_answered = [&](Route route, const auto& solve) {
-            if (outcome_.converged) return;
-            outcome_ = solve();
-            stats_.iterations += outcome_.iterations;
-            stats_.route = route;
-        };
-        if (asked != Solver::newton) unless_answered(Route::newton, [&] { return by_newton(); });
-        if (asked != Solver::stewart_trinkle && System::D == 3)
-            unless_answered(Route::coarse_polygon, [&] { return by_coarse_polygon(); });
-        if (asked != Solver::staggered_projections) {
-            unless_answered(Route::staggered_projections, [&] {
-                const auto pairs = static_cast<int>(kMostStaggeredWork / (contacts_ * contacts_));
-                return staggered_projections(system_, r_, kTolerance,
-                                             std::min(pairs, kMostStaggeredIterations),
-                                             memory_.staggered);
-            });
-        }
-        unless_answered(Route::sweeps, [&] { return by_sweeps(); });
+    Outcome by_stewart_trinkle(const PolygonSettings& polygon, SolveDetail* detail) {
+        StewartTrinkle<System> method(system_, polygon, kTolerance, memory_.stewart_trinkle);
+        const StewartTrinkleOutcome answer = method.solve(r_);
+        stats_.route = answer.route;
+        if (detail != nullptr) *detail = {answer.lcp_residual};
+        return answer;
     }
 
-    Outcome by_newton(std::span<const NewtonStart> starts = kNewtonStarts) {
-        return newton(system_, r_, kTolerance, newton_memory_, starts);
+    /// Pairs are bounded by contacts squared where another solver was asked.
+    Outcome by_staggered_projections(bool asked) {
+        const size_t pairs =
+            asked ? kMostStaggeredIterations : kMostStaggeredWork / (contacts_ * contacts_);
+        return staggered_projections(system_, r_, kTolerance,
+                                     std::min(static_cast<int>(pairs), kMostStaggeredIterations),
+                                     memory_.staggered);
+    }
+
+    Outcome by_sweeps_alone(const SolveSettings& settings) {
+        const int left = std::max(0, settings.work - stats_.work);
+        const int affordable = left / (kVisitsPerSweep * static_cast<int>(contacts_));
+        return sequential_impulse(system_, r_, settings.sweeps,
+                                  std::max(affordable, kFewestSweeps));
+    }
+
+    Outcome by_newton(std::span<const NewtonStart> starts = kNewtonStarts,
+                      size_t most_work = kMostNewtonWork) {
+        return newton(system_, r_, kTolerance, newton_memory_, starts,
+                      std::min(most_work, kMostNewtonWork));
     }
 
     /// Where no start leads to an answer on the cone, a start near one is found on a coarse polygon
@@ -169,16 +201,16 @@ struct BodyMemory {
                        static_cast<size_t>(std::min(contacts, ContactSolvers::kLemkeContacts)));
     }
 
-    bool solve(Solver kind, const PolygonSettings& polygon, const ContactProblem& problem,
+    void solve(Solver kind, const SolveSettings& settings, const ContactProblem& problem,
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail) {
-        if (!system.assemble(problem)) return false;
+        system.assemble(problem);
         solver.r.resize(r.size());
         if (!system.is_finite()) {
             for (Impulse& impulse : r) impulse.setZero();
             for (auto& impulse : solver.r) impulse.setZero();
             system.body_velocity(solver.r);
             stats.missed = stats.refused = true;
-            return true;
+            return;
         }
         const auto spin_unit = [&](size_t j) { return problem.contacts[j].torsion_radius; };
         for (size_t j = 0; j < r.size(); ++j) {
@@ -188,14 +220,13 @@ struct BodyMemory {
                 solver.r[j][3] = spin_unit(j) > 0 ? r[j][3] / (spin_unit(j) * system.unit(j)) : 0;
             }
         }
-        Solve<BodySystem<D>>(system, solver, stats).run(kind, polygon, detail);
+        Solve<BodySystem<D>>(system, solver, stats).run(kind, settings, detail);
         for (size_t j = 0; j < r.size(); ++j) {
             r[j].setZero();
             r[j].head<3>() = solver.r[j].template head<3>() * system.unit(j);
             if constexpr (D == 4) r[j][3] = solver.r[j][3] * spin_unit(j) * system.unit(j);
         }
         system.body_velocity(solver.r);
-        return true;
     }
 };
 
@@ -219,22 +250,24 @@ void ContactSolvers::reserve(int bodies, int contacts, bool torsion) {
     if (torsion) memory_->torsional.reserve(bodies, contacts);
 }
 
-bool ContactSolvers::solve(Solver solver, const PolygonSettings& polygon,
+void ContactSolvers::solve(Solver solver, const SolveSettings& settings,
                            const ContactProblem& problem, std::span<Impulse> r, SolveStats& stats,
                            SolveDetail* detail) noexcept {
     stats = {};
     memory_->last_torsion = memory_->torsion && problem.has_torsion();
-    return memory_->last_torsion
-               ? memory_->torsional.solve(solver, polygon, problem, r, stats, detail)
-               : memory_->plain.solve(solver, polygon, problem, r, stats, detail);
+    if (memory_->last_torsion) {
+        memory_->torsional.solve(solver, settings, problem, r, stats, detail);
+    } else {
+        memory_->plain.solve(solver, settings, problem, r, stats, detail);
+    }
 }
 
-Eigen::Matrix<double, 6, 1> ContactSolvers::velocity_change(int body) const noexcept {
+Vec6 ContactSolvers::velocity_change(int body) const noexcept {
     return memory_->last_torsion ? memory_->torsional.system.change(body)
                                  : memory_->plain.system.change(body);
 }
 
-Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const DelassusProblem& problem,
+Eigen::VectorXd solve(Solver solver, const SolveSettings& settings, const DelassusProblem& problem,
                       SolveStats& stats, SolveDetail* detail) {
     DelassusSystem system;
     system.assemble(problem);
@@ -246,7 +279,7 @@ Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const Delas
         stats.missed = stats.refused = true;
         return Eigen::VectorXd::Zero(problem.q.size());
     }
-    Solve<DelassusSystem>(system, memory, stats).run(solver, polygon, detail);
+    Solve<DelassusSystem>(system, memory, stats).run(solver, settings, detail);
     Eigen::VectorXd out(problem.q.size());
     for (size_t j = 0; j < system.size(); ++j)
         out.segment<3>(3 * static_cast<Eigen::Index>(j)) = memory.r[j] * system.unit(j);

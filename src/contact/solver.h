@@ -1,11 +1,9 @@
-// The interface to all contact solvers but Bullet's own: takes a problem and a start, and returns
-// impulses and statistics.
+// The interface to the contact solvers: takes a problem and a start, and returns impulses and
+// statistics.
 //
-// A solver that misses its tolerance hands over to Newton's method on the cone; that, in three
-// dimensions, to Newton's method started from an answer on a coarse polygon; that to staggered
-// projections; and those to Newton's method again, after many projected Gauss-Seidel sweeps. It is
-// reported if another solver answered, and if even the last one missed. Each has a bound on counted
-// work and none reads a clock, so that replay repeats every solve bit for bit.
+// A solver that misses its tolerance hands over to others (hand_over.h). It is reported if another
+// solver answered, and if even the last one missed. Each has a bound on counted work and none reads
+// a clock, so that replay repeats every solve bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +21,15 @@ namespace dihaptic::contact {
 /// Stewart-Trinkle, of its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
+/// Sweeps that a solve makes however little work it may do.
+constexpr int kFewestSweeps = 4;
+/// Visits of each contact: by a sweep over normals and one over friction, and what a step of
+/// Newton's method costs as many of.
+constexpr int kVisitsPerSweep = 2;
+constexpr int kVisitsPerStep = 12;
+/// Newton's method does not begin where its work is bounded to fewer steps.
+constexpr int kFewestSteps = 6;
+
 /// What a solve achieved.
 struct SolveStats {
     int iterations = 0;
@@ -30,18 +37,23 @@ struct SolveStats {
     bool fallback = false;  ///< a solver other than the one asked for answered
     bool missed = false;    ///< the impulses in use, the best found, miss the tolerance
     bool refused = false;   ///< the problem held values that are not numbers: there are no impulses
+    bool ended = false;     ///< counted work ended it by sweeps
     Route route = Route::none;
+    int work = 0;  ///< that it took [visits]
 
-    /// Combines several problems of one step: the worst of each value. The route is that of a
-    /// problem that another solver answered, if any; among equals, the last in the enumeration.
+    /// Combines several problems of one step: iterations and work are summed, of other values it
+    /// keeps the worst. The route is that of a problem that another solver answered, if any; among
+    /// equals, the last in the enumeration.
     void join(const SolveStats& other) noexcept {
         if (std::pair(other.fallback, other.route) > std::pair(fallback, route))
             route = other.route;
-        iterations = std::max(iterations, other.iterations);
+        iterations += other.iterations;
+        work += other.work;
         residual = std::max(residual, other.residual);
         fallback = fallback || other.fallback;
         missed = missed || other.missed;
         refused = refused || other.refused;
+        ended = ended || other.ended;
     }
 };
 
@@ -63,14 +75,14 @@ class ContactSolvers {
     void reserve(int bodies, int contacts, bool torsion);
     static constexpr int kLemkeContacts = 60;
 
-    /// Solves from the start in r, and leaves the impulses in r. Not for sequential_impulse. False
-    /// if the problem is larger than reserved; nothing is changed then. A problem with values that
-    /// are not numbers is refused before any solver starts: SolveStats::refused.
-    bool solve(Solver solver, const PolygonSettings& polygon, const ContactProblem& problem,
+    /// Solves from the start in r, and leaves the impulses in r. A problem that is larger than
+    /// reserved allocates, and is left to sweeps. One with values that are not numbers is refused
+    /// before any solver starts: SolveStats::refused.
+    void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept;
     /// Change of a body's velocity by the impulses of the last solve: linear [m/s], then angular
     /// [rad/s].
-    Eigen::Matrix<double, 6, 1> velocity_change(int body) const noexcept;
+    Vec6 velocity_change(int body) const noexcept;
 
   private:
     struct Memory;
@@ -78,7 +90,7 @@ class ContactSolvers {
 };
 
 /// Solves a problem that is given without bodies. Allocates.
-Eigen::VectorXd solve(Solver solver, const PolygonSettings& polygon, const DelassusProblem& problem,
+Eigen::VectorXd solve(Solver solver, const SolveSettings& settings, const DelassusProblem& problem,
                       SolveStats& stats, SolveDetail* detail = nullptr);
 
 }  // namespace dihaptic::contact

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 namespace dihaptic::contact {
 
@@ -25,5 +26,21 @@ struct PolygonSettings {
     DirectionFrame frame = DirectionFrame::sliding;
 };
 constexpr int kMostDirections = 32;
+
+/// When sequential_impulse ends.
+struct SweepSettings {
+    int most = 200;
+    double tolerance = 1e-7;  ///< a sweep changes no contact's velocity by more [m/s]
+};
+
+/// Work is counted in visits: a visit is what a sweep does to one contact.
+constexpr int kUnbounded = std::numeric_limits<int>::max();
+
+struct SolveSettings {
+    PolygonSettings polygon;
+    SweepSettings sweeps;
+    int work = kUnbounded;  ///< visits until sweeps end the solve, of which kFewestSweeps are
+                            ///< always made; not for sequential_impulse
+};
 
 }  // namespace dihaptic::contact

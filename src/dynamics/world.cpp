@@ -20,35 +20,25 @@ void lump(scene::Solid& solid) {
 
 void World::Impl::add(const std::string& name, const scene::Shape& shape, double mass,
                       double friction_coefficient, double torsion_radius, const Pose& X_WB,
-                      const btVector3& linear, const btVector3& angular, bool about_origin) {
+                      const Vec3& moves, const Vec3& turns, bool about_origin) {
     Item item;
     item.name = name;
     item.friction = friction_coefficient;
     item.torsion_radius = torsion_radius;
-    item.can_move = mass > 0 && !(linear.isZero() && angular.isZero());
+    item.can_move = mass > 0 && !(moves.isZero() && turns.isZero());
     scene::Solid solid = scene::solid_of(shape, item.can_move ? mass : 0);
     if (about_origin) lump(solid);
-    const bool one_axis = angular.length2() == 1;
-    if (one_axis) {
-        // held to one axis e, only I_ee counts: with it about all axes, any orientation of M is
-        // right
-        const Mat3 R = (X_WB.R * solid.X_BM.R).toRotationMatrix();
-        const Vec3 e = from_bullet(angular);
-        solid.inertia.setConstant(e.dot(R * solid.inertia.asDiagonal() * R.transpose() * e));
-    }
     item.X_BM = solid.X_BM;
     item.inertia = solid.inertia;
     item.mass = solid.mass;
-    item.moves = linear;
+    item.moves = moves;
+    item.turns = turns;
     item.parts = collision_parts(shape, item.X_BM);
 
     btRigidBody::btRigidBodyConstructionInfo info(
         solid.mass, nullptr, item.parts.front()->shape.get(), to_bullet(item.inertia));
     info.m_startWorldTransform = to_bullet(X_WB * item.X_BM);
     item.body = std::make_unique<btRigidBody>(info);
-    item.body->setFlags(0);  // no gyroscopic term in Bullet's solver: integrate_loads() adds it
-    item.body->setLinearFactor(linear);
-    item.body->setAngularFactor(angular);
     for (const auto& part : item.parts) part->body = item.body.get();
     item.body->setUserIndex(static_cast<int>(items.size()));
     item.body->setUserIndex2(item.can_move ? kAwake : 0);
@@ -63,9 +53,8 @@ World::World(const scene::Scene& scene, const Settings& settings)
     for (const scene::Body& body : scene.bodies) {
         const bool fixed = body.fixed;
         impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction,
-                   body.torsion_radius, body.pose(),
-                   fixed ? btVector3(0, 0, 0) : factors(body.moves),
-                   fixed ? btVector3(0, 0, 0) : factors(body.turns));
+                   body.torsion_radius, body.pose(), fixed ? Vec3::Zero() : factors(body.moves),
+                   fixed ? Vec3::Zero() : factors(body.turns));
     }
 }
 
@@ -75,8 +64,8 @@ World& World::operator=(World&&) noexcept = default;
 
 BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
-               {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
-               turns ? btVector3(1, 1, 1) : btVector3(0, 0, 0), turns);
+               {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
+               turns ? Vec3::Ones() : Vec3::Zero(), turns);
     impl_->items.back().is_proxy = true;
     return {size() - 1};
 }
@@ -105,8 +94,8 @@ void World::set_point(BodyIndex proxy, bool point) noexcept {
 BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     // a point has no shape, but its body must have one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
-               finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, btVector3(1, 1, 1),
-               turns ? btVector3(1, 1, 1) : btVector3(0, 0, 0), turns);
+               finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
+               turns ? Vec3::Ones() : Vec3::Zero(), turns);
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;
     return {size() - 1};
@@ -122,16 +111,17 @@ void World::activate() {
     w.collision = std::make_unique<Collision>(parts, std::max(64, max_contacts / 2));
     w.groups = std::make_unique<Groups>(count);
     w.sleep = std::make_unique<SleepKeeper>(count);
-    w.sequential_impulse.reserve(static_cast<int>(count), max_contacts);
-    w.problem.reserve(static_cast<int>(count), max_contacts);
-    const bool torsion = std::any_of(w.items.begin(), w.items.end(), [](const Impl::Item& item) {
-        return item.torsion_radius > 0;
-    });
+    std::vector<double> torsion_radii;
+    for (const Impl::Item& item : w.items) torsion_radii.push_back(item.torsion_radius);
+    const bool torsion = *std::max_element(torsion_radii.begin(), torsion_radii.end()) > 0;
+    w.problem.reserve(std::move(torsion_radii), max_contacts);
     w.solvers.reserve(static_cast<int>(count), max_contacts, torsion);
     w.awake.reserve(count);
     w.can_move.reserve(count);
-    w.grouped_bodies.reserve(count);
-    w.batch_bodies.reserve(count);
+    w.inverse_mass.resize(count);
+    w.bodies_of_islands.reserve(count);
+    w.holds_finger.resize(count);
+    w.island_bodies.reserve(count);
     const auto points =
         static_cast<int>(std::count_if(w.items.begin(), w.items.end(), [](const Impl::Item& item) {
             return item.is_point || item.may_be_point;
@@ -140,8 +130,15 @@ void World::activate() {
     const size_t manifolds =
         static_cast<size_t>(max_contacts) + static_cast<size_t>(points) * kMostPointContacts;
     w.collision->manifolds().reserve(manifolds);
-    w.grouped_contacts.reserve(manifolds);
-    w.batch_contacts.reserve(manifolds);
+    w.contacts_of_islands.reserve(manifolds);
+    w.island_contacts.reserve(manifolds);
+    // points keep what they carry for two steps, and those that were found late are few
+    w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
+                           (static_cast<size_t>(w.collision->max_pairs()) +
+                            Collision::kMostEntered +
+                            2 * static_cast<size_t>(points) * kMostPointContacts));
+    w.has_fingers = std::any_of(w.items.begin(), w.items.end(),
+                                [](const Impl::Item& item) { return item.is_proxy; });
     contacts_.reserve(static_cast<size_t>(max_contacts));
     states_.resize(count);
     w.friction.resize(count * count);
@@ -220,6 +217,10 @@ void World::watch_problems(ProblemWatcher watcher) {
     impl_->watcher = std::move(watcher);
 }
 
+double World::held_residual() const noexcept {
+    return impl_->held_residual;
+}
+
 double World::mass(BodyIndex body) const {
     return impl_->items[static_cast<size_t>(body.value)].body->getMass();
 }
@@ -234,15 +235,8 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     Impl::Item& item = impl_->items[i];
     if (item.properties == properties || !item.can_move) return;
     item.properties = properties;
-    // Bullet has one mass, and a factor by axis for the effect of forces and impulses. With the
-    // least of the masses, the factors are at most 1, so that its sweeps converge. Gravity acts as
-    // a force, so the factor must not change the weight.
-    const double least = properties.mass.minCoeff();
-    btRigidBody& b = *item.body;
-    b.setMassProps(least * item.mass, to_bullet(properties.turning * item.inertia));
-    b.setLinearFactor(item.moves * to_bullet(Vec3(least * properties.mass.cwiseInverse())));
-    b.updateInertiaTensor();
-    item.heaviness = properties.weight / least;
+    item.body->setMassProps(item.mass, to_bullet(properties.turning * item.inertia));
+    item.body->updateInertiaTensor();
     impl_->wake(i, states_);
 }
 
@@ -328,12 +322,9 @@ void World::meet(BodyIndex point, const PointContact& contact) noexcept {
     const auto b = static_cast<size_t>(contact.body.value);
     const Impl::Item& body = impl_->items[b];
     if (body.can_move) impl_->wake(b, states_);
-    const double torsion = impl_->settings.solver == Solver::sequential_impulse
-                               ? 0  // it has no torsion
-                               : std::max(body.torsion_radius, impl_->items[p].torsion_radius);
     impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.part,
                                contact.face, contact.n_W, contact.gap,
-                               contact.friction_share * friction(contact.body, point), torsion});
+                               contact.friction_share * friction(contact.body, point)});
 }
 
 }  // namespace dihaptic::dynamics

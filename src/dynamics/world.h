@@ -95,7 +95,10 @@ class World {
     std::span<const size_t> stepped() const;
     /// Contacts of the last step, except those of sleeping bodies.
     std::span<const contact::Contact> contacts() const { return contacts_; }
+    /// Of the last step: of all islands, solved apart from each other.
     const contact::SolveStats& solve_stats() const { return stats_; }
+    /// The largest residual of the islands with a finger in the last step: 0 if there was none.
+    double held_residual() const noexcept;
     double mass(BodyIndex body) const;
     /// Inertia of a proxy that turns, about P [kg*m^2].
     double inertia(BodyIndex proxy) const;

@@ -5,25 +5,25 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "contact/solver.h"
+#include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/collision.h"
 #include "dynamics/bullet/point_contacts.h"
 #include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
-#include "dynamics/bullet/solver.h"
 #include "dynamics/groups.h"
 #include "dynamics/sleep.h"
 #include "dynamics/world.h"
 
 namespace dihaptic::dynamics {
 
-/// An item that belongs to a group of touching bodies.
+/// An item that belongs to an island: bodies that touch, directly or through others that can move.
 template <class T>
-struct Grouped {
-    size_t group;
-    int order;  // among items of its kind: keeps sorting stable without memory
+struct OfIsland {
+    size_t island;  // by which islands are ordered: those with a finger first, then by lowest body
+    int order;      // among items of its kind: keeps sorting stable without memory
     T item;
-    bool operator<(const Grouped& other) const {
-        return group != other.group ? group < other.group : order < other.order;
+    bool operator<(const OfIsland& other) const {
+        return island != other.island ? island < other.island : order < other.order;
     }
 };
 
@@ -39,9 +39,9 @@ struct World::Impl {
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
         double mass = 0;
-        btVector3 moves;  // Bullet's linear factor
+        Vec3 moves;  // 1 for each axis along which it can move, otherwise 0
+        Vec3 turns;  // the same for axes about which it can turn
         BodyProperties properties;
-        double heaviness = 1;  // weight over gravity and over the mass that Bullet has
         std::vector<std::unique_ptr<CollisionPart>> parts;
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
@@ -55,25 +55,29 @@ struct World::Impl {
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;
-    std::vector<Grouped<btCollisionObject*>> grouped_bodies;  // awake bodies, by group
-    std::vector<Grouped<btPersistentManifold*>> grouped_contacts;
-    std::vector<btCollisionObject*> batch_bodies;
-    std::vector<btPersistentManifold*> batch_contacts;
+    std::vector<contact::Mat6> inverse_mass;  // of each body that is awake
+    std::vector<OfIsland<btCollisionObject*>> bodies_of_islands;
+    std::vector<OfIsland<btPersistentManifold*>> contacts_of_islands;
+    std::vector<char> holds_finger;                 // by the body that represents an island
+    std::vector<btCollisionObject*> island_bodies;  // of the one that is solved
+    std::vector<btPersistentManifold*> island_contacts;
     std::vector<double> friction;  // by pair of bodies, row-major
     double friction_scale = 1;
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
+    CarriedPool carried_pool;
     std::unique_ptr<Groups> groups;
     std::unique_ptr<SleepKeeper> sleep;
-    SequentialImpulse sequential_impulse;
     ManifoldProblem problem;
     contact::ContactSolvers solvers;
     ProblemWatcher watcher;
     bool diverged = false;
+    bool has_fingers = false;
+    double held_residual = 0;  // of the islands with a finger
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
-             const btVector3& linear, const btVector3& angular, bool about_origin = false);
+             const Vec3& moves, const Vec3& turns, bool about_origin = false);
     double friction_of(size_t a, size_t b) const {
         return friction[a * items.size() + b] * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
@@ -84,16 +88,18 @@ struct World::Impl {
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
+    /// At its present orientation. Joints to the world take away what the body cannot do.
+    contact::Mat6 inverse_mass_of(const Item& item) const;
     void integrate_loads(double h, const Vec3& gravity);
     void update_bounds(double h);
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds);
-    void group_contacts();
+    /// Gives the points of a manifold something to carry.
+    void give_to(const btPersistentManifold& manifold);
+    void find_islands();
+    /// Solves island by island.
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
-    contact::SolveStats solve_batch(double h);
-    /// Bullet's sweeps apply a body's linear factor twice: while they run, it has to be the square
-    /// root.
-    void square_root_factors(bool rooted);
+    contact::SolveStats solve_island(double h, bool held);
     void integrate_positions(double h, std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);

@@ -5,9 +5,9 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Groups without a finger are solved together up to this many contact pairs: fewer calls, and few
-/// groups that wait for the iterations of another.
-constexpr size_t kBatch = 32;
+/// Visits that the solve of an island may take in which no finger is, where a hand waits for the
+/// tick: newton for stacks of ten, sweeps for heaps.
+constexpr int kMostWork = 4000;
 /// How many times a step may be solved again, with contacts that turn out to be lacking.
 constexpr int kMostPasses = 4;
 /// A body that contacts move by more than this may meet things that it could not meet otherwise
@@ -22,6 +22,7 @@ StepStatus World::step(double h) noexcept {
         w.diverged = true;
         contacts_.clear();
         stats_ = {};
+        w.held_residual = 0;
         return StepStatus::diverged;
     };
     if (w.diverged) return diverge();
@@ -36,7 +37,10 @@ StepStatus World::step(double h) noexcept {
     w.collect_awake(states_);  // some may have woken
     w.prepare_contacts(w.collision->manifolds());
     for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
+    const size_t found = w.collision->manifolds().size();
     w.point_contacts.take(w.collision->manifolds());
+    for (const btPersistentManifold* of_point : std::span(w.collision->manifolds()).subspan(found))
+        w.give_to(*of_point);
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
     if (stats_.refused || !w.all_sound()) return diverge();
@@ -53,9 +57,7 @@ StepStatus World::step(double h) noexcept {
             }
             // Bullet's normal points from its body 1 to its body 0, and its impulses act on body 0
             const btManifoldPoint& point = manifold->getContactPoint(i);
-            const btVector3 impulse = point.m_appliedImpulse * point.m_normalWorldOnB +
-                                      point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                                      point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+            const Carried& impulse = carried(point);
             contact::Contact& out = contacts_.emplace_back();
             out.a = {a};
             out.b = {b};
@@ -63,12 +65,9 @@ StepStatus World::step(double h) noexcept {
             out.n_W = -from_bullet(point.m_normalWorldOnB);
             out.gap = point.getDistance();
             out.friction = point.m_combinedFriction;
-            out.normal_force = point.m_appliedImpulse / h;
-            out.f_B_W = -from_bullet(impulse) / h;
-            // about a's outward normal, which is opposite to Bullet's
-            out.moment = w.settings.solver == Solver::sequential_impulse
-                             ? 0
-                             : torsion_impulse(manifold->getContactPoint(i)) / h;
+            out.normal_force = impulse.normal / h;
+            out.f_B_W = (impulse.normal * out.n_W - impulse.friction_W) / h;
+            out.moment = impulse.moment / h;  // on the other body, about the opposite normal
         }
     }
     w.let_sleep(h, states_);
@@ -83,6 +82,7 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].body->setUserIndex2(kAwake);
     items[i].v_before = items[i].body->getLinearVelocity();
     items[i].w_before = items[i].body->getAngularVelocity();
+    inverse_mass[i] = inverse_mass_of(items[i]);
 }
 
 void World::Impl::collect_awake(std::vector<BodyState>& states) {
@@ -94,21 +94,35 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
     }
 }
 
+contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
+    contact::Mat6 out = contact::Mat6::Zero();
+    // its inertia may differ by the world's axes
+    out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
+    out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
+    for (int i = 0; i < 3; ++i) {
+        if (item.moves[i] == 0) contact::hold(out, i);
+        if (item.turns[i] == 0) contact::hold(out, 3 + i);
+    }
+    return out;
+}
+
 void World::Impl::integrate_loads(double h, const Vec3& gravity) {
     for (const size_t i : awake) {
         Item& item = items[i];
         btRigidBody& body = *item.body;
-        Vec3 acceleration = item.force * body.getInvMass();
-        if (!item.is_proxy) acceleration += item.heaviness * gravity;
-        body.setLinearVelocity(body.getLinearVelocity() +
-                               h * to_bullet(acceleration) * body.getLinearFactor());
-        const btVector3 turn = body.getInvInertiaTensorWorld() * to_bullet(item.torque);
-        // a proxy has the same inertia about all axes
-        const btVector3 gyroscopic = item.is_proxy || body.getAngularFactor().isZero()
-                                         ? btVector3(0, 0, 0)
-                                         : body.computeGyroscopicImpulseImplicit_Body(h);
-        body.setAngularVelocity(body.getAngularVelocity() +
-                                (h * turn + gyroscopic) * body.getAngularFactor());
+        inverse_mass[i] = inverse_mass_of(item);
+        contact::Vec6 load;
+        load << item.force, item.torque;
+        if (!item.is_proxy) load.head<3>() += item.properties.weight * item.mass * gravity;
+        const contact::Vec6 change = h * (inverse_mass[i] * load);
+        body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
+        // a proxy has the same inertia about all axes, and what turns about one is held there
+        const bool gyroscopic = !item.is_proxy && item.turns.sum() > 1;
+        const btVector3 turn =
+            gyroscopic ? body.computeGyroscopicImpulseImplicit_Body(h) * to_bullet(item.turns)
+                       : btVector3(0, 0, 0);
+        body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())) +
+                                turn);
         item.force.setZero();
         item.torque.setZero();
         // contacts are searched ahead by these velocities
@@ -143,7 +157,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         items[i].v_before = items[i].body->getLinearVelocity();
         items[i].w_before = items[i].body->getAngularVelocity();
     }
-    group_contacts();
+    find_islands();
     contact::SolveStats stats = solve(h);
     for (int pass = 0; pass < kMostPasses && all_sound(); ++pass) {
         for (const size_t i : awake) {
@@ -153,7 +167,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
             body.setInterpolationAngularVelocity(body.getAngularVelocity());
             const btVector3 change = body.getLinearVelocity() - items[i].v_before;
             if (h * change.length() <= kKnocked) continue;
-            for (const auto& part : items[i].parts) collision->update_bounds(*part, h);
+            for (const auto& part : items[i].parts) collision->widen_bounds(*part, h);
         }
         if (!collision->find_entered(h, settings.penetration_recovery)) break;
         collect_awake(states);
@@ -162,10 +176,11 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
             items[i].body->setLinearVelocity(items[i].v_before);
             items[i].body->setAngularVelocity(items[i].w_before);
         }
-        group_contacts();
-        const int iterations = stats.iterations;
+        find_islands();
+        const contact::SolveStats before = stats;
         stats = solve(h);
-        stats.iterations += iterations;
+        stats.iterations += before.iterations;
+        stats.work += before.work;
     }
     return stats;
 }
@@ -174,17 +189,22 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
     for (btPersistentManifold* manifold : manifolds) {
         const auto a = static_cast<size_t>(manifold->getBody0()->getUserIndex());
         const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
-        for (int i = 0; i < manifold->getNumContacts(); ++i) {
+        for (int i = 0; i < manifold->getNumContacts(); ++i)
             manifold->getContactPoint(i).m_combinedFriction = friction_of(a, b);
-            // Bullet's solver has no torsion
-            const bool torsion = settings.solver != Solver::sequential_impulse;
-            torsion_radius(manifold->getContactPoint(i)) =
-                torsion ? std::max(items[a].torsion_radius, items[b].torsion_radius) : 0;
-        }
+        give_to(*manifold);
     }
 }
 
-void World::Impl::group_contacts() {
+void World::Impl::give_to(const btPersistentManifold& manifold) {
+    if (carried_pool.give(manifold)) return;
+    carried_pool.take_back([&](const auto& keep) {
+        collision->for_each_manifold(keep);
+        point_contacts.for_each_manifold(keep);
+    });
+    carried_pool.give(manifold);
+}
+
+void World::Impl::find_islands() {
     groups->reset();
     const std::vector<btPersistentManifold*>& manifolds = collision->manifolds();
     const auto indices = [](const btPersistentManifold& manifold) {
@@ -195,91 +215,66 @@ void World::Impl::group_contacts() {
         const auto [a, b] = indices(*manifold);
         if (items[a].can_move && items[b].can_move) groups->join(a, b);
     }
-    grouped_bodies.clear();
-    grouped_contacts.clear();
+    std::fill(holds_finger.begin(), holds_finger.end(), false);
     for (const size_t i : awake) {
-        grouped_bodies.push_back({groups->of(i), static_cast<int>(i), items[i].body.get()});
+        if (items[i].is_proxy) holds_finger[groups->of(i)] = true;
     }
+    const auto island_of = [&](size_t body) {
+        const size_t group = groups->of(body);
+        return holds_finger[group] ? group : items.size() + group;
+    };
+    bodies_of_islands.clear();
+    contacts_of_islands.clear();
+    for (const size_t i : awake)
+        bodies_of_islands.push_back({island_of(i), static_cast<int>(i), items[i].body.get()});
     for (btPersistentManifold* manifold : manifolds) {
         const auto [a, b] = indices(*manifold);
-        const auto order = static_cast<int>(grouped_contacts.size());
-        grouped_contacts.push_back({groups->of(items[a].can_move ? a : b), order, manifold});
+        const auto order = static_cast<int>(contacts_of_islands.size());
+        contacts_of_islands.push_back({island_of(items[a].can_move ? a : b), order, manifold});
     }
-    std::sort(grouped_bodies.begin(), grouped_bodies.end());
-    std::sort(grouped_contacts.begin(), grouped_contacts.end());
+    std::sort(bodies_of_islands.begin(), bodies_of_islands.end());
+    std::sort(contacts_of_islands.begin(), contacts_of_islands.end());
 }
 
 contact::SolveStats World::Impl::solve(double h) {
     contact::SolveStats stats;
-    const bool by_group = settings.solver != Solver::sequential_impulse;
-    const auto finish_batch = [&] {
-        if (batch_contacts.empty()) return;
-        stats.join(solve_batch(h));
-        batch_bodies.clear();
-        batch_contacts.clear();
-    };
-    auto body = grouped_bodies.begin();
-    auto contact = grouped_contacts.begin();
-    while (contact != grouped_contacts.end()) {
-        const size_t group = contact->group;
-        while (body->group < group) ++body;  // bodies that touch nothing
-        const auto first_body = body;
-        bool has_finger = false;
-        for (; body != grouped_bodies.end() && body->group == group; ++body) {
-            has_finger = has_finger || items[static_cast<size_t>(body->order)].is_proxy;
-        }
-        // a held object takes many iterations, and nothing else must wait for it
-        if (has_finger || by_group) finish_batch();
-        for (auto b = first_body; b != body; ++b) batch_bodies.push_back(b->item);
-        for (; contact != grouped_contacts.end() && contact->group == group; ++contact) {
-            batch_contacts.push_back(contact->item);
-        }
-        if (has_finger || batch_contacts.size() >= kBatch) finish_batch();
+    held_residual = 0;
+    auto body = bodies_of_islands.begin();
+    auto contact = contacts_of_islands.begin();
+    while (contact != contacts_of_islands.end()) {
+        const size_t island = contact->island;
+        island_bodies.clear();
+        island_contacts.clear();
+        while (body->island < island) ++body;  // bodies that touch nothing
+        for (; body != bodies_of_islands.end() && body->island == island; ++body)
+            island_bodies.push_back(body->item);
+        for (; contact != contacts_of_islands.end() && contact->island == island; ++contact)
+            island_contacts.push_back(contact->item);
+        const bool held = island < items.size();
+        const contact::SolveStats one = solve_island(h, held);
+        if (held) held_residual = std::max(held_residual, one.residual);
+        stats.join(one);
     }
-    finish_batch();
     return stats;
 }
 
-contact::SolveStats World::Impl::solve_batch(double h) {
-    contact::SolveStats stats;
-    problem.build(batch_bodies, batch_contacts, h, settings.penetration_recovery,
+contact::SolveStats World::Impl::solve_island(double h, bool held) {
+    problem.build(island_bodies, inverse_mass, island_contacts, h, settings.penetration_recovery,
                   settings.warm_start);
     if (watcher) watcher(problem.problem(), problem.impulses());
-    if (settings.solver != Solver::sequential_impulse) {
-        const contact::PolygonSettings polygon{settings.friction_directions,
-                                               settings.friction_frame};
-        if (solvers.solve(settings.solver, polygon, problem.problem(), problem.impulses(), stats)) {
-            problem.store(batch_contacts);
-            for (size_t i = 0; i < batch_bodies.size(); ++i) {
-                btRigidBody& body = *btRigidBody::upcast(batch_bodies[i]);
-                const auto change = solvers.velocity_change(static_cast<int>(i));
-                body.setLinearVelocity(body.getLinearVelocity() +
-                                       to_bullet(Vec3(change.head<3>())));
-                body.setAngularVelocity(body.getAngularVelocity() +
-                                        to_bullet(Vec3(change.tail<3>())));
-            }
-            return stats;
-        }
-        stats.fallback = true;  // the group is too large: Bullet's solver grows with it
+    const contact::SolveSettings how{{settings.friction_directions, settings.friction_frame},
+                                     {settings.iterations, settings.tolerance},
+                                     has_fingers && !held ? kMostWork : contact::kUnbounded};
+    contact::SolveStats stats;
+    solvers.solve(settings.solver, how, problem.problem(), problem.impulses(), stats);
+    problem.store(island_contacts);
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
+        const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
+        body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
+        body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
     }
-    square_root_factors(true);
-    stats.iterations = sequential_impulse.solve(batch_bodies, batch_contacts, settings, h,
-                                                collision->dispatcher());
-    square_root_factors(false);
-    stats.residual = problem.judge(batch_contacts);
-    stats.missed = !(stats.residual <= contact::kTolerance);
-    stats.route = contact::Route::sequential_impulse;
     return stats;
-}
-
-void World::Impl::square_root_factors(bool rooted) {
-    for (btCollisionObject* object : batch_bodies) {
-        const Item& item = items[static_cast<size_t>(object->getUserIndex())];
-        if (item.properties.mass == Vec3::Constant(item.properties.mass.x())) continue;
-        const Vec3 factor = item.properties.mass.minCoeff() * item.properties.mass.cwiseInverse();
-        item.body->setLinearFactor(item.moves *
-                                   to_bullet(rooted ? Vec3(factor.cwiseSqrt()) : factor));
-    }
 }
 
 void World::Impl::integrate_positions(double h, std::vector<BodyState>& states) {

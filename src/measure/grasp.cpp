@@ -311,7 +311,7 @@ GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
     std::tie(out.torque_turn_deg, out.torque_turn_after_deg) = measure_torque(with(base, 1000));
     const bool apart = base.settings.proxy.kind == haptics::ProxyKind::point &&
                        base.settings.proxy.friction == haptics::PointFriction::apart;
-    if (!apart && base.settings.dynamics.solver != dynamics::Solver::sequential_impulse) {
+    if (!apart) {
         BenchSetup soft = with(base, 1000);
         soft.soft_radius = kSoftRadius;
         out.torsion_limit_ratio = measure_torsion_limit(soft);

@@ -91,7 +91,7 @@ struct GraspFigures {
     double wall_k = 0, wall_k_delay = 0, wall_k_premium = 0;
     double torque_turn_deg = 0;
     double torque_turn_after_deg = 0;
-    /// For soft fingertips; unset if proxy or solver have no torsion.
+    /// For soft fingertips; unset if the proxy has no torsion.
     std::optional<double> torsion_limit_ratio;
     std::vector<KickFigures> kick;
     double drag_n = 0;

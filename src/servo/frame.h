@@ -130,10 +130,13 @@ struct Frame : Knobs {
     uint32_t status = 0;
     double grip_force = kUnmeasured;
     double load_force = 0;
+    // of the step's islands: bodies that touch, directly or through others, are solved apart from
+    // the rest
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;
     int32_t solver_route = 0;  ///< contact::Route
     double solver_residual = 0;
+    double solver_held_residual = kUnmeasured;
     double lateness = kUnmeasured;
     double tick_duration = kUnmeasured;
     TaskFrame task;
@@ -161,12 +164,18 @@ struct Frame : Knobs {
             v(f.*knob, {is.name, is.unit, "", is.what});
         });
         v(f.solver_iterations,
-          {"solver_iterations", "1", "", "Iterations of all solvers that worked on the step."});
-        v(f.solver_fallback, {"solver_fallback", "1", "",
-                              "1 if another solver answered than the one asked for, otherwise 0."});
+          {"solver_iterations", "1", "",
+           "Iterations of all solvers that worked on the step, summed over its islands."});
+        v(f.solver_fallback,
+          {"solver_fallback", "1", "",
+           "1 if another solver answered for some island than the one asked for, otherwise 0."});
         v(f.solver_route, {"solver_route", "1", "", "Method that found the impulses in use."});
-        v(f.solver_residual, {"solver_residual", "1", "",
-                              "Error in Coulomb's law, as src/contact/README.md defines it."});
+        v(f.solver_residual,
+          {"solver_residual", "1", "",
+           "Largest error in Coulomb's law, as src/contact/README.md defines it."});
+        v(f.solver_held_residual,
+          {"solver_held_residual", "1", "",
+           "The same of the contacts of what a finger touches, directly or through others."});
         v(f.lateness, {"lateness", "s", "", "Lateness of the wake-up; NaN on the virtual clock."});
         v(f.tick_duration,
           {"tick_duration", "s", "", "Duration of the last tick; NaN on the virtual clock."});

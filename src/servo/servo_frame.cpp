@@ -28,6 +28,7 @@ void note_solver(const dynamics::World& world, Frame& frame) noexcept {
     frame.solver = world.solver();
     frame.solver_iterations = solve.iterations;
     frame.solver_residual = solve.residual;
+    frame.solver_held_residual = world.held_residual();
     frame.solver_fallback = solve.fallback;
     frame.solver_route = static_cast<int32_t>(solve.route);
 }

@@ -185,27 +185,6 @@ void check_limits(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of soft bodies and fingers whose torsion radius the chosen solver ignores.
-void check_torsion(const Plan& plan, Diagnostics& diagnostics) {
-    if (plan.settings.dynamics.solver != dynamics::Solver::sequential_impulse) return;
-    const bool apart = plan.settings.proxy.friction == haptics::PointFriction::apart;
-    std::string soft;
-    const auto look = [&](const auto& item) {
-        if (item.torsion_radius > 0) soft += (soft.empty() ? "" : ", ") + item.name;
-    };
-    for (const scene::Body& body : plan.scene.bodies) look(body);
-    for (const scene::Finger& finger : plan.scene.fingers) {
-        if (!(apart && is_point(plan, finger))) look(finger);
-    }
-    if (soft.empty()) return;
-    diagnostics.warning(
-        place_of(plan, "dynamics.solver"), "dynamics.solver",
-        fmt::format("sequential_impulse takes no notice of torsion radii: contacts of {} carry no "
-                    "moment about their normal",
-                    soft),
-        "Use newton, staggered_projections or stewart_trinkle, or leave out torsion_radius_mm.");
-}
-
 void check_grip(const Plan& plan, Diagnostics& diagnostics) {
     const int object = plan.scene.object_index();
     if (object < 0 || plan.scene.fingers.size() < 2) return;
@@ -421,7 +400,6 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     diagnostics.throw_if_errors();
     check_devices(plan, diagnostics);
     check_proxy(plan, diagnostics);
-    check_torsion(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
 }

@@ -23,8 +23,11 @@ inline void expect_bars_of_friction(dynamics::Solver solver, const FrictionFigur
     ASSERT_TRUE(figures.cards_drift_mm);
     EXPECT_TRUE(figures.arch_drift_mm);
     if (solver == dynamics::Solver::sequential_impulse) {
-        // guards against getting worse: README has 0.14
-        EXPECT_LT(figures.stack_drift_mm, 0.2);
+        // guards against getting worse: README has 0.23, 0.004 and 0.002. Bullet's solver, which
+        // this one replaced, left 0.14, 0.013 and 0.050.
+        EXPECT_LT(figures.stack_drift_mm, 0.25);
+        EXPECT_LT(*figures.cards_drift_mm, 0.006);
+        EXPECT_LT(*figures.arch_drift_mm, 0.004);
     } else {
         EXPECT_LE(figures.stack_drift_mm, 0.01);
         EXPECT_LE(*figures.cards_drift_mm, 0.02);

@@ -12,8 +12,8 @@ TEST(BulletProblem, IsTheSameProblem) {
     // a block at rest on four corners, which any number of iterations solves
     contact::ContactProblem problem;
     contact::ProblemBody block;
-    block.inverse_mass = Mat3::Identity() / 0.1;
-    block.inverse_inertia = Mat3::Identity() / (0.1 * 0.04 * 0.04 / 6);
+    block.inverse_mass.diagonal() << Vec3::Constant(1 / 0.1),
+        Vec3::Constant(1 / (0.1 * 0.04 * 0.04 / 6));
     block.v_W = {0, 0, -9.81e-3};
     problem.bodies = {block};
     for (const double x : {-0.02, 0.02}) {

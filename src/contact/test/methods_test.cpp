@@ -5,8 +5,8 @@
 #include "contact/anderson.h"
 #include "contact/block_lu.h"
 #include "contact/delassus_system.h"
-#include "contact/lemke.h"
-#include "contact/stewart_trinkle.h"
+#include "contact/stewart_trinkle/lemke.h"
+#include "contact/stewart_trinkle/stewart_trinkle.h"
 #include "problems.h"
 
 namespace dihaptic::contact::methods_test {

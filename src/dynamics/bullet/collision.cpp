@@ -1,5 +1,7 @@
 #include "dynamics/bullet/collision.h"
 
+#include <BulletCollision/CollisionDispatch/btSphereSphereCollisionAlgorithm.h>
+
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -21,8 +23,6 @@ constexpr double kMostRoundMargin = 5e-2;  // [m]
 /// Bodies that enter each other are searched at least once in this distance along their way [m].
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 64;
-/// Room for this many pairs that enter each other in a step.
-constexpr size_t kMostEntered = 64;
 
 /// Largest speed of a point of a body's part due to rotation; the body's centre may lie anywhere
 /// [m/s].
@@ -108,6 +108,8 @@ Collision::Collision(int max_parts, int max_pairs)
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
+    dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
+                                            &two_spheres_);
     // contacts are found at the distance set here, whatever the size of the shapes
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
@@ -121,8 +123,7 @@ Collision::Collision(int max_parts, int max_pairs)
     new_.reserve(kMostEntered);
     for (size_t i = 0; i < kMostEntered; ++i) {
         entered_.push_back(std::make_unique<btPersistentManifold>());
-        // Bullet's constructor does not set these, and its solver leaves out contacts further away
-        entered_.back()->setContactProcessingThreshold(BT_LARGE_FLOAT);
+        // Bullet's constructor does not set it
         entered_.back()->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }
     reserve_pairs(max_pairs);
@@ -160,7 +161,23 @@ void Collision::add(CollisionPart& part, bool can_move) {
     parts_.push_back(&part);
 }
 
+btCollisionAlgorithm* Collision::TwoSpheres::CreateCollisionAlgorithm(
+    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+    const btCollisionObjectWrapper* b) {
+    void* memory =
+        info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(btSphereSphereCollisionAlgorithm));
+    return new (memory) btSphereSphereCollisionAlgorithm(info.m_manifold, info, a, b);
+}
+
 void Collision::update_bounds(CollisionPart& part, double h) {
+    set_bounds(part, h, false);
+}
+
+void Collision::widen_bounds(CollisionPart& part, double h) {
+    set_bounds(part, h, true);
+}
+
+void Collision::set_bounds(CollisionPart& part, double h, bool keep) {
     btVector3 low;
     btVector3 high;
     const btTransform X_WS = part.X_WS();
@@ -168,7 +185,13 @@ void Collision::update_bounds(CollisionPart& part, double h) {
     const btVector3 travel = h * part.body->getInterpolationLinearVelocity();
     const double most = kApproach + h * turning(*part.body, *part.shape, X_WS);
     const btVector3 margin = travel.absolute() + btVector3(most, most, most);
-    broadphase_.setAabb(part.bounds, low - margin, high + margin, &dispatcher_);
+    low -= margin;
+    high += margin;
+    if (keep) {
+        low.setMin(part.bounds->m_aabbMin);
+        high.setMax(part.bounds->m_aabbMax);
+    }
+    broadphase_.setAabb(part.bounds, low, high, &dispatcher_);
 }
 
 void Collision::hide(CollisionPart& part) {

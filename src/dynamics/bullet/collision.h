@@ -29,6 +29,9 @@ class Collision {
     void add(CollisionPart& part, bool can_move);
     /// Call for each part of a body that moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
+    /// As update_bounds(), and the part keeps the bounds that it had: within a step no pair may
+    /// end, whose contacts manifolds() has.
+    void widen_bounds(CollisionPart& part, double h);
     /// From the next find_contacts() on the part meets nothing, until show() is called and its
     /// bounds are updated.
     void hide(CollisionPart& part);
@@ -55,7 +58,15 @@ class Collision {
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
     /// Manifolds that the last find_entered() added.
     std::span<btPersistentManifold* const> entered() const { return new_; }
-    btDispatcher& dispatcher() { return dispatcher_; }
+    /// Calls `use` with every manifold, of sleeping bodies, too.
+    template <class Use>
+    void for_each_manifold(const Use& use) const {
+        for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
+            use(*dispatcher_.getManifoldByIndexInternal(i));
+        for (const auto& manifold : entered_) use(*manifold);
+    }
+    int max_pairs() const { return max_pairs_; }
+    static constexpr size_t kMostEntered = 64;  ///< pairs that enter each other in a step
     bool overflowed() const { return overflowed_; }
 
   private:
@@ -86,6 +97,7 @@ class Collision {
     static CollisionPart& part(const btBroadphaseProxy* bounds) {
         return *static_cast<CollisionPart*>(bounds->m_clientObject);
     }
+    void set_bounds(CollisionPart& part, double h, bool keep);
     void reserve_pairs(int pairs);
     void sort_by_bodies();
     void list_live_pairs();
@@ -108,6 +120,12 @@ class Collision {
         }
         btScalar margin = 0;  ///< of the pair that is looked at [m]
     } dispatcher_;
+    /// Bullet's own gives two spheres a manifold of their own, whatever manifold is asked for.
+    struct TwoSpheres : btCollisionAlgorithmCreateFunc {
+        btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                       const btCollisionObjectWrapper* a,
+                                                       const btCollisionObjectWrapper* b) override;
+    } two_spheres_;
     double step_ = 1e-3;
     PolyhedronAlgorithms polyhedra_;
     Pairs pairs_;

@@ -1,6 +1,6 @@
 #include "dynamics/bullet/point_contacts.h"
 
-#include "dynamics/bullet/problem.h"
+#include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/shape.h"
 #include "dynamics/world.h"
 
@@ -12,8 +12,7 @@ void PointContacts::reserve(int points) {
     taken_.reserve(slots_.size());
     for (Slot& slot : slots_) {
         slot.manifold = std::make_unique<btPersistentManifold>();
-        // Bullet's constructor does not set these, and its solver leaves out contacts further away
-        slot.manifold->setContactProcessingThreshold(BT_LARGE_FLOAT);
+        // Bullet's constructor does not set it
         slot.manifold->setContactBreakingThreshold(BT_LARGE_FLOAT);
     }
 }
@@ -49,7 +48,6 @@ void PointContacts::add(const Contact& contact) noexcept {
     point.m_positionWorldOnA = p_WC - contact.gap * to_bullet(contact.n_W);
     point.m_distance1 = contact.gap;
     point.m_combinedFriction = contact.friction;
-    torsion_radius(point) = contact.torsion_radius;
 }
 
 void PointContacts::forget() noexcept {
@@ -80,12 +78,13 @@ btVector3 PointContacts::bend(const btRigidBody& point, double h) const noexcept
         const btManifoldPoint& contact = manifold->getContactPoint(0);
         const btRigidBody& body = *btRigidBody::upcast(manifold->getBody0());
         const btVector3& w = body.getAngularVelocity();
-        if (manifold->getBody1() != &point || contact.m_appliedImpulse <= 0 || w.isZero()) continue;
+        const double impulse = carried(contact).normal;
+        if (manifold->getBody1() != &point || impulse <= 0 || w.isZero()) continue;
         const btVector3 centre = body.getCenterOfMassPosition() - h * body.getLinearVelocity();
         const btVector3 arm = contact.m_positionWorldOnB - centre;
         const btQuaternion turn(w.normalized(), h * w.length());
-        sum += contact.m_appliedImpulse * (quatRotate(turn, arm) - arm - h * w.cross(arm));
-        pressed += contact.m_appliedImpulse;
+        sum += impulse * (quatRotate(turn, arm) - arm - h * w.cross(arm));
+        pressed += impulse;
     }
     return pressed > 0 ? sum / pressed : sum;
 }

@@ -26,7 +26,6 @@ class PointContacts {
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction = 0;
-        double torsion_radius = 0;
     };
     /// Adds a contact for the next take(); it is left out if there is no room.
     void add(const Contact& contact) noexcept;
@@ -34,6 +33,11 @@ class PointContacts {
     void take(std::vector<btPersistentManifold*>& out) noexcept;
     /// Forgets all contacts, and their impulses.
     void forget() noexcept;
+    /// Calls `use` with every manifold.
+    template <class Use>
+    void for_each_manifold(const Use& use) const {
+        for (const Slot& slot : slots_) use(*slot.manifold);
+    }
     /// Call after bodies have moved by h [s]. What a turning body carries moves along an arc, but a
     /// point's own step is along the tangent. Returns the difference, averaged over the bodies that
     /// press on the point, weighted by pressure [m].

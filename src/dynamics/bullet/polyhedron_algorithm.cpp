@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "dynamics/bullet/collision.h"
-#include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
@@ -105,12 +104,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             if (nearest >= 0) {
                 const btManifoldPoint& last = old[static_cast<size_t>(nearest)];
                 taken[static_cast<size_t>(nearest)] = true;
-                out.m_appliedImpulse = last.m_appliedImpulse;
-                out.m_appliedImpulseLateral1 = last.m_appliedImpulseLateral1;
-                out.m_appliedImpulseLateral2 = last.m_appliedImpulseLateral2;
-                out.m_lateralFrictionDir1 = last.m_lateralFrictionDir1;
-                out.m_lateralFrictionDir2 = last.m_lateralFrictionDir2;
-                torsion_impulse(out) = torsion_impulse(last);
+                out.m_userPersistentData = last.m_userPersistentData;
                 out.m_lifeTime = last.m_lifeTime + 1;
             }
             manifold_->addManifoldPoint(out);

@@ -2,20 +2,13 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
 namespace {
 
 using contact::kFixed;
-
-Mat3 from_bullet(const btMatrix3x3& m) {
-    Mat3 out;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) out(i, j) = m[i][j];
-    }
-    return out;
-}
 
 /// Columns: the normal and two tangents, which depend on the normal only.
 Mat3 contact_frame(const Vec3& normal) {
@@ -24,14 +17,14 @@ Mat3 contact_frame(const Vec3& normal) {
     btPlaneSpace1(to_bullet(normal), first, second);
     Mat3 R;
     R.col(0) = normal;
-    R.col(1) = dynamics::from_bullet(first);
+    R.col(1) = from_bullet(first);
     R.col(2) = normal.cross(R.col(1));
     return R;
 }
 
 Vec3 middle(const btManifoldPoint& point) {
-    return 0.5 * (dynamics::from_bullet(point.getPositionWorldOnA()) +
-                  dynamics::from_bullet(point.getPositionWorldOnB()));
+    return 0.5 *
+           (from_bullet(point.getPositionWorldOnA()) + from_bullet(point.getPositionWorldOnB()));
 }
 
 /// Mean height of a patch's points along the first normal. The points are moved by micrometres onto
@@ -40,7 +33,7 @@ Vec3 middle(const btManifoldPoint& point) {
 double mean_height(const btPersistentManifold& manifold) {
     double sum = 0;
     const Vec3 n_W = manifold.getNumContacts() > 0
-                         ? dynamics::from_bullet(manifold.getContactPoint(0).m_normalWorldOnB)
+                         ? from_bullet(manifold.getContactPoint(0).m_normalWorldOnB)
                          : Vec3::Zero();
     for (int i = 0; i < manifold.getNumContacts(); ++i)
         sum += n_W.dot(middle(manifold.getContactPoint(i)));
@@ -49,29 +42,27 @@ double mean_height(const btPersistentManifold& manifold) {
 
 }  // namespace
 
-void ManifoldProblem::reserve(int bodies, int contacts) {
-    problem_.bodies.reserve(static_cast<size_t>(bodies));
+void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts) {
+    torsion_radii_ = std::move(torsion_radii);
+    problem_.bodies.reserve(torsion_radii_.size());
     problem_.contacts.reserve(static_cast<size_t>(contacts));
     impulses_.reserve(static_cast<size_t>(contacts));
-    index_.assign(static_cast<size_t>(bodies), kFixed);
-    scratch_.reserve(static_cast<size_t>(bodies));
+    index_.assign(torsion_radii_.size(), kFixed);
 }
 
 void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
+                            std::span<const contact::Mat6> inverse_mass,
                             std::span<btPersistentManifold*> manifolds, double h, double recovery,
                             bool warm_start) noexcept {
     problem_.clear();
     for (btCollisionObject* object : bodies) {
         const btRigidBody& body = *btRigidBody::upcast(object);
-        index_[static_cast<size_t>(body.getUserIndex())] = static_cast<int>(problem_.bodies.size());
+        const auto at = static_cast<size_t>(body.getUserIndex());
+        index_[at] = static_cast<int>(problem_.bodies.size());
         contact::ProblemBody& out = problem_.bodies.emplace_back();
-        const Vec3 moves = dynamics::from_bullet(body.getLinearFactor());
-        const Vec3 turns = dynamics::from_bullet(body.getAngularFactor());
-        out.inverse_mass = (body.getInvMass() * moves).asDiagonal();
-        out.inverse_inertia =
-            turns.asDiagonal() * from_bullet(body.getInvInertiaTensorWorld()) * turns.asDiagonal();
-        out.v_W = dynamics::from_bullet(body.getLinearVelocity());
-        out.w_W = dynamics::from_bullet(body.getAngularVelocity());
+        out.inverse_mass = inverse_mass[at];
+        out.v_W = from_bullet(body.getLinearVelocity());
+        out.w_W = from_bullet(body.getAngularVelocity());
     }
     const auto index = [&](const btCollisionObject& object) {
         return object.isStaticObject() ? kFixed
@@ -82,21 +73,23 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
         const btCollisionObject& a = *manifold->getBody1();
         const btCollisionObject& b = *manifold->getBody0();
         const double height = mean_height(*manifold);
+        const double torsion = std::max(torsion_radii_[static_cast<size_t>(a.getUserIndex())],
+                                        torsion_radii_[static_cast<size_t>(b.getUserIndex())]);
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
             btManifoldPoint& point = manifold->getContactPoint(i);
             contact::ProblemContact& out = problem_.contacts.emplace_back();
             out.a = index(a);
             out.b = index(b);
-            const Vec3 n_W = dynamics::from_bullet(point.m_normalWorldOnB);
+            const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
             Vec3 p_WC = middle(point);
             p_WC += (height - n_W.dot(p_WC)) * n_W;
-            out.p_AC_W = p_WC - dynamics::from_bullet(a.getWorldTransform().getOrigin());
-            out.p_BC_W = p_WC - dynamics::from_bullet(b.getWorldTransform().getOrigin());
-            out.R_WC = contact_frame(dynamics::from_bullet(point.m_normalWorldOnB));
+            out.p_AC_W = p_WC - from_bullet(a.getWorldTransform().getOrigin());
+            out.p_BC_W = p_WC - from_bullet(b.getWorldTransform().getOrigin());
+            out.R_WC = contact_frame(from_bullet(point.m_normalWorldOnB));
             const double gap = point.getDistance();
             out.bias = (gap > 0 ? 1 : recovery) * gap / h;
             out.friction = point.m_combinedFriction;
-            out.torsion_radius = torsion_radius(point);
+            out.torsion_radius = torsion;
         }
     }
     impulses_.resize(problem_.contacts.size());
@@ -111,19 +104,10 @@ void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) 
     size_t j = 0;
     for (btPersistentManifold* manifold : manifolds) {
         for (int i = 0; i < manifold->getNumContacts(); ++i, ++j) {
-            btManifoldPoint& point = manifold->getContactPoint(i);
+            const Carried& last = carried(manifold->getContactPoint(i));
             const Mat3& R = problem_.contacts[j].R_WC;
-            Vec3 first = dynamics::from_bullet(point.m_lateralFrictionDir1);
-            Vec3 second = dynamics::from_bullet(point.m_lateralFrictionDir2);
-            if (first.isZero()) {  // Bullet replaced the point: it keeps impulses, not directions
-                first = R.col(1);
-                second = R.col(2);
-            }
-            const Vec3 friction_W =
-                point.m_appliedImpulseLateral1 * first + point.m_appliedImpulseLateral2 * second;
-            impulses_[j] << point.m_appliedImpulse, R.col(1).dot(friction_W),
-                R.col(2).dot(friction_W),
-                problem_.contacts[j].torsion_radius > 0 ? torsion_impulse(point) : 0;
+            impulses_[j] << last.normal, R.col(1).dot(last.friction_W),
+                R.col(2).dot(last.friction_W), last.moment;
         }
     }
 }
@@ -132,31 +116,22 @@ void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const no
     size_t j = 0;
     for (btPersistentManifold* manifold : manifolds) {
         for (int i = 0; i < manifold->getNumContacts(); ++i, ++j) {
-            btManifoldPoint& point = manifold->getContactPoint(i);
+            Carried& now = carried(manifold->getContactPoint(i));
             const Mat3& R = problem_.contacts[j].R_WC;
-            point.m_appliedImpulse = impulses_[j][0];
-            point.m_lateralFrictionDir1 = to_bullet(Vec3(R.col(1)));
-            point.m_lateralFrictionDir2 = to_bullet(Vec3(R.col(2)));
-            point.m_appliedImpulseLateral1 = impulses_[j][1];
-            point.m_appliedImpulseLateral2 = impulses_[j][2];
-            torsion_impulse(point) = impulses_[j][3];
+            now.normal = impulses_[j][0];
+            now.friction_W = impulses_[j][1] * R.col(1) + impulses_[j][2] * R.col(2);
+            now.moment = impulses_[j][3];
         }
     }
-}
-
-double ManifoldProblem::judge(std::span<btPersistentManifold*> manifolds) noexcept {
-    read_impulses(manifolds);
-    scratch_.resize(problem_.bodies.size());
-    return contact::natural_map_residual(problem_, impulses_, scratch_);
 }
 
 void even_out(btPersistentManifold& manifold) noexcept {
     constexpr double kShare = 0.1;
     const int count = manifold.getNumContacts();
-    btScalar sum = 0;
-    for (int i = 0; i < count; ++i) sum += manifold.getContactPoint(i).m_appliedImpulse;
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += carried(manifold.getContactPoint(i)).normal;
     for (int i = 0; i < count; ++i) {
-        btScalar& impulse = manifold.getContactPoint(i).m_appliedImpulse;
+        double& impulse = carried(manifold.getContactPoint(i)).normal;
         impulse += kShare * (sum / count - impulse);
     }
 }

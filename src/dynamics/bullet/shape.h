@@ -24,8 +24,14 @@ inline Pose from_bullet(const btTransform& X) {
     return {Quat(q.w(), q.x(), q.y(), q.z()), from_bullet(X.getOrigin())};
 }
 
+inline Mat3 from_bullet(const btMatrix3x3& m) {
+    Mat3 out;
+    for (int i = 0; i < 3; ++i) out.row(i) = from_bullet(m[i]);
+    return out;
+}
+
 /// Vector with 1 for each axis in the set and 0 for the others.
-inline btVector3 factors(scene::Axes axes) {
+inline Vec3 factors(scene::Axes axes) {
     return {contains(axes, 0) ? 1.0 : 0.0, contains(axes, 1) ? 1.0 : 0.0,
             contains(axes, 2) ? 1.0 : 0.0};
 }

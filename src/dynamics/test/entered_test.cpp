@@ -84,6 +84,26 @@ TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
     EXPECT_NEAR(world.states()[2].v_WB.x(), 0, 1e-3);
 }
 
+TEST_P(EnteredTest, ABallStoppedInFrontOfAnotherIsNotEntered) {
+    // as above, from further away than round shapes are looked for
+    const auto ball = [](double x) {
+        scene::Body body = slippery(block({x, 0, 0}));
+        body.shape.kind = scene::ShapeKind::sphere;
+        body.shape.radius = 0.02;
+        return body;
+    };
+    World world = weightless(
+        {slippery(box("wall", {0.1, 1, 1}, {0.05, 0, 0}, 0)), ball(-0.0210), ball(-0.0645)});
+    for (int i : {1, 2}) world.set_velocity({i}, {5, 0, 0});
+    for (int step = 0; step < 5; ++step) {
+        world.step(kStep);
+        const double first = world.states()[1].X_WB.p.x();
+        EXPECT_LT(first, -0.02 + kDeep);
+        EXPECT_LT(world.states()[2].X_WB.p.x(), first - 0.04 + kDeep);
+    }
+    EXPECT_NEAR(world.states()[2].v_WB.x(), 0, 1e-3);
+}
+
 TEST_P(EnteredTest, ACapsuleThatSlapsDownOnOneEndMeetsWithTheOtherInTime) {
     scene::Body capsule = slippery(block({0, 0, 0.0305}));
     capsule.shape.kind = scene::ShapeKind::capsule;

@@ -144,8 +144,8 @@ double turned_after(World& world, double press, double time) {
 TEST(SoftFinger, HoldsARodByItsEndAndLetsItSwingWhenItEases) {
     // the moment of its weight about the pinch is 0.02 kg g 0.09 m = 17.7 mN m; two fingers of 12
     // mm carry 2 mu r N = 19.2 mN m per N at mu 0.8, less what carries the weight
-    for (const Solver solver :
-         {Solver::stewart_trinkle, Solver::staggered_projections, Solver::newton}) {
+    for (const Solver solver : {Solver::sequential_impulse, Solver::stewart_trinkle,
+                                Solver::staggered_projections, Solver::newton}) {
         World firm = held_rod(solver, 0.012);
         EXPECT_LT(std::abs(turned_after(firm, 2, 0.3)), 0.002);
         World loose = held_rod(solver, 0.012);

@@ -19,10 +19,10 @@
 #include <numbers>
 
 #include "contact/anderson.h"
-#include "contact/lemke.h"
-#include "contact/newton.h"
+#include "contact/newton/newton.h"
 #include "contact/route.h"
 #include "contact/solver_settings.h"
+#include "contact/stewart_trinkle/lemke.h"
 
 namespace dihaptic::contact {
 

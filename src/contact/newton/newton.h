@@ -110,6 +110,9 @@ constexpr auto kNewtonStarts = [] {
     return out;
 }();
 
+/// Contacts times steps, over all starts: a jammed heap must not hold the tick up for long.
+constexpr size_t kMostNewtonWork = 32000;
+
 /// The working state of proximal_newton(): r is the current point, memory.r_k the start of the
 /// proximal step.
 template <class System, class Law, class Measure>
@@ -118,14 +121,14 @@ class ProximalNewton {
     using Vec = typename System::Vec;
 
     ProximalNewton(System& system, const Law& law, std::span<Vec> r, double tolerance,
-                   NewtonMemory<System>& memory, const Measure& measure)
+                   NewtonMemory<System>& memory, const Measure& measure, size_t most_work)
         : system_(system),
           law_(law),
           r_(r),
           tolerance_(tolerance),
           memory_(memory),
           measure_(measure),
-          most_iterations_(static_cast<int>(kMostWork / std::max<size_t>(system.size(), 1))) {
+          most_iterations_(static_cast<int>(most_work / std::max<size_t>(system.size(), 1))) {
         memory.resize(system.size());
     }
 
@@ -156,8 +159,6 @@ class ProximalNewton {
     static constexpr int kFewSteps = 4;
     static constexpr int kRescueSweeps = 5;
     static constexpr double kScatter = 0.3;  // of |q|
-    // contacts times steps, over all starts: a jammed heap must not hold the tick up for long
-    static constexpr size_t kMostWork = 32000;
 
     /// Keeps r if it is the best so far. Returns whether it is good enough.
     bool judge() {
@@ -290,8 +291,10 @@ class ProximalNewton {
 template <class System, class Law, class Measure>
 Outcome proximal_newton(System& system, const Law& law, std::span<typename System::Vec> r,
                         double tolerance, NewtonMemory<System>& memory, const Measure& measure,
-                        std::span<const NewtonStart> starts = kNewtonStarts) {
-    return ProximalNewton<System, Law, Measure>(system, law, r, tolerance, memory, measure)
+                        std::span<const NewtonStart> starts = kNewtonStarts,
+                        size_t most_work = kMostNewtonWork) {
+    return ProximalNewton<System, Law, Measure>(system, law, r, tolerance, memory, measure,
+                                                most_work)
         .solve(starts);
 }
 
@@ -320,7 +323,8 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
 /// Solves Coulomb's law by proximal_newton().
 template <class System>
 Outcome newton(System& system, std::span<typename System::Vec> r, double tolerance,
-               NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts) {
+               NewtonMemory<System>& memory, std::span<const NewtonStart> starts = kNewtonStarts,
+               size_t most_work = kMostNewtonWork) {
     using Vec = typename System::Vec;
     const Load size = load(system);
     return proximal_newton(
@@ -328,7 +332,7 @@ Outcome newton(System& system, std::span<typename System::Vec> r, double toleran
         [&](std::span<const Vec> impulse, std::span<const Vec> u) {
             return coulomb_residual(system, impulse, u, size, tolerance).judged();
         },
-        starts);
+        starts, most_work);
 }
 
 }  // namespace dihaptic::contact

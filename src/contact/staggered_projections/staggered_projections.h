@@ -13,7 +13,7 @@
 #pragma once
 
 #include "contact/anderson.h"
-#include "contact/newton.h"
+#include "contact/newton/newton.h"
 
 namespace dihaptic::contact {
 

@@ -1,4 +1,4 @@
-#include "contact/lemke.h"
+#include "contact/stewart_trinkle/lemke.h"
 
 #include <algorithm>
 #include <cmath>

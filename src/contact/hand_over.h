@@ -1,0 +1,37 @@
+// The hand-over: who is asked, in this order, until one answers. README.md says how much work each
+// may do.
+#pragma once
+
+#include <array>
+
+#include "contact/route.h"
+#include "contact/solver_settings.h"
+
+namespace dihaptic::contact {
+
+struct HandOver {
+    Solver asked;
+    std::array<Route, 4> answer;  ///< `none`: nobody more
+};
+constexpr std::array<HandOver, kSolvers> kHandOver{{
+    {Solver::sequential_impulse, {Route::sequential_impulse}},
+    {Solver::stewart_trinkle,
+     {Route::own_newton, Route::newton, Route::staggered_projections, Route::sweeps}},
+    {Solver::staggered_projections,
+     {Route::staggered_projections, Route::newton, Route::coarse_polygon, Route::sweeps}},
+    {Solver::newton,
+     {Route::newton, Route::coarse_polygon, Route::staggered_projections, Route::sweeps}},
+}};
+
+/// Who is asked for `asked`. Where work is bounded, sweeps end what the first has left undone;
+/// where there is too little of it for an exact answer, or too little memory, they do it alone.
+constexpr std::array<Route, 4> hand_over(Solver asked, bool exact, bool bounded) {
+    for (const HandOver& row : kHandOver) {
+        if (row.asked != asked || !exact) continue;
+        if (bounded) return {row.answer[0], Route::sequential_impulse};
+        return row.answer;
+    }
+    return {Route::sequential_impulse};
+}
+
+}  // namespace dihaptic::contact

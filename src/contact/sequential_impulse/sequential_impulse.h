@@ -1,0 +1,24 @@
+// Sequential impulses: projected Gauss-Seidel sweeps on Coulomb's law, in turn over all normal
+// impulses and over all friction (law.h). They aim at no residual: whatever they leave is the
+// answer.
+#pragma once
+
+#include <algorithm>
+
+#include "contact/newton/newton.h"
+#include "contact/solver_settings.h"
+
+namespace dihaptic::contact {
+
+/// Sweeps until no contact's velocity changes by more than the tolerance, at most `most` times.
+template <class System>
+Outcome sequential_impulse(System& system, std::span<typename System::Vec> r,
+                           const SweepSettings& settings, int most) noexcept {
+    Outcome out;
+    out.iterations = system.sweep(law::NormalThenFriction{}, r, std::min(most, settings.most),
+                                  settings.tolerance);
+    out.converged = true;
+    return out;
+}
+
+}  // namespace dihaptic::contact

@@ -1,0 +1,72 @@
+// What contact points carried in the last step, from which the next one starts. Bullet's points
+// have it as their user data, which Bullet hands on for as long as it takes a point for the same.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+#include <deque>
+#include <vector>
+
+#include "base/geometry.h"
+
+namespace dihaptic::dynamics {
+
+/// Impulses on Bullet's body 0, to which its normal points.
+struct Carried {
+    double normal = 0;               ///< [N*s]
+    Vec3 friction_W = Vec3::Zero();  ///< [N*s]
+    double moment = 0;               ///< about the normal [N*m*s]
+    bool in_use = false;
+};
+
+/// What a point carries; CarriedPool has given it to the point.
+inline Carried& carried(const btManifoldPoint& point) {
+    return *static_cast<Carried*>(point.m_userPersistentData);
+}
+
+/// Memory for what points carry. Bullet does not tell when a point ends, so what no point refers to
+/// any more is looked for once there is none left to give.
+class CarriedPool {
+  public:
+    void reserve(size_t points) {
+        free_.reserve(points);
+        for (size_t i = 0; i < points; ++i) free_.push_back(&all_.emplace_back());
+    }
+
+    /// Gives to those points of a manifold that have nothing yet. False if too few are left.
+    bool give(const btPersistentManifold& manifold) {
+        for (int i = 0; i < manifold.getNumContacts(); ++i) {
+            const btManifoldPoint& point = manifold.getContactPoint(i);
+            if (point.m_userPersistentData != nullptr) continue;
+            if (free_.empty()) return false;
+            *free_.back() = {};
+            point.m_userPersistentData = free_.back();
+            free_.pop_back();
+        }
+        return true;
+    }
+
+    /// Finds what can be given again; `each` calls what it gets with every manifold there is.
+    /// Allocates if all is in use.
+    template <class Each>
+    void take_back(const Each& each) {
+        for (Carried& one : all_) one.in_use = false;
+        each([](const btPersistentManifold& manifold) {
+            for (int i = 0; i < manifold.getNumContacts(); ++i) {
+                const btManifoldPoint& point = manifold.getContactPoint(i);
+                if (point.m_userPersistentData != nullptr) carried(point).in_use = true;
+            }
+        });
+        free_.clear();
+        for (Carried& one : all_) {
+            if (!one.in_use) free_.push_back(&one);
+        }
+        while (free_.size() < MANIFOLD_CACHE_SIZE) free_.push_back(&all_.emplace_back());
+    }
+
+  private:
+    std::deque<Carried> all_;  // stay where they are
+    std::vector<Carried*> free_;
+};
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,114 @@
+// Tests that bodies which do not touch are solved apart: what is in a finger's hand stays exact,
+// whatever else happens in the world.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dynamics/test/blocks.h"
+
+namespace dihaptic::dynamics::islands_test {
+namespace {
+
+/// A block in the air between two pads, and a wall of loose bricks away from it.
+World held_block(int columns, Solver solver = Solver::newton) {
+    scene::Scene scene;
+    scene.bodies = {table(), block({0, 0, 0.3})};
+    for (int i = 0; i < 10 * columns; ++i) {
+        const int row = i / columns;
+        const double x = 0.3 + 0.042 * (i % columns) + 0.02 * (row % 2);
+        scene.bodies.push_back(box("loose " + std::to_string(i), Vec3::Constant(0.04),
+                                   {x, 0, 0.021 + 0.0405 * row}, 0.05));
+    }
+    Settings settings = awake();
+    settings.solver = solver;
+    World world(scene, settings);
+    for (const double side : {-1.0, 1.0}) {
+        scene::Finger finger;
+        finger.name = side < 0 ? "left" : "right";
+        finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
+        finger.mass = 1;
+        world.add_proxy(finger, {side * 0.0225, 0, 0.3});
+    }
+    world.activate();
+    return world;
+}
+void step(World& world, int tick) {
+    const int left = world.scene_size();
+    for (const int finger : {left, left + 1}) {
+        const Vec3 v = world.state({finger}).v_WB;
+        world.set_velocity({finger}, {v.x(), 0, 0});
+        world.apply({finger}, {finger == left ? 5.0 : -5.0, 0, 0}, Vec3::Zero());
+    }
+    for (int i = 2; i < left; ++i)
+        world.apply({i}, {0.1 * std::sin(0.2 * tick + i), 0, 0}, Vec3::Zero());
+    world.step(kStep);
+}
+
+TEST(Islands, AHeapDoesNotCostTheHandItsExactness) {
+    World alone = held_block(0);
+    World beside = held_block(3);
+    int ended = 0;
+    for (int i = 0; i < 200; ++i) {
+        step(alone, i);
+        step(beside, i);
+        EXPECT_FALSE(alone.solve_stats().missed);
+        EXPECT_LE(beside.held_residual(), 1e-8) << i;
+        EXPECT_GE(beside.solve_stats().residual, beside.held_residual());
+        ended += beside.solve_stats().ended ? 1 : 0;
+    }
+    EXPECT_GT(ended, 100);  // a wall of some 200 contacts
+    EXPECT_LT((alone.state({1}).X_WB.p - beside.state({1}).X_WB.p).norm(), 1e-9);
+    EXPECT_NEAR(beside.state({1}).X_WB.p.z(), 0.3, 1e-3);
+}
+
+TEST(Islands, WorkIsBoundedOnlyWhereAHandWaits) {
+    std::vector<scene::Body> bodies{table()};
+    for (int i = 0; i < 20; ++i)
+        bodies.push_back(
+            box("block " + std::to_string(i), Vec3::Constant(0.04), {0, 0, 0.02 + 0.04 * i}, 0.1));
+    World world = make(bodies, awake());
+    for (int i = 0; i < 20; ++i) {
+        world.step(kStep);
+        EXPECT_FALSE(world.solve_stats().ended);
+        EXPECT_LE(world.solve_stats().residual, 1e-8);
+        EXPECT_EQ(world.held_residual(), 0);
+    }
+}
+
+TEST(Islands, AreSolvedApartWithWorkAndIterationsSummed) {
+    const auto iterations = [](int blocks) {
+        std::vector<scene::Body> bodies{table()};
+        for (int i = 0; i < blocks; ++i)
+            bodies.push_back(
+                box("block " + std::to_string(i), Vec3::Constant(0.04), {0.1 * i, 0, 0.02}, 0.1));
+        World world = make(bodies, awake());
+        int problems = 0;
+        world.watch_problems([&](const auto& problem, auto) {
+            ++problems;
+            EXPECT_EQ(problem.bodies.size(), 1u);
+        });
+        world.step(kStep);
+        EXPECT_EQ(problems, blocks);
+        EXPECT_GT(world.solve_stats().work, 0);
+        return world.solve_stats().iterations;
+    };
+    EXPECT_EQ(iterations(3), 3 * iterations(1));
+}
+
+TEST(Carried, ImpulsesOutliveManyMoreContactsThanAreReserved) {
+    // a block that rocks makes new points all the time: what ended points carried is given again
+    Settings settings = awake();
+    settings.max_contacts = 16;
+    World world = make({table(), block({0, 0, 0.02})}, settings);
+    for (int i = 0; i < 3000; ++i) {
+        world.apply({1}, {0, 0, 0}, {0.03 * std::sin(0.05 * i), 0.03 * std::cos(0.031 * i), 0});
+        ASSERT_EQ(world.step(kStep), StepStatus::ok);
+        double force = 0;
+        for (const contact::Contact& c : world.contacts()) force += c.normal_force;
+        EXPECT_GE(force, 0);
+    }
+    EXPECT_LT(world.state({1}).X_WB.p.z(), 0.05);
+}
+
+}  // namespace
+}  // namespace dihaptic::dynamics::islands_test
