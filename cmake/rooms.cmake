@@ -1,6 +1,6 @@
-# The headers of other libraries that nearly every source includes are compiled once for all rooms (by
-# dihaptic_base) and once for all tests (by dihaptic_testing): a quarter of the time of a first build. Each
-# source includes what it needs all the same.
+# The headers of other libraries that nearly every source includes are compiled once for all rooms and the program (by
+# dihaptic_base), and once for all tests (by dihaptic_testing): a quarter of the time of a first build. Each source
+# includes what it needs all the same.
 function(dihaptic_precompile target by)
     if(CCACHE)
         return()
@@ -86,7 +86,7 @@ function(dihaptic_room name)
         dihaptic_together(${name}_test)
         dihaptic_precompile(${name}_test dihaptic_testing)
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-            PROPERTIES LABELS ${name} TIMEOUT 900)
+            PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT})
     endif()
     file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
     if(DIHAPTIC_SOAKS AND soaks)
@@ -111,7 +111,7 @@ function(dihaptic_room name)
             target_link_libraries(${target} PRIVATE dihaptic_feed_corpus)
             dihaptic_precompile(${target} dihaptic_base)
             add_test(NAME ${target} COMMAND ${target} ${corpus} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-            set_tests_properties(${target} PROPERTIES LABELS ${name} TIMEOUT 900)
+            set_tests_properties(${target} PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT})
         endif()
     endforeach()
 endfunction()

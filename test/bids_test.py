@@ -17,6 +17,8 @@ import tarfile
 import tempfile
 import unittest
 
+from patience import patient
+
 BUILD = sys.argv.pop(2) if len(sys.argv) > 2 else "build/release"
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 
@@ -58,7 +60,7 @@ fingers:
 
 
 def dihaptic(*arguments, code=0):
-    result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+    result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=patient(300))
     assert result.returncode == code, result.stdout + result.stderr
     return result.stdout + result.stderr
 

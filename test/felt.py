@@ -3,6 +3,8 @@ import mmap
 import struct
 import time
 
+from patience import patient
+
 
 class Felt:
     """Per device: force, when it was last told one, its firmware's watchdog, when force last went, how often it was opened."""
@@ -30,7 +32,7 @@ class Felt:
         return [0 if watchdog > 0 and now - told > watchdog else force for force, told, watchdog, *_ in self.devices()]
 
     def wait_for_force(self, seconds=60, settle=0.1):
-        end = time.monotonic() + seconds
+        end = time.monotonic() + patient(seconds)
         while time.monotonic() < end:
             if min(self.forces()) > 3.3:
                 time.sleep(settle)
@@ -38,7 +40,7 @@ class Felt:
             time.sleep(0.0005)
         raise AssertionError(f"no force came: {self.devices()}")
 
-    def gone_after(self, since, seconds=1.0):
+    def gone_after(self, since, seconds):
         """Time from `since` until nothing pushes any hand [s]; None: something still does after so many seconds."""
         while time.monotonic() - since < seconds:
             if max(self.acting()) == 0:

@@ -12,11 +12,13 @@ import sys
 import tempfile
 import unittest
 
+from patience import patient
+
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 
 
 def dihaptic(*arguments):
-    result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+    result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=patient(300))
     assert result.returncode == 0, result.stderr
     return result.stdout
 
@@ -73,6 +75,8 @@ class Reports(unittest.TestCase):
         self.assertEqual(len(rows), len(trials))
         for trial, row in zip(trials, rows):
             self.assertEqual(float(row["compensation"]), -float(trial["hand_angle_deg"]))
+        clamped = [row["error_seen"] for row in rows if row["kind"] == "visual_clamp"]
+        self.assertEqual(set(clamped), {"no"})
         rotated = [float(r["perturbation"]) for r in rows if r["kind"] == "perturbed"]
         self.assertTrue(all(abs(f - 30) < 0.5 for f in rotated), rotated[:5])
 

@@ -9,14 +9,15 @@ namespace dihaptic::cli {
 
 void add_check(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "check", "Check scene, rig, experiment and movement files before anyone sits down");
+        "check",
+        "Check scene, rig, experiment, movement and population files before anyone sits down");
     auto files = std::make_shared<std::vector<std::string>>();
     command->add_option("FILE", *files, "files to check")->required();
     auto rig = std::make_shared<std::string>();
     command->add_option("--rig", *rig, "rig file, in place of the experiments'");
     command->footer(
         "\nExamples:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
-        "movements/*.csv\n  dihaptic check experiments/grip-and-lift.yaml --rig "
+        "movements/*.csv populations/*.yaml\n  dihaptic check experiments/grip-and-lift.yaml --rig "
         "rigs/premium-pair.yaml    what this rig cannot render");
     command->callback([files, rig] {
         size_t bad = 0;

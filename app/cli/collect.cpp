@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <compare>
 #include <filesystem>
 #include <map>
@@ -46,8 +47,14 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
                       : "Collect sessions of one experiment and one version only.");
 }
 
-std::map<Key, std::string> find_people(const CollectOptions& options) {
-    std::map<Key, std::string> out;
+struct Found {
+    std::map<Key, std::string> people;    ///< session of each
+    std::vector<std::string> unfinished;  ///< folders of sessions that have not ended
+};
+
+Found find_people(const CollectOptions& options) {
+    Found found;
+    auto& out = found.people;
     std::optional<Rehearsal> first;
     std::string first_folder;
     for (const std::string& folder : options.folders) {
@@ -60,6 +67,7 @@ std::map<Key, std::string> find_people(const CollectOptions& options) {
         for (const auto& entry : fs::directory_iterator(folder)) {
             const std::string id = entry.path().filename().string();
             if (is_there((entry.path() / "person.yaml").string())) ids.push_back(id);
+            if (id.starts_with(kUnfinished)) found.unfinished.push_back(entry.path().string());
         }
         if (ids.empty()) continue;
         const Rehearsal rehearsal = read_rehearsal(folder);
@@ -81,7 +89,8 @@ std::map<Key, std::string> find_people(const CollectOptions& options) {
         throw Error({options.folders.front(), 0}, "", "has no complete session",
                     "Rehearse first: dihaptic rehearse --help.");
     }
-    return out;
+    std::sort(found.unfinished.begin(), found.unfinished.end());
+    return found;
 }
 
 /// The tables that are collected. Each row begins with seed, group and id, and ends with who moved
@@ -172,7 +181,11 @@ class Collection {
 };
 
 void collect(const CollectOptions& options) {
-    const auto people = find_people(options);
+    const auto [people, unfinished] = find_people(options);
+    for (const std::string& folder : unfinished) {
+        fmt::print("left out: {}: its session has not ended; the command that began it goes on\n",
+                   folder);
+    }
     Collection collection;
     {
         ProgressLine line("collecting");

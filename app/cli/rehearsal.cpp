@@ -62,6 +62,12 @@ bool has_people(const std::string& folder) {
 
 }  // namespace
 
+person::Population population_of(const std::string& file, bool real_objects) {
+    if (!file.empty()) return person::read_population(file);
+    return person::shipped_population(real_objects ? person::Objects::real
+                                                   : person::Objects::device);
+}
+
 Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population) {
     Rehearsal out;
     out.program = recording::program_version();

@@ -9,6 +9,9 @@
 
 namespace dihaptic::cli {
 
+/// With this the name of a folder begins in which a person's session is made.
+inline constexpr const char* kUnfinished = "unfinished-";
+
 struct Rehearsal {
     std::string program;
     std::string experiment;  ///< title
@@ -25,6 +28,9 @@ struct Rehearsal {
         v("inputs", inputs);
     }
 };
+
+/// The population of a file; "": the program's own.
+person::Population population_of(const std::string& file, bool real_objects);
 
 /// `plan`: without a simulated person yet.
 Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population);

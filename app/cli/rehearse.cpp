@@ -54,7 +54,7 @@ std::string id_of(int person) {
 }
 /// Folder in which a person's session is made, and then the folder of the complete session.
 std::string unfinished(const RehearseOptions& options, const std::string& id) {
-    return options.out + "/unfinished-" + id;
+    return options.out + "/" + kUnfinished + id;
 }
 std::string finished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + id;
@@ -130,12 +130,6 @@ std::string messages_of(const RehearseOptions& options, const std::string& id) {
                        options.out);
 }
 
-person::Population population_of(const RehearseOptions& options) {
-    if (!options.population_file.empty()) return person::read_population(options.population_file);
-    return person::shipped_population(options.real_objects ? person::Objects::real
-                                                           : person::Objects::device);
-}
-
 std::string usual_folder(const session::Request& request) {
     return fmt::format("rehearsals/{}_{}", fs::path(request.file).stem().string(), request.seed);
 }
@@ -206,7 +200,7 @@ void rehearse(RehearseOptions& options) {
     }
     print(plan.warnings);
     print(person::simulated_limits(*plan.task));
-    options.population = population_of(options);
+    options.population = population_of(options.population_file, options.real_objects);
     if (options.out.empty()) options.out = usual_folder(options.request);
     claim(options.out, rehearsal_of(plan, *options.population));
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 #include "command.h"
 #include "common/stop_signals.h"
 #include "escape_key.h"
-#include "person/population.h"
+#include "rehearsal.h"
 #include "rig/calibration_guide.h"
 #include "summary.h"
 
@@ -31,6 +32,7 @@ struct SessionOptions {
     double rate = 0;
     std::string clock;
     bool simulate = false;
+    std::string population_file;
     bool real_objects = false;
 };
 
@@ -123,13 +125,13 @@ void ask(recording::Participant& participant) {
     question("handedness (right, left, both)", participant.handedness);
 }
 
-void run_one(const SessionOptions& options) {
+void run_one(SessionOptions& options) {
+    const std::string& id = options.run.participant.id;
+    const person::Population people = population_of(options.population_file, options.real_objects);
+    if (!people.groups.empty()) options.request.order_number = people.number_in_group(id);
     session::Plan plan = session::make_plan(options.request);
-    if (options.simulate && plan.task) {
-        const auto objects = options.real_objects ? person::Objects::real : person::Objects::device;
-        session::sit_down(plan,
-                          person::draw_person(objects, plan.seed, options.run.participant.id));
-    }
+    if (options.simulate && plan.task)
+        session::sit_down(plan, person::draw_person(people, plan.seed, id));
     run_plan(std::move(plan), options.run);
 }
 
@@ -358,6 +360,44 @@ void run(SessionOptions& options) {
     }
 }
 
+void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
+    auto* simulate = command->add_flag(
+        "--simulate", options->simulate,
+        "a simulated person on simulated devices does the trials, on the virtual clock");
+    auto* population = command->add_option(
+        "--population", options->population_file,
+        "population file that the person is drawn from; default: the program's own, as in "
+        "populations/adults.yaml");
+    population->needs(simulate);
+    command
+        ->add_flag("--real-objects", options->real_objects,
+                   "the person grips as one does without a device between")
+        ->needs(simulate)
+        ->excludes(population);
+}
+
+void add_participant(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
+    command->add_option("--participant", options->run.participant.id,
+                        "participant's identifier; of a simulated one it begins with sim-");
+    command->add_option("--age", options->run.participant.age, "participant's age in years");
+    command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")
+        ->check(CLI::IsMember({"F", "M", "O", "U"}));
+    command->add_option("--handedness", options->run.participant.handedness, "right, left or both")
+        ->check(CLI::IsMember({"right", "left", "both"}));
+}
+
+void add_physics(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
+    command->add_option(
+        "--solver", options->solver,
+        fmt::format("contact solver: {}", fmt::join(enum_names(dynamics::Solver{}), ", ")));
+    command->add_option("--coupling", options->coupling,
+                        fmt::format("coupling of handle and proxy: {}",
+                                    fmt::join(enum_names(haptics::CouplingKind{}), ", ")));
+    command->add_option("--proxy", options->proxy,
+                        fmt::format("what a finger is in the world: {}",
+                                    fmt::join(enum_names(haptics::ProxyKind{}), ", ")));
+}
+
 }  // namespace
 
 void add_run(CLI::App& app) {
@@ -368,26 +408,9 @@ void add_run(CLI::App& app) {
         "--movement", options->request.movement,
         "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
-    auto* simulate = command->add_flag(
-        "--simulate", options->simulate,
-        "a simulated person on simulated devices does the trials, on the virtual clock");
-    command
-        ->add_flag("--real-objects", options->real_objects,
-                   "the person grips as one does without a device between")
-        ->needs(simulate);
-    command->add_option("--participant", options->run.participant.id,
-                        "participant's identifier; of a simulated one it begins with sim-");
-    command->add_option("--age", options->run.participant.age, "participant's age in years");
-    command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")
-        ->check(CLI::IsMember({"F", "M", "O", "U"}));
-    command->add_option("--handedness", options->run.participant.handedness, "right, left or both")
-        ->check(CLI::IsMember({"right", "left", "both"}));
-    command->add_option(
-        "--solver", options->solver,
-        "contact solver: sequential_impulse, stewart_trinkle, staggered_projections, newton");
-    command->add_option("--coupling", options->coupling,
-                        "coupling of handle and proxy: implicit, dual_spring, velocity_impulse");
-    command->add_option("--proxy", options->proxy, "what a finger is in the world: rigid, point");
+    add_simulated_person(command, options);
+    add_participant(command, options);
+    add_physics(command, options);
     command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
     command
         ->add_option("--clock", options->clock,

@@ -142,8 +142,9 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
 }
 
 void Drawer::follow(const servo::Frame& frame) {
-    if (!path_wanted_ || object_ < 0) return;
-    const Vec3 p = servo::displayed_body(frame, static_cast<size_t>(object_)).p;
+    if (!path_wanted_) return;
+    const Vec3 p = object_ < 0 ? servo::displayed_proxy(frame, 0).p
+                               : servo::displayed_body(frame, static_cast<size_t>(object_)).p;
     constexpr double kStep = 5e-4;  // least distance between points of the path [m]
     if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
 }

@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "rig/calibration_guide.h"
+#include "servo/shown_texts.h"
 #include "session_progress.h"
 #include "theme.h"
 
@@ -41,6 +42,16 @@ const QString kFingerHelp =
     "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
     "Right drag: look around.   Ctrl + wheel: zoom.\n"
     "H: the finger stays, or moves on.   Escape: force off.";
+
+/// The texts that the task shows, a line each.
+QString texts_of(const session::Plan& plan, const servo::Frame& frame) {
+    QStringList out;
+    if (plan.task) {
+        for (const std::string& text : servo::shown_texts(frame.task, plan.task->messages))
+            out += QString::fromStdString(text);
+    }
+    return out.join("\n");
+}
 
 QString question_of(const session::Unfinished& session, const std::string& participant) {
     const QDateTime started =
@@ -491,7 +502,8 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     mouse_.reset();
     scene_->set_hand(nullptr, false);
     scene_->set_help("");
-    message_ = -1;
+    said_.clear();
+    page_ = -1;
     complaint_.clear();
     session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
@@ -528,8 +540,10 @@ void OperatorWindow::show_frame(const servo::Frame& frame) {
     if (subject_) subject_->scene().show_frame(frame);
     devices_->show_frame(frame);
     if (runner_.finishing()) return;
-    if (message_ != frame.task.message) {
-        message_ = frame.task.message;
+    const QString said = texts_of(runner_.plan(), frame);
+    if (said != said_ || page_ != frame.task.page) {
+        said_ = said;
+        page_ = frame.task.page;
         update_state();
     }
     show_progress(frame);
@@ -595,8 +609,13 @@ QString OperatorWindow::banner() const {
 }
 
 QString OperatorWindow::message() const {
-    if (!runner_.running() || message_ < 0 || !runner_.plan().task) return "";
-    return QString::fromStdString(runner_.plan().task->messages[static_cast<size_t>(message_)]);
+    return runner_.running() && page_ < 0 ? said_ : "";
+}
+
+void OperatorWindow::show_page(SceneWidget& scene) const {
+    if (!runner_.running() || page_ < 0) return scene.set_page("", "");
+    const task::TaskPlan::Page& page = runner_.plan().task->pages[static_cast<size_t>(page_)];
+    scene.set_page(said_, QString::fromStdString(page.spec.picture));
 }
 
 void OperatorWindow::update_state() {
@@ -613,7 +632,10 @@ void OperatorWindow::update_state() {
     calibrate_action_->setEnabled(now == State::nothing || now == State::ready);
     session_->set_state(now, has_trials());
     scene_->set_banner(banner());
-    if (subject_) subject_->scene().set_banner(message());
+    show_page(*scene_);
+    if (!subject_) return;
+    subject_->scene().set_banner(message());
+    show_page(subject_->scene());
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {

@@ -91,8 +91,10 @@ class OperatorWindow : public QMainWindow {
     void show_progress(const servo::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
-    /// The task's message to the person; empty: none.
+    /// What the task says to the person over the scene; empty: nothing.
     QString message() const;
+    /// Shows the task's page, or that there is none.
+    void show_page(SceneWidget& scene) const;
     /// The text over the scene: what to do next, or what is wrong.
     QString banner() const;
     void update_state();
@@ -105,7 +107,8 @@ class OperatorWindow : public QMainWindow {
     std::optional<session::Plan> plan_;  ///< of the last version of the file without errors
     servo::Frame frame_;                 ///< the plan's first frame
     std::vector<view::Workspace> workspaces_;
-    int message_ = -1;                    ///< index of the task's message that is shown; -1: none
+    QString said_;                        ///< the task's texts that are shown
+    int page_ = -1;                       ///< index of the task's page that is shown; -1: none
     recording::Participant participant_;  ///< who did the last trials
     std::optional<MouseHand> mouse_;      ///< of the running session
     bool start_when_opened_ = false;

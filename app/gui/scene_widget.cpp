@@ -17,7 +17,10 @@ constexpr size_t kPath = 300;     // length of the path [pictures]: five seconds
 }  // namespace
 
 SceneWidget::SceneWidget(QWidget* parent)
-    : QOpenGLWidget(parent), banner_(new QLabel(this)), help_(new QLabel(this)) {
+    : QOpenGLWidget(parent),
+      page_(new PageView(this)),
+      banner_(new QLabel(this)),
+      help_(new QLabel(this)) {
     setAccessibleName("Scene");
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
@@ -132,7 +135,12 @@ void SceneWidget::set_help(const QString& text) {
     place_labels();
 }
 
+void SceneWidget::set_page(const QString& text, const QString& picture) {
+    page_->set_page(text, picture);
+}
+
 void SceneWidget::place_labels() {
+    page_->setGeometry(rect());
     // legible from a chair's distance, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "

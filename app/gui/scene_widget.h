@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "mouse_hand.h"
+#include "page_view.h"
 #include "servo/workspace_turn.h"
 #include "view/scene_view.h"
 
@@ -54,6 +55,8 @@ class SceneWidget : public QOpenGLWidget {
     /// Sets the large text over the picture; empty: none.
     void set_banner(const QString& text);
     void set_help(const QString& text);
+    /// Sets the page in place of the scene (page_view.h); empty: none.
+    void set_page(const QString& text, const QString& picture);
 
     QSize sizeHint() const override { return {900, 640}; }
 
@@ -100,6 +103,7 @@ class SceneWidget : public QOpenGLWidget {
     bool stays_ = false;     // the hand stays while the pointer moves
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
+    PageView* page_;
     QLabel* banner_;
     QLabel* help_;
 };

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "analysis/report/statistics.h"
+#include "task/trials.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -71,9 +72,20 @@ std::vector<double> measured_kind(const Stretch& stretch, const char* kind) {
     return measured(stretch.trials, [&](const Trial& t) { return of_kind(t, kind); });
 }
 
-bool is_perturbed(const Stretch& s) {
+bool has_kind(const Stretch& s, const char* kind) {
     return std::any_of(s.trials.begin(), s.trials.end(),
-                       [](const Trial& t) { return of_kind(t, "perturbed"); });
+                       [&](const Trial& t) { return of_kind(t, kind); });
+}
+
+bool is_perturbed(const Stretch& s) {
+    return has_kind(s, "perturbed");
+}
+
+/// Compensations that show what was learned in a block's trials of a kind: those of the channels
+/// among them, or else their own.
+std::vector<double> learned_in(const Stretch& stretch, const char* kind, bool in_channels) {
+    if (!in_channels) return measured_kind(stretch, kind);
+    return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};
 }
 
 bool only_catches(const Stretch& s) {
@@ -133,7 +145,57 @@ std::map<int, int> last_attempts(const CsvFile& trials) {
     return out;
 }
 
+/// Takes an adaptation index from a row of trials.csv. A channel shows no error, and of a trial
+/// without one only the field is known.
+void take_index(Trial& trial, const CsvFile& trials, size_t i) {
+    const double share = trials.number(i, "field_share");
+    trial.compensation = 100 * trials.number(i, kAdaptationIndex);
+    trial.clamp = is_clamp(trial.kind) || std::isnan(share);
+    trial.perturbation = trial.clamp ? 0 : 100 * share;
+}
+
+/// Says of what the curves are, in percent.
+void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
+    for (AdaptationCurve& curve : curves) {
+        curve.unit = std::string(1, '%');
+        curve.measure = measure;
+    }
+}
+
+/// Empties the trial's figures under a perturbation whose learning has no measure, if it acts.
+void leave_out_unmeasured(Trial& trial, double share) {
+    if (share == 0) trial.under.clear();
+    if (trial.under.empty()) return;
+    trial.clamp = true;
+    trial.perturbation = trial.compensation = kUnmeasured;
+}
+
+/// Takes an angle or an extent; returns whether it is an extent.
+bool take_reach(Trial& trial, const CsvFile& trials, size_t i) {
+    const double way = trials.number(i, "hand_extent_mm");
+    double shown;
+    if (std::isnan(way)) {
+        const double hand = trials.number(i, "hand_angle_deg");
+        trial.compensation = -hand;
+        shown = std::remainder(trials.number(i, "shown_angle_deg") - hand, 360);
+    } else {
+        trial.compensation = in_percent(trials.number(i, "wanted_extent_mm"), way);
+        shown = in_percent(trials.number(i, "shown_extent_mm"), way);
+    }
+    // a reach that fell short was not seen to err, and a clamp does not show the true error
+    trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
+    trial.perturbation = trial.clamp ? 0 : shown;
+    return !std::isnan(way);
+}
+
 }  // namespace
+
+bool has_adaptation_index(const CsvFile& trials) {
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        if (!std::isnan(trials.number(i, kAdaptationIndex))) return true;
+    }
+    return false;
+}
 
 std::vector<AdaptationCurve::Stretch> AdaptationCurve::stretches() const {
     std::vector<Stretch> out;
@@ -144,13 +206,17 @@ std::vector<AdaptationCurve::Stretch> AdaptationCurve::stretches() const {
         block = &trial.block;
         Stretch& stretch = out.back();
         stretch.trials.push_back(trial);
-        stretch.clamp = stretch.clamp && trial.kind == "error_clamp";
+        stretch.clamp = stretch.clamp && is_clamp(trial.kind);
         if (trial.kind == "catch") continue;
         if (std::abs(trial.perturbation) > std::abs(stretch.perturbation))
             stretch.perturbation = trial.perturbation;
         if (!std::isnan(trial.compensation)) stretch.compensation.push_back(trial.compensation);
     }
     return out;
+}
+
+bool AdaptationCurve::in_channels() const {
+    return measure == kAdaptationIndex;
 }
 
 double AdaptationCurve::perturbation() const {
@@ -177,14 +243,16 @@ std::vector<AdaptationCurve::Block> AdaptationCurve::blocks() const {
     std::vector<Block> out;
     for (const Stretch& stretch : stretches()) {
         const auto own = measured(stretch.trials, [&](const Trial& t) {
-            return !of_kind(t, "catch") && (stretch.clamp || !of_kind(t, "error_clamp"));
+            return !of_kind(t, "catch") && (in_channels() || stretch.clamp || !is_clamp(t.kind));
         });
         Block& block = out.emplace_back();
         block.name = stretch.block;
         block.first = window(first_of(own, kFew));
         block.last = window(last_of(own, kFew));
         block.catch_trials = window(measured_kind(stretch, "catch"));
-        if (!stretch.clamp) block.inserted_clamps = window(measured_kind(stretch, "error_clamp"));
+        if (!stretch.clamp && !in_channels())
+            block.inserted_clamps =
+                window(measured(stretch.trials, [](const Trial& t) { return is_clamp(t.kind); }));
     }
     return out;
 }
@@ -197,12 +265,12 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
     const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
     std::vector<double> baseline;
     for (auto part = parts.begin(); part != first; ++part) {
-        const auto own = measured_kind(*part, "baseline");
+        const auto own = learned_in(*part, "baseline", in_channels());
         baseline.insert(baseline.end(), own.begin(), own.end());
     }
     out.baseline = window(baseline);
     if (first == parts.end()) return out;
-    out.early = window(first_of(measured_kind(*first, "perturbed"), kFew));
+    out.early = window(first_of(learned_in(*first, "perturbed", in_channels()), kFew));
     auto last = first;
     for (auto part = first; part != parts.end(); ++part) {
         if (is_perturbed(*part) && alike(*part, *first)) {
@@ -211,7 +279,7 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
             break;
         }
     }
-    out.late = window(last_of(measured_kind(*last, "perturbed"), kFew));
+    out.late = window(last_of(learned_in(*last, "perturbed", in_channels()), kFew));
     std::vector<double> catches;
     for (auto part = first; part != last + 1; ++part) {
         const auto own = measured_kind(*part, "catch");
@@ -224,7 +292,7 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
         out.clamp_last = window(last_of(clamp->compensation, kFew));
     }
     for (auto part = first; part != parts.end(); ++part) {
-        const auto own = measured_kind(*part, "washout");
+        const auto own = learned_in(*part, "washout", in_channels());
         if (own.empty()) continue;
         out.washout_first = window(first_of(own, kFew));
         break;
@@ -251,6 +319,7 @@ void AdaptationCurve::Window::list(FigureLister& row, const std::string& name,
 void AdaptationCurve::list_landmarks(FigureLister& row) const {
     const Windows w = windows();
     const bool known = !trials.empty() && (note().empty() || std::abs(perturbation()) > kSame);
+    row("measure", measure, "", "angle, extent, adaptation_index, or the column of errors");
     row("unit", unit, "", "of what follows");
     row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest by size");
     w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
@@ -289,48 +358,82 @@ Table block_table(const std::vector<AdaptationCurve>& curves) {
     return table;
 }
 
+std::string y_label(const AdaptationCurve& curve) {
+    if (curve.errors) return "compensation, from " + curve.measure + " [" + curve.unit + "]";
+    return (curve.in_channels() ? curve.measure : "compensation") + " [" + curve.unit + "]";
+}
+
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
                                                const Unmeasured& unmeasured) {
     std::vector<AdaptationCurve> curves;
     const std::map<int, int> last = last_attempts(trials);
+    const bool by_index = has_adaptation_index(trials);
     bool any = false;
     bool extents = false;
     for (size_t i = 0; i < trials.rows(); ++i) {
         Trial trial;
         trial.number = static_cast<int>(trials.number(i, "trial_num"));
         trial.block = trials.text(i, "block");
-        trial.kind = trials.text(i, "kind");
-        const double way = trials.number(i, "hand_extent_mm");
-        double shown;
-        if (std::isnan(way)) {
-            const double hand = trials.number(i, "hand_angle_deg");
-            trial.compensation = -hand;
-            shown = std::remainder(trials.number(i, "shown_angle_deg") - hand, 360);
+        const std::string perturbation = trials.text(i, "perturbation");
+        trial.kind = kind_of(trials.text(i, "kind"), perturbation, unmeasured);
+        if (by_index) {
+            take_index(trial, trials, i);
         } else {
-            extents = true;
-            trial.compensation = in_percent(trials.number(i, "wanted_extent_mm"), way);
-            shown = in_percent(trials.number(i, "shown_extent_mm"), way);
+            extents = take_reach(trial, trials, i) || extents;
         }
-        // a reach that fell short was not seen to err, and a clamp does not show the true error
-        trial.clamp = trial.kind == "error_clamp" || std::isnan(trial.compensation);
-        trial.perturbation = trial.clamp ? 0 : shown;
         // the error seen in an attempt that is done again stays; its compensation does not count
         if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
-        const auto under = unmeasured.find(trials.text(i, "perturbation"));
-        // with share 0 the perturbation does not act
-        if (under != unmeasured.end() && trials.number(i, "share") != 0) {
-            trial.under = under->second;
-            trial.clamp = true;
-            trial.perturbation = trial.compensation = kUnmeasured;
-        }
+        trial.under = unmeasured_in(perturbation, unmeasured);
+        if (trial.under.empty() && trial.kind == "force_channel" && !by_index)
+            trial.under = kForceChannel;
+        leave_out_unmeasured(trial, trials.number(i, "share"));
         const std::string round = trials.text(i, "round");
-        if (curves.empty() || curves.back().round != round) curves.push_back({round, "deg", {}});
+        if (curves.empty() || curves.back().round != round) curves.emplace_back().round = round;
         curves.back().trials.push_back(trial);
     }
     if (!any) curves.clear();
-    if (extents) {
-        for (AdaptationCurve& curve : curves) curve.unit = std::string(1, '%');
+    if (by_index) name_measure(curves, kAdaptationIndex);
+    if (extents) name_measure(curves, "extent");
+    return curves;
+}
+
+std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::string& column) {
+    std::vector<AdaptationCurve> curves;
+    const std::map<int, int> last = last_attempts(trials);
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        std::string round = trials.text(i, "round");
+        const std::string direction = trials.text(i, "condition");
+        if (!direction.empty()) round += (round.empty() ? "" : ", ") + direction;
+        const auto own = [&](const AdaptationCurve& c) { return c.round == round; };
+        auto curve = std::find_if(curves.begin(), curves.end(), own);
+        if (curve == curves.end()) {
+            curve = curves.emplace(curves.end());
+            curve->round = round;
+        }
+        Trial& trial = curve->trials.emplace_back();
+        trial.number = static_cast<int>(trials.number(i, "trial_num"));
+        trial.block = trials.text(i, "block");
+        trial.kind = trials.text(i, "kind");
+        const bool acts = !trials.text(i, "perturbation").empty() && !is_clamp(trial.kind);
+        trial.perturbation = acts ? trials.number(i, "share") : 0;
+        trial.compensation = trials.number(i, column);  // the error, so far
+        // who did not move saw no error; one that is done again taught something, and does not
+        // count
+        trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
+        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
+    }
+    name_measure(curves, column.c_str());
+    for (AdaptationCurve& curve : curves) {
+        curve.errors = scale_of_errors(curve.compensation(), curve.schedule());
+        for (Trial& trial : curve.trials) {
+            if (!curve.errors && trial.perturbation != 0)
+                trial.under = "a perturbation that does not show in " + column;
+            trial.compensation = curve.errors ? 100 * curve.errors->compensation(trial.perturbation,
+                                                                                 trial.compensation)
+                                              : kUnmeasured;
+            trial.perturbation *= 100;
+        }
     }
     return curves;
 }

@@ -6,12 +6,17 @@
 // clamp, where it is not seen. Extents are treated alike in logarithms: with the handle gone h,
 // shown to have gone s, and w wanted, f = ln(s / h), x = ln(w / h), in percent (of small changes; a
 // doubling is 69 %).
+//
+// Force fields are measured in channels, by the adaptation index (docs/measures-of-behaviour.md): x
+// is the index and f the share of the field, both in percent. The hand's angle says nothing there:
+// a channel holds it at zero, whatever was learned.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/error_scale.h"
 #include "analysis/fits/two_rate_fit.h"
 #include "analysis/perturbations.h"
 #include "base/figure.h"
@@ -32,9 +37,15 @@ struct AdaptationCurve {
         std::string under;
     };
 
-    std::string round;         ///< name of the round; empty without rounds
-    std::string unit = "deg";  ///< unit of f and x; "%" for extents
+    std::string round;         ///< its name, and the condition of a curve of errors; or empty
+    std::string unit = "deg";  ///< unit of f and x; "%" for extents and indices
+    /// angle, extent, kAdaptationIndex, or a column of errors (analysis/error_scale.h)
+    std::string measure = "angle";
+    std::optional<ErrorScale> errors = {};  ///< of a curve of errors
     std::vector<Trial> trials;
+
+    /// Whether only channels among the trials show what was learned.
+    bool in_channels() const;
 
     /// Consecutive trials of one block.
     struct Stretch {
@@ -79,12 +90,22 @@ struct AdaptationCurve {
     void list_landmarks(FigureLister& row) const;
 };
 
+inline constexpr const char* kAdaptationIndex = "adaptation_index";
+/// Whether an adaptation index was measured in any of the trials of trials.csv.
+bool has_adaptation_index(const CsvFile& trials);
+
 /// Table with a row for each of blocks().
 Table block_table(const std::vector<AdaptationCurve>& curves);
+
+/// E.g. "adaptation_index [%]"; "compensation [deg]" of what the hand's place shows.
+std::string y_label(const AdaptationCurve& curve);
 
 /// The curves by round, in the order in which rounds were done. Empty if no reach was measured.
 std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
                                                const Unmeasured& unmeasured = {});
+/// Curves of the errors in that column of trials.csv, by round and condition, in percent of the
+/// perturbation.
+std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::string& column);
 
 /// Both models, fitted to the curve less its baseline's mean.
 struct AdaptationFits {

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "servo/shown_texts.h"
+
 namespace dihaptic::analysis {
 namespace {
 
@@ -54,12 +58,31 @@ void EventFinder::add_task(const servo::Frame& frame) {
     if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
     perturbed_ = perturbed;
     if (task.marker != 0) say(frame, "marker", std::to_string(task.marker));
-    if (task.message != message_ && task.message >= 0)
-        say(frame, "message", listed(head_.messages, task.message));
-    message_ = task.message;
-    if (!task.placements.empty())
+    add_texts(frame);
+    if (task.placements.size() > placed_)  // a body that is held is placed in each tick
         say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
+    placed_ = task.placements.size();
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
+}
+
+void EventFinder::add_texts(const servo::Frame& frame) {
+    const servo::TaskFrame& task = frame.task;
+    if (task.page != page_ && task.page >= 0) say(frame, "page", listed(head_.pages, task.page));
+    page_ = task.page;
+    lines_.resize(task.lines.size(), -1);
+    bool changed = task.message != message_;
+    for (size_t i = 0; i < lines_.size(); ++i) changed |= task.lines[i].message != lines_[i];
+    if (!changed) return;
+    const std::vector<std::string> texts = servo::shown_texts(task, head_.messages);
+    const size_t first = task.message >= 0 ? 1 : 0;
+    if (first > 0 && task.message != message_) say(frame, "message", texts.front());
+    message_ = task.message;
+    const std::vector<int32_t> before = lines_;
+    for (size_t i = 0; i < lines_.size(); ++i) {
+        lines_[i] = task.lines[i].message;
+        if (std::find(before.begin(), before.end(), lines_[i]) == before.end())
+            say(frame, "line", texts[first + i]);
+    }
 }
 
 void EventFinder::add_phase(const servo::Frame& frame) {

@@ -16,7 +16,7 @@ struct Event {
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
                        ///< "went on"; with a task "trial", "perturbation", "marker", "message",
-                       ///< "put back", "outcome"
+                       ///< "line", "page", "put back", "outcome"
     std::string detail;          ///< fingers, bodies or values concerned
     double shown = kUnmeasured;  ///< [s]
 
@@ -44,6 +44,7 @@ class EventFinder {
     // each adds the events of its kind that are in this frame
     void add_trial(const servo::Frame& frame);
     void add_task(const servo::Frame& frame);
+    void add_texts(const servo::Frame& frame);
     void add_phase(const servo::Frame& frame);
     void add_touches(const servo::Frame& frame);
     void add_support(const servo::Frame& frame);
@@ -62,7 +63,10 @@ class EventFinder {
     int trial_ = 0;
     int attempt_ = 0;
     int message_ = -1;
+    int page_ = -1;
+    std::vector<int32_t> lines_;  // messages below the message, in the last frame
     bool perturbed_ = false;
+    size_t placed_ = 0;  // number of bodies
     int phase_ = -1;
     uint32_t status_ = 0;
     servo::Knobs told_;  // values in the last events

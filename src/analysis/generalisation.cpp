@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "analysis/perturbations.h"
 #include "base/geometry.h"
 #include "base/unmeasured.h"
 
@@ -47,7 +48,8 @@ std::map<std::string, Round> rounds_of(const CsvFile& trials,
     std::map<std::string, Round> rounds;
     for (size_t i = 0; i < trials.rows(); ++i) {
         Round& round = rounds[trials.text(i, "round")];
-        const std::string kind = trials.text(i, "kind");
+        // where channels are, find_generalisation() is not asked
+        const std::string kind = kind_of(trials.text(i, "kind"), "", {});
         const double compensation = -trials.number(i, "hand_angle_deg");
         Direction& direction = round.directions[trials.text(i, "condition")];
         direction.along_W = direction_of(reaches, static_cast<int>(trials.number(i, "trial_num")));
@@ -57,7 +59,7 @@ std::map<std::string, Round> rounds_of(const CsvFile& trials,
         }
         if (std::isnan(compensation)) continue;
         if (kind == "baseline") round.baseline.add(compensation);
-        const bool probe = kind == "error_clamp" || kind == "catch";
+        const bool probe = is_clamp(kind) || kind == "catch";
         if (probe && round.trained) direction.probes.add(compensation);
     }
     return rounds;

@@ -173,13 +173,13 @@ void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
 void find_coupling(Lift& lift, const Signals& signals, const Signal& grip_rate,
                    const Signal& load_rate, Range loading) {
     if (loading.size() < signals.samples(0.02)) return;
-    lift.coupling = correlation(load_rate, grip_rate, loading, 0);
+    lift.grip_load_r = correlation(load_rate, grip_rate, loading, 0);
     const auto most = static_cast<int>(signals.samples(kLagMost));
     for (int lag = -most; lag <= most; ++lag) {
         const double r = correlation(load_rate, grip_rate, loading, lag);
-        if (!(r <= lift.coupling_peak)) {
-            lift.coupling_peak = r;
-            lift.coupling_lag = lag * signals.tick;
+        if (!(r <= lift.grip_load_r_peak)) {
+            lift.grip_load_r_peak = r;
+            lift.grip_load_lag = lag * signals.tick;
         }
     }
     const auto grip = part(signals.grip, loading);

@@ -64,7 +64,7 @@ struct Lift {
     double peak_grip_rate = kUnmeasured, peak_load_rate = kUnmeasured, lift_off_grip = kUnmeasured;
     double static_grip = kUnmeasured, static_load = kUnmeasured, static_ratio = kUnmeasured;
     double safety_margin = kUnmeasured;
-    double coupling = kUnmeasured, coupling_peak = kUnmeasured, coupling_lag = kUnmeasured;
+    double grip_load_r = kUnmeasured, grip_load_r_peak = kUnmeasured, grip_load_lag = kUnmeasured;
     double slope = kUnmeasured, offset = kUnmeasured;
     double height = kUnmeasured, overshoot = kUnmeasured, slip = kUnmeasured;
     int slips = 0;
@@ -97,9 +97,10 @@ struct Lift {
         v("static_ratio", f.static_ratio, "1", "static grip over static load");
         v("safety_margin", f.safety_margin, "1",
           "share of the static grip beyond what friction needs");
-        v("coupling", f.coupling, "1", "r of the rates of grip and load while loading");
-        v("coupling_peak", f.coupling_peak, "1", "largest r with the grip shifted by up to 100 ms");
-        v("coupling_lag", f.coupling_lag, "s", "that shift; positive: grip follows load");
+        v("grip_load_r", f.grip_load_r, "1", "r of the rates of grip and load while loading");
+        v("grip_load_r_peak", f.grip_load_r_peak, "1",
+          "largest r with the grip shifted by up to 100 ms");
+        v("grip_load_lag", f.grip_load_lag, "s", "that shift; positive: grip follows load");
         v("slope", f.slope, "1", "of the line grip = offset + slope load, while loading");
         v("offset", f.offset, "N", "of that line");
         v("height", f.height, "mm", "mean in the hold, above where the object lay");

@@ -3,14 +3,43 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
+#include "base/table.h"
+#include "task/task.h"
+
 namespace dihaptic::analysis {
+
+/// A session's frozen task, as far as it can be read: keys that another version had are left out.
+/// Nullopt if the file is missing or is no YAML.
+std::optional<task::Task> read_frozen_task(const std::string& file);
 
 /// Maps the name of each perturbation whose learning is not measured to a description: "a force
 /// field (curl)", "a force channel", "a mass that differs by direction". The others are measured by
 /// reaches, by lifts or by thresholds. Empty if the file is missing or cannot be read.
 using Unmeasured = std::map<std::string, std::string>;
+inline constexpr const char* kForceChannel = "a force channel";
 Unmeasured unmeasured_perturbations(const std::string& task_file);
+/// The column of trials.csv to whose errors adaptation is fitted; "" if the task names none.
+std::string column_of_errors(const std::string& task_file);
+
+/// Kind and size of each perturbation, as a report states them: a row for each, and for each of a
+/// round or condition that replaces it. No rows without a task.
+Table perturbation_table(const std::string& task_file);
+
+/// What the perturbation of a trial is, if its learning is not measured; otherwise "". Several are
+/// in the order of their names. `named`: the
+/// column of trials.csv, where several perturbations of one trial are joined by " + ".
+std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured);
+
+/// The kind of a trial with these cells of trials.csv. Earlier versions called both kinds of clamp
+/// error_clamp; which of them it was follows from its perturbation.
+std::string kind_of(const std::string& kind, const std::string& perturbation,
+                    const Unmeasured& unmeasured);
+/// Whether no error is seen in trials of this kind.
+inline bool is_clamp(const std::string& kind) {
+    return kind == "visual_clamp" || kind == "force_channel";
+}
 
 }  // namespace dihaptic::analysis

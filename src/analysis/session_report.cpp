@@ -14,6 +14,7 @@
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
 #include "analysis/lifts.h"
+#include "analysis/measures/measures.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/plural.h"
@@ -33,6 +34,7 @@ struct Reading {
     std::vector<Event> events;
     Table fault;
     std::optional<TrialFinder> trials;  ///< if the session has a task
+    std::optional<MeasureFinder> measures;
     std::vector<Lift> lifts;
     std::string why_no_facts;  ///< why ObjectFacts are not known; empty if they are
 };
@@ -111,7 +113,10 @@ struct SessionReader::Pass {
           fault(head.fingers, head.turning_fingers()) {
         reading.figures.status_ticks.assign(kStatusBits, 0);
         reading.figures.tick = tick;
-        if (has_trials(folder)) reading.trials.emplace(folder, head.fingers);
+        if (has_trials(folder)) {
+            reading.trials.emplace(folder, head.fingers);
+            reading.measures = MeasureFinder::of(folder, head, names);
+        }
     }
 
     static std::vector<std::string> names_of(const recording::SessionInfo& info) {
@@ -125,6 +130,7 @@ struct SessionReader::Pass {
     }
 
     void end_trial() {
+        const size_t lifts = reading.lifts.size();
         if (object >= 0 && !trace.samples().empty()) {
             for (Episode& episode : find_episodes(trace, facts)) {
                 std::vector<std::string> own;
@@ -140,6 +146,9 @@ struct SessionReader::Pass {
                 reading.lifts.push_back(std::move(lift));
             }
         }
+        if (reading.measures)
+            reading.measures->end_attempt(reading.lifts.size() > lifts ? &reading.lifts.back()
+                                                                       : nullptr);
         trace.restart();
     }
 
@@ -154,8 +163,9 @@ struct SessionReader::Pass {
     }
 
     void add(const servo::Frame& frame) {
+        // the feedback of a session's last trial is still said to be of it
         const bool next_trial = frame.trial != trial || frame.task.attempt != attempt ||
-                                (reading.trials && phase == 0 && frame.phase != 0);
+                                (reading.trials && (phase == 0) != (frame.phase == 0));
         if (frame.phase != phase || next_trial) {
             close_phase();
             if (next_trial) end_trial();  // a new trace, since objects are put back
@@ -166,6 +176,7 @@ struct SessionReader::Pass {
         }
         trace.add(frame);
         if (reading.trials) reading.trials->add(frame);
+        if (reading.measures) reading.measures->add(frame);
         events.add(frame);
         fault.add(frame);
         SessionFigures& figures = reading.figures;
@@ -382,7 +393,9 @@ recording::NwbContent content_of(const Reading& reading, const recording::Sessio
     content.info = info;
     const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
     content.trials =
-        by(reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info));
+        reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info);
+    if (reading.measures) reading.measures->add_to(content.trials);
+    content.trials = by(std::move(content.trials));
     if (reading.trials) number_session(content.trials, folder);
     content.phases = by(figure_table<PhaseFigures>(reading.figures.phases));
     return content;

@@ -8,6 +8,7 @@
 #include "base/regular_file.h"
 #include "base/unmeasured.h"
 #include "servo/displayed.h"
+#include "task/measures.h"
 #include "task/trials.h"
 
 namespace dihaptic::analysis {
@@ -78,10 +79,12 @@ void TrialFinder::add(const servo::Frame& frame) {
         row.trial = frame.trial;
         row.measures.attempt = frame.task.attempt;
         row.start = seconds(frame.time);
+        row.variables = frame.task.variables;
         rows_.push_back(row);
     }
     Row& row = rows_.back();
     row.end = seconds(frame.time);
+    row.next = frame.task.variables;
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
     // kept, since the perturbation may not act in all of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
@@ -131,9 +134,15 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const servo::Fram
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
     table.columns = list_figures(TrialHead{}).columns;
-    const size_t listed = column(list_, task::kFirstReachColumn);
+    // how a trial is measured is not repeated
+    const size_t listed =
+        std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
+    for (const std::string& name : info.variables) {
+        table.columns.push_back({name, "variable, in the trial"});
+        table.columns.push_back({task::next_column(name), "the same, after the trial"});
+    }
     append(table.columns, list_figures(TrialMeasures{}).columns);
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row =
@@ -147,6 +156,11 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
             } else {
                 row.push_back(cell(known ? list_[i][k] : ""));
             }
+        }
+        for (size_t k = 0; k < info.variables.size(); ++k) {
+            const double si = split_unit(info.variables[k]).si;
+            for (const auto* values : {&r.variables, &r.next})
+                row.emplace_back(k < values->size() ? (*values)[k].value / si : kUnmeasured);
         }
         const auto outcome = static_cast<size_t>(r.outcome);
         TrialMeasures measures = r.measures;

@@ -116,7 +116,9 @@ class TrialFinder {
         int outcome = -1;
         double start = 0;  ///< [s]
         double end = 0;
-        double share = 0;  ///< share of the perturbation
+        double share = 0;                             ///< share of the perturbation
+        std::vector<servo::VariableFrame> variables;  ///< at its start [SI]
+        std::vector<servo::VariableFrame> next;       ///< after it
         TrialMeasures measures;
         FirstStroke stroke;
         std::optional<Vec3> hand_start_W;

@@ -21,7 +21,9 @@
 
 #include <concepts>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/unit.h"
 
@@ -74,6 +76,19 @@ struct Field {
         f.is_required = true;
         return f;
     }
+};
+
+/// Texts of a field for which a file gives one text as it is, or a list.
+struct Texts : std::vector<std::string> {
+    using std::vector<std::string>::vector;
+};
+
+/// What a file may still call a value by a name that is gone: an enum with such a value has
+///
+///     constexpr OldName old_name(Shape) { return {"cube", "Write box."}; }
+struct OldName {
+    std::string_view was;
+    std::string_view remedy;
 };
 
 template <class E>

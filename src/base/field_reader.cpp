@@ -68,6 +68,11 @@ bool FieldReader::mentions(std::string_view name) const {
     });
 }
 
+bool FieldReader::is_list(std::string_view name) const {
+    const Node* node = mapping_.find(std::string(name));
+    return node != nullptr && node->kind == Node::Kind::sequence;
+}
+
 bool FieldReader::has(std::string_view name, Quantity quantity) const {
     for (const std::string& key : keys_of(std::string(name), quantity)) {
         if (mapping_.find(key) != nullptr) return true;
@@ -139,12 +144,33 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
     return si;
 }
 
-std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) {
-    if (given.node->kind != Node::Kind::sequence || given.node->items.size() != 3) {
-        diagnostics_.error(given.node->place, given.key, "must be three numbers",
-                           fmt::format("Write {}: [x, y, z].", given.key));
+std::optional<Formula> FieldReader::formula(const Given& given, const Node& node,
+                                            const Field& field) {
+    Formula out;
+    const bool text = node.kind == Node::Kind::scalar && !node.scalar.empty() && !number_in(node);
+    if (text) {
+        out.text = node.scalar;
+    } else if (const auto value = number(given, node, field)) {
+        out.value = *value;
+    } else {
         return std::nullopt;
     }
+    out.to_si = given.to_si;
+    out.key = given.key;
+    out.place = given.node->place;
+    out.field = field;
+    return out;
+}
+
+bool FieldReader::is_triple(const Given& given) {
+    if (given.node->kind == Node::Kind::sequence && given.node->items.size() == 3) return true;
+    diagnostics_.error(given.node->place, given.key, "must be three numbers",
+                       fmt::format("Write {}: [x, y, z].", given.key));
+    return false;
+}
+
+std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) {
+    if (!is_triple(given)) return std::nullopt;
     Vec3 value;
     for (int i = 0; i < 3; ++i) {
         const auto component = number(given, given.node->items[static_cast<size_t>(i)], field);
@@ -190,6 +216,50 @@ void FieldReader::operator()(std::string_view name, std::optional<Vec3>& value, 
     }
 }
 
+void FieldReader::operator()(std::string_view name, Formula& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = formula(given, *given.node, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, FormulaVec3& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr || !is_triple(given)) return;
+    FormulaVec3 components;
+    bool computed = false;
+    for (size_t i = 0; i < components.size(); ++i) {
+        const auto component = formula(given, given.node->items[i], field);
+        if (!component) return;
+        components[i] = *component;
+        computed = computed || component->computed();
+    }
+    for (size_t i = 0; computed && i < components.size(); ++i)
+        components[i].text = given.node->items[i].scalar;
+    value = components;
+}
+
+void FieldReader::operator()(std::string_view name, Mat3& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return;
+    const auto is_row = [](const Node& node) {
+        return node.kind == Node::Kind::sequence && node.items.size() == 3;
+    };
+    const Node& rows = *given.node;
+    if (!is_row(rows) || !std::all_of(rows.items.begin(), rows.items.end(), is_row)) {
+        diagnostics_.error(rows.place, given.key, "must be three rows of three numbers",
+                           fmt::format("Write {}: [[0, 0, 0], [0, 0, 0], [0, 0, 0]].", given.key));
+        return;
+    }
+    Mat3 out;
+    for (int row = 0; row < 3; ++row) {
+        const Node& numbers = rows.items[static_cast<size_t>(row)];
+        const auto read = vector({&numbers, given.key, given.to_si}, field);
+        if (!read) return;
+        out.row(row) = *read;
+    }
+    value = out;
+}
+
 void FieldReader::operator()(std::string_view name, int& value, Field field) {
     const Given given = take(name, field);
     if (given.node == nullptr) return;
@@ -213,7 +283,7 @@ void FieldReader::operator()(std::string_view name, bool& value, Field field) {
         value = false;
     } else {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be yes or no, is '{}'", text), "");
+                           fmt::format("must be yes or no, is '{}'", text), "Write yes or no.");
     }
 }
 
@@ -229,6 +299,25 @@ void FieldReader::operator()(std::string_view name, std::vector<std::string>& va
     value.clear();
     for (const Node& item : list->items) {
         if (const auto read = word({&item, std::string(name), 1}, field)) value.push_back(*read);
+    }
+}
+
+void FieldReader::operator()(std::string_view name, Texts& value, Field field) {
+    const Given given = take(name, field);
+    if (given.node == nullptr) return;
+    value.clear();
+    const Node& node = *given.node;
+    const auto read = [&](const Node& item) {
+        const auto text = word({&item, given.key, 1}, field);
+        if (text && !text->empty()) value.push_back(*text);
+    };
+    if (node.kind == Node::Kind::scalar) {
+        read(node);
+    } else if (node.kind == Node::Kind::sequence) {
+        for (const Node& item : node.items) read(item);
+    } else {
+        diagnostics_.error(node.place, given.key, "must be a text or a list of texts",
+                           fmt::format("Write {0}: a, or {0}: [a, b].", given.key));
     }
 }
 
@@ -248,6 +337,16 @@ void FieldReader::operator()(std::string_view name, std::vector<double>& value, 
 
 void FieldReader::operator()(std::string_view name, Node& value, Field field) {
     if (const Given given = take(name, field); given.node != nullptr) value = *given.node;
+}
+
+void FieldReader::foreign(std::string_view name, const Field& field, const std::string& remedy) {
+    std::vector<std::string> keys = keys_of(std::string(name), field.quantity);
+    keys.emplace_back(name);
+    for (const std::string& key : keys) {
+        const Node* node = mapping_.find(key);
+        if (node != nullptr && used_.insert(key).second)
+            diagnostics_.unknown_key(node->place, key, remedy);
+    }
 }
 
 const Node* FieldReader::take_mapping(std::string_view name, const Field& field) {
@@ -277,16 +376,18 @@ const Node* FieldReader::take_list(std::string_view name, const Field& field) {
 }
 
 int FieldReader::read_choice(std::string_view name, const std::vector<std::string_view>& names,
-                             const Field& field) {
+                             const Field& field, const OldName& old) {
     const Given given = take(name, field);
     if (given.node == nullptr) return -1;
     for (size_t i = 0; i < names.size(); ++i) {
         if (given.node->kind == Node::Kind::scalar && given.node->scalar == names[i])
             return static_cast<int>(i);
     }
+    const bool gone = !old.was.empty() && given.node->scalar == old.was;
     diagnostics_.error(given.node->place, given.key,
-                       fmt::format("'{}' is not known", given.node->scalar),
-                       fmt::format("Use {}.", alternatives({names.begin(), names.end()})));
+                       fmt::format("'{}' is {}", given.node->scalar, gone ? "gone" : "not known"),
+                       gone ? std::string(old.remedy)
+                            : fmt::format("Use {}.", alternatives({names.begin(), names.end()})));
     return -1;
 }
 

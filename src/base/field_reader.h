@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/formula.h"
 #include "base/geometry.h"
 #include "base/node.h"
 
@@ -30,16 +31,23 @@ class FieldReader {
     void operator()(std::string_view name, std::optional<double>& value, Field field = {});
     void operator()(std::string_view name, Vec3& value, Field field = {});
     void operator()(std::string_view name, std::optional<Vec3>& value, Field field = {});
+    void operator()(std::string_view name, Formula& value, Field field = {});
+    void operator()(std::string_view name, FormulaVec3& value, Field field = {});
+    /// Three rows of three numbers.
+    void operator()(std::string_view name, Mat3& value, Field field = {});
     void operator()(std::string_view name, int& value, Field field = {});
     void operator()(std::string_view name, bool& value, Field field = {});
     void operator()(std::string_view name, std::string& value, Field field = {});
     void operator()(std::string_view name, std::vector<std::string>& value, Field field = {});
+    void operator()(std::string_view name, Texts& value, Field field = {});
     void operator()(std::string_view name, std::vector<double>& value, Field field = {});
 
     template <NamedEnum E>
     void operator()(std::string_view name, E& value, Field field = {}) {
         const auto names = enum_names(value);
-        const int index = read_choice(name, {names.begin(), names.end()}, field);
+        OldName old;
+        if constexpr (requires { old_name(value); }) old = old_name(value);
+        const int index = read_choice(name, {names.begin(), names.end()}, field, old);
         if (index >= 0) value = static_cast<E>(index);
     }
 
@@ -80,6 +88,10 @@ class FieldReader {
     /// Keeps a part of the file unread, for a reader that knows its content.
     void operator()(std::string_view name, Node& value, Field field = {});
 
+    /// A field that other structs of its kind have, and this one has not: it is an error to give
+    /// it.
+    void foreign(std::string_view name, const Field& field, const std::string& remedy);
+
     /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
     /// struct's.
     Place place() const { return mapping_.place; }
@@ -88,6 +100,8 @@ class FieldReader {
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
     /// Whether a key is meant for the field, readable or not.
     bool mentions(std::string_view name) const;
+    /// Whether the mapping gives the field as a list, where a mapping would do too.
+    bool is_list(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
     /// Reports the keys that no field asked for. Call it after visit().
@@ -109,8 +123,10 @@ class FieldReader {
     const Node* take_list(std::string_view name, const Field& field);
     bool is_mapping(const Node& node, const std::string& key);
     int read_choice(std::string_view name, const std::vector<std::string_view>& names,
-                    const Field& field);
+                    const Field& field, const OldName& old = {});
     std::optional<double> number(const Given& given, const Node& scalar, const Field& field);
+    std::optional<Formula> formula(const Given& given, const Node& scalar, const Field& field);
+    bool is_triple(const Given& given);
     std::optional<Vec3> vector(const Given& given, const Field& field);
     std::optional<std::string> word(const Given& given, const Field& field);
     void note_origin(std::string_view name, const Node& node);

@@ -12,6 +12,13 @@ Node exact(double value) {
     return Node::of(fmt::format("{}", value));
 }
 
+Node exact(const Vec3& value) {
+    Node list;
+    list.kind = Node::Kind::sequence;
+    for (int i = 0; i < 3; ++i) list.items.push_back(exact(value[i]));
+    return list;
+}
+
 }  // namespace
 
 void FieldWriter::operator()(std::string_view name, const double& value, Field field) {
@@ -25,14 +32,35 @@ void FieldWriter::operator()(std::string_view name, const std::optional<double>&
 }
 
 void FieldWriter::operator()(std::string_view name, const Vec3& value, Field field) {
-    Node list;
-    list.kind = Node::Kind::sequence;
-    for (int i = 0; i < 3; ++i) list.items.push_back(exact(value[i]));
-    mapping_.set(si_key(name, field.quantity), list);
+    mapping_.set(si_key(name, field.quantity), exact(value));
+}
+
+void FieldWriter::operator()(std::string_view name, const Mat3& value, Field field) {
+    Node rows;
+    rows.kind = Node::Kind::sequence;
+    for (int row = 0; row < 3; ++row) rows.items.push_back(exact(Vec3(value.row(row))));
+    mapping_.set(si_key(name, field.quantity), rows);
 }
 
 void FieldWriter::operator()(std::string_view name, const std::optional<Vec3>& value, Field field) {
     if (value) (*this)(name, *value, field);
+}
+
+void FieldWriter::operator()(std::string_view name, const Formula& value, Field field) {
+    if (value.computed()) {
+        mapping_.set(value.key, Node::of(value.text));
+    } else {
+        (*this)(name, value.value, field);
+    }
+}
+
+void FieldWriter::operator()(std::string_view name, const FormulaVec3& value, Field field) {
+    const bool computed = value[0].computed();
+    Node list;
+    list.kind = Node::Kind::sequence;
+    for (const Formula& component : value)
+        list.items.push_back(computed ? Node::of(component.text) : exact(component.value));
+    mapping_.set(computed ? value[0].key : si_key(name, field.quantity), list);
 }
 
 void FieldWriter::operator()(std::string_view name, const int& value, Field) {
@@ -52,6 +80,14 @@ void FieldWriter::operator()(std::string_view name, const std::vector<std::strin
     list.kind = Node::Kind::sequence;
     for (const std::string& item : value) list.items.push_back(Node::of(item));
     if (!list.items.empty()) mapping_.set(std::string(name), list);
+}
+
+void FieldWriter::operator()(std::string_view name, const Texts& value, Field field) {
+    if (value.size() == 1) {
+        (*this)(name, value.front(), field);
+    } else {
+        (*this)(name, static_cast<const std::vector<std::string>&>(value), field);
+    }
 }
 
 void FieldWriter::operator()(std::string_view name, const std::vector<double>& value, Field field) {

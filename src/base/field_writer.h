@@ -1,6 +1,7 @@
 // Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
-// sessions keep their inputs in this form. Reading the result gives the same struct, to the bit. An
-// infinite value, which no file can have, is left out: it has to be its field's default.
+// sessions keep their inputs in this form. A formula is written as it was given, with its unit.
+// Reading the result gives the same struct, to the bit. An infinite value, which no file can have,
+// is left out: it has to be its field's default.
 #pragma once
 
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/formula.h"
 #include "base/geometry.h"
 #include "base/node.h"
 
@@ -19,10 +21,14 @@ class FieldWriter {
     void operator()(std::string_view name, const std::optional<double>& value, Field field = {});
     void operator()(std::string_view name, const Vec3& value, Field field = {});
     void operator()(std::string_view name, const std::optional<Vec3>& value, Field field = {});
+    void operator()(std::string_view name, const Formula& value, Field field = {});
+    void operator()(std::string_view name, const FormulaVec3& value, Field field = {});
+    void operator()(std::string_view name, const Mat3& value, Field field = {});
     void operator()(std::string_view name, const int& value, Field field = {});
     void operator()(std::string_view name, const bool& value, Field field = {});
     void operator()(std::string_view name, const std::string& value, Field field = {});
     void operator()(std::string_view name, const std::vector<std::string>& value, Field field = {});
+    void operator()(std::string_view name, const Texts& value, Field field = {});
     void operator()(std::string_view name, const std::vector<double>& value, Field field = {});
 
     template <NamedEnum E>

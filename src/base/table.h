@@ -1,6 +1,7 @@
 // Tables for people and their programs: CSV files, and the tables printed by commands.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,6 +54,10 @@ class CsvFile {
     std::string text(size_t row, const std::string& column) const;
     /// NaN where the cell holds no number.
     double number(size_t row, const std::string& column) const;
+    /// Gives a column of an earlier version's table the name that it has now.
+    void rename(const std::string& was, const std::string& now) {
+        std::replace(header_.begin(), header_.end(), was, now);
+    }
 
   private:
     size_t find(const std::string& column) const;

@@ -1,6 +1,10 @@
 #include "base/unit.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace dihaptic {
 namespace {
@@ -77,6 +81,86 @@ const Unit* find_unit(std::string_view suffix) {
         }
     }
     return nullptr;
+}
+std::optional<UnitInSi> find_unit_in_si(std::string_view suffix) {
+    for (const Kind& kind : kKinds) {
+        for (const Unit& unit : kind.units) {
+            if (unit.suffix == suffix) return UnitInSi{unit.si, unit_in_si(kind.symbol).dimension};
+        }
+    }
+    return std::nullopt;
+}
+
+UnitInSi unit_in_si(std::string_view symbol) {
+    struct Atom {
+        std::string_view name;
+        UnitInSi unit;
+    };
+    static constexpr std::array kAtoms{
+        Atom{"1", {}},
+        Atom{"rad", {}},
+        Atom{"m", {1, {1, 0, 0}}},
+        Atom{"kg", {1, {0, 1, 0}}},
+        Atom{"s", {1, {0, 0, 1}}},
+        Atom{"ns", {1e-9, {0, 0, 1}}},
+        Atom{"N", {1, {1, 1, -2}}},
+        Atom{"Hz", {1, {0, 0, -1}}},
+    };
+    UnitInSi out;
+    bool over = false;
+    while (!symbol.empty()) {
+        const std::string_view factor = symbol.substr(0, symbol.find_first_of("*/"));
+        const std::string_view name = factor.substr(0, factor.find('^'));
+        const int power = name.size() < factor.size() ? factor.back() - '0' : 1;
+        const auto* atom = std::find_if(kAtoms.begin(), kAtoms.end(),
+                                        [&](const Atom& known) { return known.name == name; });
+        assert(atom != kAtoms.end());
+        for (int i = 0; i < power; ++i) {
+            const UnitInSi& by = atom->unit;
+            out = over ? UnitInSi{out.si / by.si, out.dimension / by.dimension}
+                       : UnitInSi{out.si * by.si, out.dimension * by.dimension};
+        }
+        symbol.remove_prefix(factor.size());
+        over = symbol.starts_with('/');
+        if (!symbol.empty()) symbol.remove_prefix(1);
+    }
+    return out;
+}
+
+Dimension dimension(Quantity quantity) {
+    return unit_in_si(si_symbol(quantity)).dimension;
+}
+
+std::string si_symbol(const Dimension& dimension) {
+    for (const Kind& kind : kKinds) {
+        const bool angle = kind.quantity == Quantity::angle;
+        if (!angle && unit_in_si(kind.symbol).dimension == dimension)
+            return std::string(kind.symbol);
+    }
+    std::string out;
+    const auto add = [&](std::string_view unit, int power) {
+        if (power == 0) return;
+        if (!out.empty()) out += '*';
+        out += power == 1 ? std::string(unit) : fmt::format("{}^{}", unit, power);
+    };
+    add("kg", dimension.kg);
+    add("m", dimension.m);
+    add("s", dimension.s);
+    return out;
+}
+
+NameInUnit split_unit(std::string_view key) {
+    NameInUnit out{key};
+    for (const Kind& kind : kKinds) {
+        for (const Unit& unit : kind.units) {
+            const size_t length = unit.suffix.size() + 1;
+            // the longest unit that fits: N_m, and not m
+            if (key.size() <= length || key.size() - length >= out.name.size()) continue;
+            if (key.ends_with(unit.suffix) && key[key.size() - length] == '_')
+                out = {key.substr(0, key.size() - length), kind.quantity, unit.si};
+        }
+    }
+    return out;
 }
 std::string_view name(Quantity quantity) {
     return kind(quantity).name;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,11 +40,48 @@ struct Unit {
     double si;                ///< this unit in SI units
 };
 
+/// The exponents of metre, kilogram and second in a unit. Angles are pure numbers, in radians.
+struct Dimension {
+    int m = 0;
+    int kg = 0;
+    int s = 0;
+
+    bool operator==(const Dimension&) const = default;
+    constexpr Dimension operator*(const Dimension& other) const {
+        return {m + other.m, kg + other.kg, s + other.s};
+    }
+    constexpr Dimension operator/(const Dimension& other) const {
+        return {m - other.m, kg - other.kg, s - other.s};
+    }
+};
+
 /// The units that a quantity may be given in, the SI unit first; empty for Quantity::none.
 std::span<const Unit> units(Quantity quantity);
 
 /// The unit of any quantity that has this suffix; null if there is none.
 const Unit* find_unit(std::string_view suffix);
+
+/// A unit as an expression may have it behind a number: its suffix (mm, N_m), in SI units.
+struct UnitInSi {
+    double si = 1;
+    Dimension dimension;
+};
+/// Nullopt if no quantity has a unit with this suffix.
+std::optional<UnitInSi> find_unit_in_si(std::string_view suffix);
+
+/// Of a unit as people write it: "N*s/m", "1", "ns". The unit must be made of m, kg, s, ns, N, Hz,
+/// rad and 1.
+UnitInSi unit_in_si(std::string_view symbol);
+Dimension dimension(Quantity quantity);
+/// The SI unit as people write it, e.g. "N/m"; "1" for a pure number.
+std::string si_symbol(const Dimension& dimension);
+/// A name with its unit, e.g. "wait_ms".
+struct NameInUnit {
+    std::string_view name;  ///< without the unit, if it ends in one
+    Quantity quantity = Quantity::none;
+    double si = 1;  ///< its unit in SI units
+};
+NameInUnit split_unit(std::string_view key);
 
 /// "length", "stiffness", ...: for messages.
 std::string_view name(Quantity quantity);

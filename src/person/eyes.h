@@ -14,6 +14,7 @@ struct Sight {
     int attempt = 0;
     int phase = 0;             ///< the task's state, which is seen by its targets and message
     Vec3 hand = Vec3::Zero();  ///< middle of the fingers, as displayed [m]
+    bool hand_shown = false;   ///< one of the fingers is displayed at all
     uint32_t shown = 0;        ///< regions that are shown as targets, one bit each
     std::array<Vec3, servo::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
 };
@@ -32,6 +33,7 @@ class Eyes {
         for (size_t i = 0; i < frame.fingers.size(); ++i) {
             sight.hand +=
                 servo::displayed_proxy(frame, i).p / static_cast<double>(frame.fingers.size());
+            sight.hand_shown |= servo::is_displayed(frame, servo::proxy_of(frame, i));
         }
         for (size_t i = 0; i < frame.task.targets.size(); ++i) {
             const auto region = static_cast<size_t>(frame.task.targets[i].region);

@@ -91,6 +91,7 @@ Vec3 rotated(const Vec3& rotation, const Vec3& v) noexcept {
 Person::Person(const Traits& traits, const Situation& situation)
     : traits_(traits),
       plan_(situation.task),
+      numbers_(*plan_),
       places_(hand::finger_places(situation.hand, scene::finger_names(situation.scene))),
       impedance_(situation.hand.impedance),
       start_{situation.hand.centre, situation.hand.aperture, 0},
@@ -98,9 +99,11 @@ Person::Person(const Traits& traits, const Situation& situation)
       random_(seed_, fmt::format("person {}", traits.id)),
       eyes_(traits.visual_delay, situation.tick),
       touch_(sides_of(places_), frictions_of(situation.scene), situation.tick),
+      strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
       rotations_(plan_->stages.size(), RotationMemory(traits.rotation(), traits.generalisation)),
       gains_(plan_->stages.size(), GainMemory(traits.gain())),
+      forces_(plan_->stages.size(), ForceMemory(traits.force(), traits.force_generalisation)),
       grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     restart();
@@ -111,14 +114,18 @@ void Person::restart() {
     now_ = 0;
     eyes_.restart();
     touch_.restart();
+    strains_.clear();
     grip_.restart();
     std::fill(rotations_.begin(), rotations_.end(),
               RotationMemory(traits_.rotation(), traits_.generalisation));
     std::fill(gains_.begin(), gains_.end(), GainMemory(traits_.gain()));
+    std::fill(forces_.begin(), forces_.end(),
+              ForceMemory(traits_.force(), traits_.force_generalisation));
     felt_ = 0;
     seen_ = 0;
     doing_ = Doing::nothing;
     aim_.rest(start_);
+    numbers_.restart();
     trial_ = attempt_ = phase_ = acting_ = 0;
     between_ = true;
     since_ = wait_until_ = delay_ = 0;
@@ -144,6 +151,8 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     hand::FingerTarget target;
     target.p_WT = aim.centre + place.offset;
     target.v_WT = rate.centre;
+    if (reach_.presses != Vec3::Zero())
+        target.p_WT += rate.centre.dot(reach_.along) / stiffness() * reach_.presses;
     if (!grip_.holds()) {
         target.p_WT += aim.aperture / 2 * place.side;
         target.v_WT += rate.aperture / 2 * place.side;
@@ -180,6 +189,7 @@ void Person::measure(const servo::Frame& frame) noexcept {
 void Person::do_see(const servo::Frame& frame) noexcept {
     eyes_.take(frame);
     measure(frame);
+    strains_.add(strain(frame));
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
@@ -189,6 +199,8 @@ void Person::do_see(const servo::Frame& frame) noexcept {
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
     const Sight& sight = eyes_.sight();
     follow_cues(sight);
+    numbers_.follow(trial_, attempt_, frame.task.variables);
+    feel_strain();
     watch_reach(sight);
     go_on(sight);
 }
@@ -254,6 +266,7 @@ void Person::rest() noexcept {
     trial_ = 0;  // the next state is a new attempt
     const Aim goal = aim_.goal();
     aim_.add({start_.centre - goal.centre, start_.aperture - goal.aperture, 0}, now_, kRestTime);
+    reach_.presses = Vec3::Zero();
 }
 
 void Person::go_on(const Sight& sight) noexcept {
@@ -331,9 +344,8 @@ Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexce
     const auto region = static_cast<size_t>(step.reach);
     if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
     if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
-    const auto trial = static_cast<size_t>(std::max(1, trial_) - 1);
     // never seen: where the plan has it
-    return plan_->cell(plan_->trials[trial]).p_W[region] + step.step.move;
+    return numbers_.cell().p_W[region] + step.step.move;
 }
 
 void Person::begin_step(const Sight& sight) noexcept {
@@ -381,11 +393,18 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     pending_ = way;
     doing_ = Doing::moving;
     const double up = way.centre.z();
+    // a movement in two parts has no direction that could be judged
+    if (from_above(way.centre)) reach_.going = false;
+    if (reach_.going) {
+        reach_.begin = now_;
+        reach_.duration = duration;
+    } else {
+        reach_.presses = Vec3::Zero();
+    }
     if (!from_above(way.centre)) {
         aim_.add(way, now_, duration);
         return;
     }
-    reach_.going = false;  // a movement in two parts has no direction that could be judged
     const double part = kOverlap * duration;
     const Aim aside{way.centre - up * Vec3::UnitZ(), way.aperture, 0};
     const Aim upward{up * Vec3::UnitZ(), 0, 0};
@@ -411,21 +430,73 @@ Vec3 Person::made_for(const Vec3& displacement) const noexcept {
 Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     if (displacement.norm() < kReach) return made_for(displacement);
     end_reach();
+    const Vec3 made = made_for(displacement);
     reach_ = {.going = true,
+              .number = reach_.number + 1,
               .state = static_cast<size_t>(acting_ - 1),
               .from = sight.hand,
-              .way = displacement};
+              .felt_from = strains_.before(traits_.visual_delay).hand,
+              .way = displacement,
+              .along = made.normalized()};
+    reach_.presses = -forces_[reach_.state].expected(reach_.along);
     const Vec3 noise(random_.normal(), random_.normal(), random_.normal());
     const double learned = rotations_[reach_.state].learned(displacement.normalized());
     const double sd = std::hypot(traits_.direction_noise, traits_.adapted_noise * learned) *
                       (from_above(displacement) ? kGuided : 1);
-    return noisy(1, traits_.extent_noise) * rotated(sd * noise, made_for(displacement));
+    const Vec3 way = noisy(1, traits_.extent_noise) * rotated(sd * noise, made);
+    reach_.strayed = way - way.dot(reach_.along) * reach_.along;
+    return way;
+}
+
+/// Whether a force field pushes the handles, or what the hand holds.
+bool Person::pushed(const servo::Frame& frame) const noexcept {
+    const auto bodies = static_cast<int>(frame.bodies.size());
+    return std::any_of(
+        frame.task.loads.begin(), frame.task.loads.end(), [&](const servo::LoadFrame& load) {
+            return load.body >= bodies || (grip_.holds() && load.body == grip_.felt().body);
+        });
+}
+
+/// What the hand's strain tells in this Frame. A hand that was never pushed in this state, and is
+/// not now, takes what little there is for its own noise.
+Strain Person::strain(const servo::Frame& frame) const noexcept {
+    Strain out;
+    out.hand = centre_;
+    if (!reach_.going || reach_.duration == 0) return out;
+    const double done = (now_ - reach_.begin) / reach_.duration;
+    if (done >= 1 || (forces_[reach_.state].empty() && !pushed(frame))) return out;
+    const Aim aim = aim_.at(now_);
+    const Aim rate = aim_.rate(now_);
+    const auto count = static_cast<double>(places_.size());
+    Vec3 v_WH = Vec3::Zero();
+    for (const servo::FingerFrame& finger : frame.fingers) v_WH += finger.v_WH / count;
+    const model::MinimumJerk share = model::minimum_jerk(done);
+    const Vec3 off = centre_ - aim.centre + share.share * reach_.strayed;
+    const Vec3 drift = v_WH - rate.centre + share.rate / reach_.duration * reach_.strayed;
+    out.push_W = stiffness() * off + impedance_.damping * drift;
+    if (grip_.holds()) {
+        out.push_W -= grip_.inertial() / count;
+        out.push_W.z() = 0;  // an object's weight has a memory of its own
+    }
+    // what was pressed against is felt no more, and was pushed all the same
+    out.push_W -= rate.centre.dot(reach_.along) * reach_.presses;
+    out.speed = v_WH.dot(reach_.along);
+    out.reach = reach_.number;
+    return out;
+}
+
+/// Sums up what pushes the hand. Between trials the push may be gone before the movement has ended.
+void Person::feel_strain() noexcept {
+    const Strain& felt = strains_.before(traits_.visual_delay);
+    if (!reach_.going || between_ || felt.reach != reach_.number) return;
+    reach_.push += felt.speed * felt.push_W;
+    reach_.moved += felt.speed * felt.speed;
 }
 
 /// Corrects part of a reach's error once its direction is seen, and judges the direction before the
 /// correction can be seen.
 void Person::watch_reach(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.seen) return;
+    if (!reach_.going || reach_.seen || !sight.hand_shown) return;
     const Vec3 shown = sight.hand - reach_.from;
     const double length = reach_.way.norm();
     if (!reach_.mended && shown.norm() >= kGlance * length) {
@@ -439,23 +510,40 @@ void Person::watch_reach(const Sight& sight) noexcept {
     if (shown.norm() < kJudged * length) return;
     reach_.seen = true;
     const Vec3 arm = look(shown, traits_.visual_noise, random_);
-    reach_.error = rotation_between(reach_.way.normalized(), arm.normalized());
+    Vec3 wanted = reach_.way;
+    reach_.pushed = reach_.moved > 0;  // later pushes are of the next state, for which this ends
+    if (reach_.pushed) {
+        // a hand that is pushed is seen where it is felt, turned as expected
+        const Vec3 felt = strains_.before(traits_.visual_delay).hand - reach_.felt_from;
+        wanted = rotated(rotations_[reach_.state].expected(reach_.way.normalized()), felt);
+    }
+    reach_.error = rotation_between(wanted.normalized(), arm.normalized());
 }
 
 /// Judges the extent of a reach whose first stroke has ended, and learns from it.
 void Person::judge_extent(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.ended) return;
+    if (!reach_.going || reach_.ended || !sight.hand_shown) return;
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
     const double least = 0.1 * reach_.way.norm();  // less went astray, and tells nothing of extent
     if (shown < least) return;
-    gains_[reach_.state].learn(reach_.way.normalized(), std::log(shown / reach_.way.norm()));
+    const Vec3 d = reach_.way.normalized();
+    double wanted = reach_.way.norm();
+    if (reach_.pushed) {
+        const Vec3 felt = strains_.before(traits_.visual_delay).hand - reach_.felt_from;
+        wanted = std::exp(gains_[reach_.state].expected(d)) * felt.norm();
+        if (wanted < least) return;
+    }
+    gains_[reach_.state].learn(d, std::log(shown / wanted));
 }
 
 void Person::end_reach() noexcept {
-    if (reach_.going && reach_.seen)
+    if (reach_.going && reach_.seen) {
         rotations_[reach_.state].learn(reach_.way.normalized(), reach_.error);
+        if (reach_.pushed)
+            forces_[reach_.state].learn(reach_.along, reach_.push / reach_.moved + reach_.presses);
+    }
     reach_.going = false;
 }
 
@@ -465,6 +553,7 @@ bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
     if (step.reach < 0 || corrections_ >= kMostCorrections) return false;
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
+    if (!sight.hand_shown) return false;  // it is taken to be where it was meant to go
     judge_extent(sight);
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;

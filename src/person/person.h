@@ -6,13 +6,15 @@
 #include <memory>
 
 #include "person/eyes.h"
+#include "person/force_memory.h"
 #include "person/gain_memory.h"
 #include "person/grip.h"
 #include "person/rotation_memory.h"
+#include "person/strain.h"
 #include "person/traits.h"
 #include "scene/scene.h"
 #include "task/seeing_driver.h"
-#include "task/task_plan.h"
+#include "task/trial_numbers.h"
 
 namespace dihaptic::person {
 
@@ -35,6 +37,9 @@ class Person final : public task::SeeingDriver {
     void restart() override;
 
     const Grip& grip() const { return grip_; }
+    /// What was learned in a state of the task, by its index.
+    const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
+    const ForceMemory& forces(size_t state) const { return forces_[state]; }
 
   private:
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
@@ -54,6 +59,9 @@ class Person final : public task::SeeingDriver {
     void move(const Aim& way, double duration, const Sight& sight) noexcept;
     void rest() noexcept;
     Vec3 plan_reach(const Sight& sight, const Vec3& displacement) noexcept;
+    bool pushed(const servo::Frame& frame) const noexcept;
+    Strain strain(const servo::Frame& frame) const noexcept;
+    void feel_strain() noexcept;
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
@@ -68,6 +76,7 @@ class Person final : public task::SeeingDriver {
 
     Traits traits_;
     std::shared_ptr<const task::TaskPlan> plan_;
+    task::TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
     hand::Impedance impedance_;
     Aim start_;
@@ -83,12 +92,14 @@ class Person final : public task::SeeingDriver {
     double touched_ = 0;          // half_ when both fingers touched [m]
     Vec3 centre_ = Vec3::Zero();  // of the handles [m]
     double felt_ = 0;             // force on a finger, smoothed as its stiffness follows it [N]
+    Past<Strain> strains_;        // delayed as sight is, to be compared with it
     std::vector<Vec3> known_;     // where each region was last seen [m]
     uint32_t seen_ = 0;           // regions that have been seen, one bit each
 
     // memory
     std::vector<RotationMemory> rotations_;  // by state: what is learned in one stays there
     std::vector<GainMemory> gains_;          // by state
+    std::vector<ForceMemory> forces_;        // by state
     Grip grip_;
 
     // actions
@@ -112,10 +123,21 @@ class Person final : public task::SeeingDriver {
         bool mended = false;  // it was corrected in its course
         bool seen = false;    // its error of direction was seen
         bool ended = false;   // its first stroke has ended, and its extent was judged
+        bool pushed = false;  // a push was felt by then
+        int number = 0;       // from 1
         size_t state = 0;
-        Vec3 from = Vec3::Zero();   // where the hand was shown at its begin [m]
-        Vec3 way = Vec3::Zero();    // displacement that is to be shown [m]
-        Vec3 error = Vec3::Zero();  // rotation vector from `way` to the hand's direction [rad]
+        Vec3 from = Vec3::Zero();       // where the hand was shown at its begin [m]
+        Vec3 felt_from = Vec3::Zero();  // ... and where it was felt [m]
+        Vec3 way = Vec3::Zero();        // displacement that is to be shown [m]
+        Vec3 error = Vec3::Zero();      // rotation vector from `way` to the hand's direction [rad]
+
+        double begin = 0;             // of its first stroke [s]
+        double duration = 0;          // of that stroke; 0: it has not begun [s]
+        Vec3 along = Vec3::Zero();    // unit direction in which the hand means to move
+        Vec3 strayed = Vec3::Zero();  // way of that stroke off this direction, by noise [m]
+        Vec3 presses = Vec3::Zero();  // force against a push, by speed along it [N*s/m]
+        Vec3 push = Vec3::Zero();     // sum of push times speed [N*m/s]
+        double moved = 0;             // sum of squared speed; 0: nothing pushed [m^2/s^2]
     };
     Reach reach_;
 

@@ -16,29 +16,35 @@ bool scales(const task::PerturbationSpec& perturbation) {
     if (!perturbation.visual) return false;
     const auto& moves = perturbation.visual->moves;
     return std::find(moves.begin(), moves.end(), "proxies") != moves.end() &&
-           !perturbation.visual->scale.isApprox(Vec3::Ones());
+           perturbation.visual->scale != FormulaVec3{1, 1, 1};
 }
 
-/// Whether a state asks a question: two keys or more.
-bool asks_by_keys(const task::TaskPlan::Stage& stage) {
+/// Number of keys that a state waits for: two or more are a question.
+size_t keys_of(const task::TaskPlan::Stage& stage) {
     std::set<std::string> keys;
     for (const task::TaskPlan::Way& way : stage.ways) {
         if (way.exit.when == task::When::key) keys.insert(way.exit.key);
     }
-    return keys.size() > 1;
+    return keys.size();
+}
+
+bool reaches(const task::TaskPlan::Stage& stage) {
+    return std::any_of(stage.hand.begin(), stage.hand.end(),
+                       [](const task::TaskPlan::Step& step) { return step.reach >= 0; });
 }
 
 void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    if (std::any_of(plan.stages.begin(), plan.stages.end(), reaches)) return;
     for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
-        if (!perturbation.field) continue;
+        if (perturbation.all_loads().empty()) continue;
         out.push_back({Severity::warning, perturbation.place, perturbation.name,
-                       "is a force field: simulated people (--simulate, rehearse) do not learn "
-                       "forces, and answer what they see of it as a rotation",
+                       "is a force field, which simulated people (--simulate, rehearse) learn only "
+                       "in hand steps that reach a region, and there is none",
                        kRemedy});
     }
 }
 
-void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
+void warn_of_thresholds(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (const task::ProcedureSpec& procedure : plan.task.procedures) {
         const auto named = std::find_if(
             plan.task.perturbations.begin(), plan.task.perturbations.end(),
@@ -47,28 +53,42 @@ void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
         out.push_back({Severity::warning, procedure.place, procedure.name,
                        fmt::format("asks about '{}', which scales nothing that is shown: simulated "
                                    "people judge only whether a movement was shown longer than "
-                                   "they made it, and their answers and threshold mean nothing",
+                                   "they made it, and their answers and threshold are arbitrary",
                                    procedure.perturb),
                        kRemedy});
     }
+}
+
+void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
     const bool lengths =
         std::any_of(plan.task.perturbations.begin(), plan.task.perturbations.end(), scales);
-    if (lengths || !plan.task.procedures.empty()) return;
     for (size_t i = 0; i < plan.stages.size(); ++i) {
-        if (!asks_by_keys(plan.stages[i])) continue;
+        const size_t keys = keys_of(plan.stages[i]);
+        if (keys < 2) continue;
         const task::State& state = plan.task.states[i];
-        out.push_back({Severity::warning, state.place, state.name,
-                       "asks a question, and nothing is shown scaled: simulated people judge only "
-                       "whether a movement was shown longer than they made it, and their answers "
-                       "mean nothing",
-                       kRemedy});
+        if (keys > 2) {
+            out.push_back({Severity::warning, state.place, state.name,
+                           fmt::format("asks for one of {} keys: simulated people judge only "
+                                       "whether a movement was shown longer than they made it, "
+                                       "press the first key for yes and the second for no, and "
+                                       "their answers are arbitrary",
+                                       keys),
+                           kRemedy});
+        } else if (!lengths && plan.task.procedures.empty()) {
+            out.push_back({Severity::warning, state.place, state.name,
+                           "asks a question, and nothing is shown scaled: simulated people judge "
+                           "only whether a movement was shown longer than they made it, and their "
+                           "answers are arbitrary",
+                           kRemedy});
+        }
     }
 }
 
 void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (size_t i = 0; i < plan.stages.size(); ++i) {
         for (const task::TaskPlan::Way& way : plan.stages[i].ways) {
-            if (way.exit.when != task::When::button) continue;
+            const bool reads = way.exit.condition.find(".buttons") != std::string::npos;
+            if (way.exit.when != task::When::button && !reads) continue;
             out.push_back({Severity::warning, way.exit.place, plan.task.states[i].name,
                            "waits for a button, which simulated people never press", kRemedy});
         }
@@ -80,6 +100,7 @@ void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     std::vector<Problem> out;
     warn_of_fields(plan, out);
+    warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);
     warn_of_buttons(plan, out);
     return out;

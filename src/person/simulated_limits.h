@@ -9,8 +9,8 @@
 
 namespace dihaptic::person {
 
-/// Warnings of force fields, which are taken for rotations, then of judgements of anything but
-/// lengths, then of buttons; each kind in the file's order.
+/// Warnings of force fields that no reach meets, then of thresholds and of answers that are no
+/// judgements of lengths, then of buttons; each kind in the file's order.
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan);
 
 }  // namespace dihaptic::person

@@ -45,6 +45,12 @@ struct Traits {
     double gain_retention = 0;  ///< per movement; of adaptation to scaled displays
     double gain_learning = 0;
 
+    double force_fast_retention = 0;  ///< per reach; of the two processes of adaptation to forces
+    double force_fast_learning = 0;
+    double force_slow_retention = 0;
+    double force_slow_learning = 0;
+    double force_generalisation = 0;  ///< SD of both over directions of movement [rad]
+
     double safety_margin = 0;    ///< of the static grip force
     double least_grip = 0;       ///< least grip force, however light the object [N]
     double peak_grip = 0;        ///< grip force at lift-off over static grip force
@@ -70,6 +76,10 @@ struct Traits {
 
     model::TwoRate rotation() const {
         return {{fast_retention, fast_learning}, {slow_retention, slow_learning}};
+    }
+    model::TwoRate force() const {
+        return {{force_fast_retention, force_fast_learning},
+                {force_slow_retention, force_slow_learning}};
     }
     model::SingleRate gain() const { return {gain_retention, gain_learning}; }
     model::SingleRate mass() const { return {mass_retention, mass_learning}; }
@@ -103,6 +113,11 @@ struct Traits {
         v("generalisation", generalisation, angle.positive());
         v("gain_retention", gain_retention, share);
         v("gain_learning", gain_learning, share);
+        v("force_fast_retention", force_fast_retention, share);
+        v("force_fast_learning", force_fast_learning, share);
+        v("force_slow_retention", force_slow_retention, share);
+        v("force_slow_learning", force_slow_learning, share);
+        v("force_generalisation", force_generalisation, angle.positive());
         v("safety_margin", safety_margin, Field::number().within(0, 0.95));
         v("least_grip", least_grip, Field::of(Quantity::force).within(0, 100));
         v("peak_grip", peak_grip, Field::number().within(1, 10));

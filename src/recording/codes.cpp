@@ -51,6 +51,7 @@ constexpr Coded kCoded[] = {
     {"phase", phase_codes},
     {"outcome", [](const LogHead& head) { return listed_or_none(head.outcomes); }},
     {"message", [](const LogHead& head) { return listed_or_none(head.messages); }},
+    {"page", [](const LogHead& head) { return listed_or_none(head.pages); }},
     {"status", [](const LogHead&) { return bits(); }},
     {"solver_route", [](const LogHead&) { return listed<contact::Route>(); }},
 };

@@ -64,9 +64,11 @@ struct Setup {
     MovedBy moved_by;        ///< who moved the hand
     Study study;
     std::vector<DeviceRecord> devices;
-    std::vector<PhaseInfo> phases;      ///< phases of every trial
-    std::vector<std::string> outcomes;  ///< outcomes of trials, by their index in frames
-    std::vector<std::string> messages;  ///< messages to the person, by their index in frames
+    std::vector<PhaseInfo> phases;       ///< phases of every trial
+    std::vector<std::string> outcomes;   ///< outcomes of trials, by their index in frames
+    std::vector<std::string> messages;   ///< messages to the person, by their index in frames
+    std::vector<std::string> variables;  ///< the task's, by their index in frames
+    std::vector<std::string> pages;      ///< pages' texts or pictures, by their index in frames
     std::vector<InputFile> inputs;
 
     /// Planned length of the session [s]; 0: not known.
@@ -86,6 +88,8 @@ struct Setup {
         v("phases", phases);
         v("outcomes", outcomes);
         v("messages", messages);
+        v("variables", variables);
+        v("pages", pages);
         v("inputs", inputs);
     }
 };

@@ -1,6 +1,8 @@
-// Computes where the things of a Frame are shown; drawing and simulated people use only these
-// functions.
+// Computes where the things of a Frame are shown, and how they look; drawing and simulated people
+// use only these functions.
 #pragma once
+
+#include <bit>
 
 #include "servo/frame.h"
 
@@ -13,32 +15,84 @@ inline const VisualMap* map_of(const Frame& frame, Moves what) noexcept {
     return (map.moves & what) != 0 ? &map : nullptr;
 }
 
-/// Pose of a body of the scene as it is shown.
-inline Pose displayed_body(const Frame& frame, size_t body) noexcept {
+/// The item of a list of the TaskFrame that is about this body or proxy, or null.
+template <class Item>
+const Item* item_of(const std::vector<Item>& list, size_t body) noexcept {
+    for (const Item& item : list) {
+        if (item.body == static_cast<int32_t>(body)) return &item;
+    }
+    return nullptr;
+}
+
+/// Index of a finger's proxy among the bodies.
+inline size_t proxy_of(const Frame& frame, size_t finger) noexcept {
+    return frame.bodies.size() + finger;
+}
+
+/// Pose of a body of the scene by the visual map alone, without delay or noise.
+inline Pose mapped_body(const Frame& frame, size_t body) noexcept {
     const Pose& X_WB = frame.bodies[body].X_WB;
     const VisualMap* map = map_of(frame, kMovesObject);
     return map != nullptr && map->object == static_cast<int32_t>(body) ? map->displayed(X_WB)
                                                                        : X_WB;
 }
 
-/// Displayed size of a body over its true one.
-inline double displayed_size(const Frame& frame, size_t body) noexcept {
-    const VisualMap* map = map_of(frame, kMovesObject);
-    return map != nullptr && map->object == static_cast<int32_t>(body) ? map->size : 1;
-}
-
-/// Pose of a finger's proxy as it is shown.
-inline Pose displayed_proxy(const Frame& frame, size_t finger) noexcept {
+/// Pose of a finger's proxy by the visual map alone.
+inline Pose mapped_proxy(const Frame& frame, size_t finger) noexcept {
     const Pose X_WP{frame.fingers[finger].R_WP, frame.fingers[finger].p_WP};
     const VisualMap* map = map_of(frame, kMovesProxies);
     return map != nullptr ? map->displayed(X_WP) : X_WP;
 }
 
-/// Pose of a finger's handle as it is shown; it has the proxy's orientation.
+/// Pose of a body of the scene as it is shown.
+inline Pose displayed_body(const Frame& frame, size_t body) noexcept {
+    const DisplacedFrame* displaced = item_of(frame.task.displaced, body);
+    return displaced != nullptr ? displaced->X_WB : mapped_body(frame, body);
+}
+
+/// Displayed size of a body over its true one.
+inline double displayed_size(const Frame& frame, size_t body) noexcept {
+    const VisualMap* map = map_of(frame, kMovesObject);
+    const LookFrame* look = item_of(frame.task.looks, body);
+    const double of_map =
+        map != nullptr && map->object == static_cast<int32_t>(body) ? map->size : 1;
+    return look != nullptr ? look->scale * of_map : of_map;
+}
+
+/// Whether a body of the scene, or a proxy (proxy_of()), is shown at all.
+inline bool is_displayed(const Frame& frame, size_t body) noexcept {
+    const LookFrame* look = item_of(frame.task.looks, body);
+    return look == nullptr || look->hidden == 0;
+}
+
+/// Pose of a finger's proxy as it is shown.
+inline Pose displayed_proxy(const Frame& frame, size_t finger) noexcept {
+    const DisplacedFrame* displaced = item_of(frame.task.displaced, proxy_of(frame, finger));
+    return displaced != nullptr ? displaced->X_WB : mapped_proxy(frame, finger);
+}
+
+/// Pose of a finger's handle as it is shown; it has the proxy's orientation. Of a proxy that is
+/// displaced, the handle is shown with it.
 inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
+    const DisplacedFrame* displaced = item_of(frame.task.displaced, proxy_of(frame, finger));
+    if (displaced != nullptr) return displaced->X_WB;
     const Pose X_WH{frame.fingers[finger].R_WP, frame.fingers[finger].p_WH};
     const VisualMap* map = map_of(frame, kMovesProxies);
     return map != nullptr ? map->displayed(X_WH) : X_WH;
+}
+
+/// Where the frame shows the middle of some fingers' handles, which is at p_W now. `fingers`: one
+/// bit each.
+inline Vec3 displayed_hand(const Frame& frame, uint32_t fingers, const Vec3& p_W) noexcept {
+    if (frame.task.displaced.empty()) {
+        const VisualMap* map = map_of(frame, kMovesProxies);
+        return map != nullptr ? map->displayed(p_W) : p_W;
+    }
+    Vec3 sum = Vec3::Zero();
+    for (size_t i = 0; i < frame.fingers.size(); ++i) {
+        if ((fingers >> i & 1u) != 0) sum += displayed_handle(frame, i).p;
+    }
+    return sum / static_cast<double>(std::popcount(fingers));
 }
 
 /// Centre of the frame's i-th target as it is shown.

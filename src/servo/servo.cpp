@@ -341,7 +341,7 @@ void Servo::make_forces(Time now) noexcept {
         force.felt_W = force_guards_[i].shape(force.asked_W, handles_[i], X_WP,
                                               fingers_[i].stored(), stepped, force.status);
         judge_shaking(haptics::FaultKind::active, i, force_guards_[i].feeding());
-        force.felt_W.force += field_on(i);
+        add_loads(i, force.felt_W);
         force.felt_0 = turn_.unturned(force.felt_W);
         force.felt_0.force += force_guards_[i].push(unturned_[i], force.status);
         asked = asked || !force.felt_0.is_zero();
@@ -389,12 +389,15 @@ void Servo::order_bodies() noexcept {
     }
 }
 
-Vec3 Servo::field_on(size_t finger) const noexcept {
-    Vec3 force = Vec3::Zero();
+void Servo::add_loads(size_t finger, Wrench& felt_W) const noexcept {
+    Wrench sum;
     for (const LoadFrame& load : commands_.task.loads) {
-        if (load.body == fingers_[finger].proxy().value) force += load.force_W;
+        if (load.body != fingers_[finger].proxy().value) continue;
+        sum.force += load.force_W;
+        sum.torque += load.torque_W;
     }
-    return force;
+    felt_W.force += sum.force;
+    if (sum.torque != Vec3::Zero()) felt_W.torque += sum.torque;
 }
 
 bool Servo::switch_held() const noexcept {

@@ -143,8 +143,8 @@ class Servo {
     bool turns_with_handle(haptics::ProxyKind kind) const noexcept;
     /// Puts bodies where they are ordered to be, and sets their ordered properties.
     void order_bodies() noexcept;
-    /// Force of the force fields on a handle.
-    Vec3 field_on(size_t finger) const noexcept;
+    /// Adds the loads on a handle to what it feels.
+    void add_loads(size_t finger, Wrench& felt_W) const noexcept;
     bool switch_held() const noexcept;
     /// Whether the world steps in this tick; valid before the tick's Frame is made.
     bool steps_now() const noexcept {

@@ -4,7 +4,10 @@
 // Perturbations act at three places:
 //   visual map        from true to displayed pose, of the things it names
 //   body properties   inertia and weight independently, and friction; scale those of the scene
-//   loads             of force fields, on handles and bodies
+//   loads             forces and torques on handles and bodies
+//
+// Besides, things are hidden, coloured and sized (looks), or shown where they were (displaced);
+// texts stand over the scene (message, lines), or a page in its place.
 #pragma once
 
 #include <cstdint>
@@ -32,6 +35,8 @@ struct VisualMap {
     Quat R = Quat::Identity();
     Vec3 along_W = Vec3::Zero();
     double size = 1;
+    double delay = 0;
+    Vec3 noise = Vec3::Zero();
 
     Vec3 displayed(const Vec3& p_W) const noexcept {
         const Vec3 arm = p_W - p_WC;
@@ -51,6 +56,9 @@ struct VisualMap {
         v(m.along_W, {"along", "1", "W",
                       "Unit direction of the ray on which points are shown; zero: no ray."});
         v(m.size, {"size", "1", "", "The object's displayed size over its true one."});
+        v(m.delay, {"delay", "s", "", "Delay with which what the map moves is shown."});
+        v(m.noise, {"noise", "m", "W",
+                    "Standard deviation, along each axis, of the noise on where that is shown."});
     }
 };
 
@@ -58,12 +66,15 @@ struct TargetFrame {
     int32_t region = -1;
     Vec3 p_WT = Vec3::Zero();
     double radius = 0;
+    int32_t colour = -1;
 
     template <class Self, class Visitor>
     static void visit(Self& t, Visitor& v) {
         v(t.region, {"region", "1", "", "Index of the region in the task's list."});
         v(t.p_WT, {"position", "m", "W", "Centre of the sphere."});
         v(t.radius, {"radius", "m", "", "Radius of the sphere."});
+        v(t.colour, {"colour", "1", "",
+                     "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: that of targets."});
     }
 };
 
@@ -96,7 +107,7 @@ struct LoadFrame {
         v(l.body,
           {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
         v(l.force_W, {"force", "N", "W", "Force at the body's centre of mass, or on the handle."});
-        v(l.torque_W, {"torque", "N*m", "W", "Torque on the body; handles have none."});
+        v(l.torque_W, {"torque", "N*m", "W", "Torque on the body or the handle."});
     }
 };
 
@@ -113,22 +124,90 @@ struct PlacementFrame {
     }
 };
 
+struct VariableFrame {
+    double value = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& x, Visitor& v) {
+        v(x.value, {"value", "1", "", "Value of the variable, in the SI unit of its kind."});
+    }
+};
+
+struct LookFrame {
+    int32_t body = -1;
+    uint32_t hidden = 0;
+    int32_t colour = -1;
+    double scale = 1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& l, Visitor& v) {
+        v(l.body,
+          {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
+        v(l.hidden, {"hidden", "1", "", "1 if it is not shown, nor its shadow, otherwise 0."});
+        v(l.colour,
+          {"colour", "1", "", "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: its own."});
+        v(l.scale, {"scale", "1", "", "Factor on its displayed size."});
+    }
+};
+
+struct DisplacedFrame {
+    int32_t body = -1;
+    Pose X_WB;
+
+    template <class Self, class Visitor>
+    static void visit(Self& d, Visitor& v) {
+        v(d.body,
+          {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
+        v(d.X_WB.p, {"position", "m", "W", "Where it is shown; the visual map is in it."});
+        v(d.X_WB.R, {"orientation", "1", "W",
+                     "Unit quaternion that turns its axes into the world's, as it is shown."});
+    }
+};
+
+struct LineFrame {
+    int32_t message = -1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& l, Visitor& v) {
+        v(l.message, {"message", "1", "", "Index of the text in the session's list of messages."});
+    }
+};
+
+struct NumberFrame {
+    double value = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& n, Visitor& v) {
+        v(n.value, {"value", "1", "", "The number, in the unit that its name in the text has."});
+    }
+};
+
 struct TaskFrame {
     /// Limits of the numbers in a tick; there may be as many placements as bodies.
     static constexpr size_t kMostTargets = 16;
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
+    static constexpr size_t kMostVariables = 32;
+    static constexpr size_t kMostFingers = 32;
+    static constexpr size_t kMostLines = 6;
+    static constexpr size_t kMostNumbers = 28;
 
     int32_t attempt = 0;
     int32_t outcome = -1;
     int32_t message = -1;
     int32_t marker = 0;
     double share = 0;
+    int32_t page = -1;
     std::vector<VisualMap> visual;
     std::vector<TargetFrame> targets;
     std::vector<PropertiesFrame> properties;
     std::vector<LoadFrame> loads;
     std::vector<PlacementFrame> placements;
+    std::vector<VariableFrame> variables;
+    std::vector<LookFrame> looks;
+    std::vector<DisplacedFrame> displaced;
+    std::vector<LineFrame> lines;
+    std::vector<NumberFrame> numbers;
 
     void reserve(size_t bodies) {
         visual.reserve(1);
@@ -136,11 +215,16 @@ struct TaskFrame {
         properties.reserve(kMostProperties);
         loads.reserve(kMostLoads);
         placements.reserve(bodies);
+        variables.reserve(kMostVariables);
+        looks.reserve(bodies + kMostFingers);
+        displaced.reserve(1 + kMostFingers);
+        lines.reserve(kMostLines);
+        numbers.reserve(kMostNumbers);
     }
     /// Resets to no orders; keeps the memory.
     void clear() noexcept {
         attempt = 0;
-        outcome = message = -1;
+        outcome = message = page = -1;
         marker = 0;
         share = 0;
         visual.clear();
@@ -148,6 +232,11 @@ struct TaskFrame {
         properties.clear();
         loads.clear();
         placements.clear();
+        variables.clear();
+        looks.clear();
+        displaced.clear();
+        lines.clear();
+        numbers.clear();
     }
 
     template <class Self, class Visitor>
@@ -158,6 +247,7 @@ struct TaskFrame {
         v(t.message, {"message", "1", "", "Index of the shown message in the session's list."});
         v(t.marker, {"marker", "1", "", "Event code of the tick, 1 to 255; 0: none."});
         v(t.share, {"share", "1", "", "Share of the trial's perturbation that acts."});
+        v(t.page, {"page", "1", "", "Index of the shown page in the session's list."});
         v.each("visual", t.visual,
                "The visual map, if any: the difference between what is shown and what is there.");
         v.each("targets", t.targets, "One for each target, which is shown as a sphere.");
@@ -165,6 +255,18 @@ struct TaskFrame {
                "One for each body whose properties differ from the scene's.");
         v.each("loads", t.loads, "One for each force on a body or a handle.");
         v.each("placements", t.placements, "One for each body that is put at a pose, at rest.");
+        v.each(
+            "variables", t.variables,
+            "One for each variable of the task: its value in this trial, and in the trial's last "
+            "tick its value in the next.");
+        v.each(
+            "looks", t.looks,
+            "One for each body or proxy that is hidden, or drawn otherwise than the scene has it.");
+        v.each("displaced", t.displaced,
+               "One for each body or proxy that is shown late, shaken, or where it was.");
+        v.each("lines", t.lines, "One for each text that is shown below the message.");
+        v.each("numbers", t.numbers,
+               "One for each number in the shown texts, the message's first, then the lines'.");
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "person/population.h"
 #include "person/simulated_limits.h"
 #include "session/plan.h"
 #include "session/safety_limits.h"
@@ -48,9 +49,8 @@ std::vector<Problem> endless_states(const task::TaskPlan& task) {
     std::vector<Problem> out;
     for (size_t i = 0; i < task.stages.size(); ++i) {
         const auto& ways = task.stages[i].ways;
-        const bool ends = std::any_of(ways.begin(), ways.end(), [](const task::TaskPlan::Way& way) {
-            return way.exit.has(task::WhenRow::comes);
-        });
+        const bool ends = std::any_of(ways.begin(), ways.end(),
+                                      [](const task::TaskPlan::Way& way) { return way.comes(); });
         if (ends) continue;
         const task::State& state = task.task.states[i];
         out.push_back({Severity::warning, state.place, state.name,
@@ -98,10 +98,13 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
             case task::FileKind::movement:
                 check_movement(file, diagnostics);
                 return {"movement", {}};
+            case task::FileKind::population:
+                person::read_population(file);
+                return {"population", {}};
             case task::FileKind::unknown:
                 diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
                                   "A scene has 'bodies:', a rig 'devices:', an experiment "
-                                  "'scene:'; a movement ends in .csv.");
+                                  "'scene:', a population 'traits:'; a movement ends in .csv.");
                 return {"unknown", {}};
         }
     } catch (const Error& e) {

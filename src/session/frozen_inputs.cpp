@@ -36,6 +36,23 @@ std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& f
     return names;
 }
 
+/// Copies the pictures of the task's pages to the session's folder, and makes the task name the
+/// copies.
+std::vector<std::string> freeze_pictures(task::Task& task, const recording::SessionFolder& folder) {
+    std::vector<std::string> names;
+    for (task::Block& block : task.blocks) {
+        for (task::PageSpec& page : block.pages) {
+            if (page.picture.empty()) continue;
+            const std::string name = fmt::format("page-{}-{}", names.size() + 1,
+                                                 fs::path(page.picture).filename().string());
+            fs::copy_file(page.picture, folder.file(name));
+            page.picture = name;
+            names.push_back(name);
+        }
+    }
+    return names;
+}
+
 Table fault_table(const MovementReport& movement) {
     Table faults;
     faults.columns = {{"start_s", "last good frame before"},
@@ -79,7 +96,10 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         write_csv(fault_table(*plan.movement), folder.file("movement-faults.csv"));
     }
     if (plan.task) {
-        write_file(to_yaml(write_fields(plan.task->task)), folder.file("task.yaml"));
+        task::Task task = plan.task->task;
+        const std::vector<std::string> pictures = freeze_pictures(task, folder);
+        names.insert(names.end(), pictures.begin(), pictures.end());
+        write_file(to_yaml(write_fields(task)), folder.file("task.yaml"));
         write_csv(task::frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
         names.insert(names.end(), {"task.yaml", "trial-list.csv"});
         if (!plan.task->task.procedures.empty())

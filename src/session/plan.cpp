@@ -14,6 +14,7 @@
 #include "person/simulated_limits.h"
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
+#include "task/opening.h"
 #include "task/task_director.h"
 #include "task/task_hand.h"
 
@@ -145,21 +146,23 @@ void check_use_of_movement(const Plan& plan, const Request& request,
 }
 
 /// The trials, and the hand that does them.
-void plan_trials(Plan& plan, const task::Task& task, const Request& request,
-                 Diagnostics& diagnostics) {
+void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
+    task::find_pictures(task, fs::path(request.file).parent_path().string(), diagnostics);
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     const int number = request.order_number.value_or(task::participant_number(request.participant));
     if (task::needs_number(task) && number < 0) {
         diagnostics.error(
             task.place, "participant",
             request.participant.empty()
-                ? "the order of the trials depends on the participant's number"
-                : fmt::format("'{}' ends in no number, and the order of the trials depends on it",
+                ? "the order of the trials, or a draw, depends on the participant's number"
+                : fmt::format("'{}' ends in no number, and the order of the trials, or a draw, "
+                              "depends on it",
                               request.participant),
             "Add e.g. --participant S07.");
     }
     diagnostics.throw_if_errors();
-    made->trials = task::make_trials(task, number, request.seed);
+    made->trials = task::make_trials(made->task, number, request.seed);
+    task::resolve_all(*made, diagnostics);
     plan.task = made;
 }
 
@@ -301,6 +304,11 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
         out.push_back(
             {static_cast<int>(trial) - 1, static_cast<int>(attempt),
              found == plan.outcomes.end() ? -1 : static_cast<int>(found - plan.outcomes.begin())});
+        for (const task::Variable& variable : plan.task.variables) {
+            const double value = trials.number(i, task::next_column(variable.name));
+            if (!std::isfinite(value)) throw bad("has a row without the value of a variable");
+            out.back().variables.push_back(value * split_unit(variable.name).si);
+        }
     }
     return out;
 }
@@ -360,10 +368,12 @@ Plan frozen_plan(const recording::SessionFolder& folder, const recording::Sessio
     read_given_fields(plan.hand, plan.scene.hand, diagnostics);
     task::Task task;
     read_fields(task, read_yaml(folder.file("task.yaml")), diagnostics);
+    task::find_pictures(task, folder.path(), diagnostics);
     diagnostics.throw_if_errors();
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     diagnostics.throw_if_errors();
-    made->trials = task::read_trial_list(task, folder.file("trial-list.csv"));
+    made->trials = task::read_trial_list(made->task, folder.file("trial-list.csv"));
+    task::resolve_all(*made, diagnostics);
     plan.task = made;
     plan.done = attempts_made(*made, folder.file("trials.csv"));
     return plan;

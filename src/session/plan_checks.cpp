@@ -9,7 +9,10 @@
 #include <set>
 #include <tuple>
 
+#include "analysis/trials.h"
 #include "model/grasp.h"
+#include "session/load_checks.h"
+#include "task/trial_numbers.h"
 
 namespace dihaptic::session {
 namespace {
@@ -217,8 +220,11 @@ std::vector<Lifting> liftings(const Plan& plan) {
     }
     std::vector<Lifting> out;
     std::set<std::string> known;
-    for (const task::Trial& trial : plan.task->trials) {
-        const task::TaskPlan::Cell& cell = plan.task->cell(trial);
+    task::TrialNumbers numbers(*plan.task);
+    for (size_t i = 0; i < plan.task->trials.size(); ++i) {
+        const task::Trial& trial = plan.task->trials[i];
+        numbers.begin(static_cast<int>(i), 1, plan.task->start);
+        const task::TaskPlan::Cell& cell = numbers.cell();
         for (const std::string& name : lifted) {
             const int index = plan.scene.find(name);
             const scene::Body& body = plan.scene.bodies[static_cast<size_t>(index)];
@@ -229,9 +235,8 @@ std::vector<Lifting> liftings(const Plan& plan) {
                     std::min(friction, scene::pair_friction(plan.scene, body.name, body.friction,
                                                             finger.name, finger.friction));
             }
-            if (trial.perturb >= 0) {
-                const auto& changed =
-                    cell.perturbations[static_cast<size_t>(trial.perturb)].properties();
+            for (const int i : trial.perturb) {
+                const auto& changed = cell.perturbations[static_cast<size_t>(i)].properties();
                 if (changed && changed->body == index) {
                     weight *= changed->weight_scale;
                     friction *= changed->friction_scale;
@@ -301,48 +306,22 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of a field on a handle that the loop cannot hold calmly, by the limits of a coupling's
-/// stiffness and damping.
-void check_fields(const Plan& plan, Diagnostics& diagnostics) {
+/// The names of factors, draws and variables are columns of trials.csv, beside what it always has.
+void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
-    double stiffness = 0;
-    double damping = 0;
-    int stiffest = 0;
-    int most_damped = 0;
-    for (const task::TaskPlan::Cell& cell : plan.task->cells) {
-        for (const task::Perturbation& perturbation : cell.perturbations) {
-            const auto field = perturbation.on_handle();
-            if (field && field->stiffness > stiffness) {
-                stiffness = field->stiffness;
-                stiffest = field->finger;
-            }
-            if (field && std::abs(field->damping) > damping) {
-                damping = std::abs(field->damping);
-                most_damped = field->finger;
-            }
-        }
+    const task::Task& task = plan.task->task;
+    std::vector<std::string> own;
+    for (const Table::Column& column : task::own_columns(task)) own.push_back(column.name);
+    for (const task::Variable& variable : task.variables) {
+        own.push_back(variable.name);
+        own.push_back(task::next_column(variable.name));
     }
-    const auto period = [&](const devices::DeviceInfo& info) {
-        return plan.settings.tick() + 2 * info.delay;
-    };
-    const devices::DeviceInfo& stiff = plan.devices[static_cast<size_t>(stiffest)];
-    if (const double limit = model::passive_stiffness(stiff.damping, period(stiff));
-        stiff.damping > 0 && stiffness > limit) {
-        diagnostics.warning(
-            plan.task->task.place, "stiffness",
-            fmt::format("a channel of {:g} N/m is above {:.0f} N/m (2 b / T), up to which the "
-                        "hand's damping of {:g} N*s/m surely keeps {} calm",
-                        stiffness, limit, stiff.damping, stiff.model),
-            "Lower it, or look whether the handle shakes.");
-    }
-    const devices::DeviceInfo& damped = plan.devices[static_cast<size_t>(most_damped)];
-    if (const double limit = 2 * damped.mass / period(damped); damped.mass > 0 && damping > limit) {
-        diagnostics.warning(
-            plan.task->task.place, "damping",
-            fmt::format("a field of {:g} N*s/m is more than a handle of {:g} g can bear: about "
-                        "{:.0f} N*s/m (2 m / T)",
-                        damping, damped.mass * 1e3, limit),
-            "Lower it.");
+    std::set<std::string> known;
+    for (const Table::Column& column : analysis::trial_columns()) known.insert(column.name);
+    for (const std::string& name : own) {
+        if (known.insert(name).second) continue;
+        diagnostics.error(task.place, name, "is the name of another column of trials.csv",
+                          "Give the factor, draw or variable another name.");
     }
 }
 
@@ -381,6 +360,36 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
         remedy);
 }
 
+/// Warns of trials that their measures will not show as they are.
+void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
+    for (const task::Block& block : plan.task.blocks) {
+        if (block.kind != task::TrialKind::baseline || block.perturb.empty()) continue;
+        diagnostics.warning(block.place, "kind",
+                            "is baseline, and its trials are perturbed: means and fits take them "
+                            "for trials without a perturbation",
+                            "Write kind: perturbed, or leave out perturb.");
+    }
+    if (!plan.task.reach || plan.task.reach->measure != task::Measure::angle) return;
+    const task::ReachMeasure& reach = *plan.task.reach;
+    const auto& regions = plan.task.regions;
+    const auto region = [&](const std::string& name) {
+        const auto named = [&](const task::Region& r) { return r.name == name; };
+        return static_cast<size_t>(std::find_if(regions.begin(), regions.end(), named) -
+                                   regions.begin());
+    };
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const task::TaskPlan::Cell& cell : plan.cells) {
+        const double way = (cell.p_W[region(reach.to)] - cell.p_W[region(reach.from)]).norm();
+        shortest = std::min(shortest, way);
+    }
+    if (reach.distance <= shortest * (1 + 1e-9)) return;
+    diagnostics.warning(reach.place, "distance",
+                        fmt::format("is {:g} mm, and the nearest target is {:g} mm away: a hand "
+                                    "that stops there is not measured",
+                                    reach.distance * 1e3, shortest * 1e3),
+                        "Measure before the target, e.g. at its edge.");
+}
+
 }  // namespace
 
 void check_devices(Plan& plan, Diagnostics& diagnostics) {
@@ -392,7 +401,8 @@ void check_devices(Plan& plan, Diagnostics& diagnostics) {
     check_limits(plan, diagnostics);
     check_grip(plan, diagnostics);
     check_liftings(plan, diagnostics);
-    check_fields(plan, diagnostics);
+    check_loads(plan, diagnostics);
+    diagnostics.throw_if_errors();
 }
 
 void check_plan(Plan& plan, Diagnostics& diagnostics) {
@@ -402,6 +412,8 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_proxy(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
+    check_columns(plan, diagnostics);
+    if (plan.task) check_measures(*plan.task, diagnostics);
 }
 
 }  // namespace dihaptic::session

@@ -1,10 +1,14 @@
 #include "session/session_director.h"
 
+#include <fmt/format.h>
+
+#include "base/plural.h"
+
 namespace dihaptic::session {
 namespace {
 
-/// Whether a simulated session gets a trigger in this tick: one comes every second.
-bool simulated_trigger(const servo::Frame& last, Time period) noexcept {
+/// Whether a simulated session gets a trigger, and turns a page, in this tick: once a second.
+bool once_a_second(const servo::Frame& last, Time period) noexcept {
     return (last.time + period) % std::chrono::seconds(1) < period;
 }
 
@@ -24,7 +28,19 @@ SessionDirector::SessionDirector(const Plan& plan, const RunOptions& options,
       phases_(phases, plan.settings.tick()) {
     if (!plan.task) return;
     task_.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
-    if (plan.seeing && !real_) wait_.emplace(plan.task->stages);
+    if (plan.seeing && !real_) wait_.emplace(*plan.task);
+}
+
+std::string SessionDirector::bounded() const {
+    if (!task_ || task_->numbers().bounded() == 0) return "";
+    const task::TrialNumbers& numbers = task_->numbers();
+    const auto last = static_cast<size_t>(numbers.last_bounded());
+    const Formula& formula = plan_.task->formulas[last].formula;
+    return fmt::format(
+        "{}:{}: warning: {}: a formula gave what this key does not allow, and was kept within its "
+        "bounds, {} in all; the last was '{}'",
+        formula.place.file, formula.place.line, formula.key, counted(numbers.bounded(), "time"),
+        formula.text);
 }
 
 void SessionDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
@@ -53,9 +69,11 @@ void SessionDirector::direct_task(const servo::Frame& last,
     if (options_.keys != nullptr) task_->press(options_.keys->exchange(0));
     if (const char key = plan_.seeing ? plan_.seeing->take_key() : '\0'; key != 0)
         task_->press(key);
+    if (plan_.seeing && last.task.page >= 0 && once_a_second(last, servo_.period()))
+        task_->press(plan_.task->pages[static_cast<size_t>(last.task.page)].any_key());
     if (outward_) {
         if (const int code = outward_->take_trigger(); code != 0) task_->trigger(code);
-    } else if (!real_ && simulated_trigger(last, servo_.period())) {
+    } else if (!real_ && once_a_second(last, servo_.period())) {
         task_->trigger(task::TaskDirector::kAnyTrigger);
     }
     (*task_)(last, handles, commands);

@@ -34,6 +34,8 @@ class SessionDirector {
     std::optional<double> share() const noexcept {
         return task_ ? std::optional(task_->share()) : std::nullopt;
     }
+    /// Says that formulas of trials were kept within their bounds; "" if none was.
+    std::string bounded() const;
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
     /// The wait that ended the session because it was too long; null if none did.
     const Wait* endless_wait() const { return wait_ && wait_->over() ? &*wait_ : nullptr; }

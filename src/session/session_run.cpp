@@ -218,6 +218,12 @@ void Run::describe_task() {
     for (const task::TaskPlan::Outcome& outcome : plan_.task->outcomes)
         info_.outcomes.push_back(outcome.name);
     info_.messages = plan_.task->messages;
+    for (const task::Variable& variable : plan_.task->task.variables)
+        info_.variables.push_back(variable.name);
+    for (const task::TaskPlan::Page& page : plan_.task->pages)
+        info_.pages.push_back(page.spec.picture.empty()
+                                  ? page.spec.text
+                                  : fs::path(page.spec.picture).filename().string());
     info_.resumes = plan_.resumes;
 }
 
@@ -380,6 +386,8 @@ void Run::note_how_it_ended() {
         if (info_.notes.empty() || info_.notes.back() != result_.fault)
             info_.notes.push_back(result_.fault);
     }
+    if (const std::string bounded = director_->bounded(); !bounded.empty())
+        info_.notes.push_back(bounded);
     if (const Wait* wait = director_->endless_wait()) {
         result_.interrupted = true;
         result_.fault = wait->describe(info_.phases);

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 
+#include "task/opening.h"
+
 namespace dihaptic::session {
 
-Wait::Wait(const std::vector<task::TaskPlan::Stage>& stages) : bounds_{kLongestBetween} {
-    for (const task::TaskPlan::Stage& stage : stages) {
+Wait::Wait(const task::TaskPlan& plan)
+    : bounds_{kLongestBetween + task::longest_opening(plan)}, attempt_bound_(bounds_.front()) {
+    for (const task::TaskPlan::Stage& stage : plan.stages) {
         double longest = 0;
         for (const task::TaskPlan::Way& way : stage.ways) {
-            if (way.exit.when == task::When::time) longest = std::max(longest, way.exit.hold);
+            if (way.exit.when == task::When::time)
+                longest = std::max(longest, plan.largest(way.exit.hold));
         }
         bounds_.push_back(longest + kLongest);
         attempt_bound_ += kRounds * bounds_.back();

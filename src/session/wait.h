@@ -13,8 +13,7 @@ namespace dihaptic::session {
 
 class Wait {
   public:
-    /// `stages`: the task's stages.
-    explicit Wait(const std::vector<task::TaskPlan::Stage>& stages);
+    explicit Wait(const task::TaskPlan& plan);
 
     /// Call in each tick, with the last frame and the commands for this tick.
     void look(const servo::Frame& last, const servo::Commands& commands) noexcept;
@@ -35,7 +34,7 @@ class Wait {
     double begun_ = 0;            // when the attempt began [s]
     double seen_ = 0;             // time of the last frame [s]
     std::vector<double> bounds_;  // longest time in each phase [s]
-    double attempt_bound_ = kLongestBetween;
+    double attempt_bound_;
     bool over_ = false;
 };
 

@@ -18,6 +18,8 @@ FileKind kind_of(const std::string& file) {
     if (root.find("scene") != nullptr) return FileKind::experiment;
     if (root.find("bodies") != nullptr) return FileKind::scene;
     if (root.find("devices") != nullptr) return FileKind::rig;
+    if (root.find("traits") != nullptr || root.find("based_on") != nullptr)
+        return FileKind::population;
     return FileKind::unknown;
 }
 

@@ -65,7 +65,7 @@ struct Experiment {
 /// Reads an experiment file, without the files that it names. Problems go to `diagnostics`.
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
-enum class FileKind { scene, rig, experiment, movement, unknown };
+enum class FileKind { scene, rig, experiment, movement, population, unknown };
 /// Tells the kind of a file from its name and its keys. Throws Error when it cannot be read.
 FileKind kind_of(const std::string& file);
 

@@ -5,10 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/geometry.h"
 
 namespace dihaptic::task {
 
@@ -32,6 +34,16 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
                       : !guess.empty() ? fmt::format("Did you mean {}?", guess)
                                        : fmt::format("Known: {}.", fmt::join(names, ", ")));
     return -1;
+}
+
+/// Unit vector along what is given, or z with an error.
+inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const char* key,
+                    Diagnostics& diagnostics) {
+    constexpr double kSmall = 1e-9;
+    if (given && given->norm() > kSmall) return given->normalized();
+    diagnostics.error(place, key, given ? "has no direction" : "is missing",
+                      fmt::format("Write it in world axes, e.g. {}: [0, 0, 1].", key));
+    return Vec3::UnitZ();
 }
 
 /// Reports an error for each name that is given twice.

@@ -1,18 +1,11 @@
 #include "task/perturbation.h"
 
+#include <algorithm>
+
 #include "task/lookup.h"
 
 namespace dihaptic::task {
 namespace {
-
-constexpr double kSmallAxis = 1e-9;
-
-Vec3 axis_of(const std::optional<Vec3>& axis, const Place& place, Diagnostics& diagnostics) {
-    if (axis && axis->norm() > kSmallAxis) return axis->normalized();
-    diagnostics.error(place, "axis", axis ? "has no direction" : "is missing",
-                      "Write it in world axes, e.g. axis: [0, 0, 1].");
-    return Vec3::UnitZ();
-}
 
 /// Bit mask of the names "proxies", "object" and "target"; an unknown name is an error and sets no
 /// bit.
@@ -26,16 +19,69 @@ uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
     return moves;
 }
 
+/// Adds the factors of a body to the list, or multiplies those that it has there.
+void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFrame& now) noexcept {
+    const auto same = std::find_if(list.begin(), list.end(), [&](const servo::PropertiesFrame& p) {
+        return p.body == now.body;
+    });
+    if (same == list.end()) return add(list, now);
+    same->mass_scale = same->mass_scale.cwiseProduct(now.mass_scale);
+    same->weight_scale *= now.weight_scale;
+    same->turning_scale *= now.turning_scale;
+    same->friction_scale *= now.friction_scale;
+}
+
+bool displaces(const VisualSpec& visual) {
+    return visual.delay > 0 || !visual.noise.isZero(0);
+}
+
+/// A map that only delays or shakes what is shown needs no centre.
+bool has_centre(const VisualSpec& visual) {
+    return !displaces(visual) || !visual.about.empty() || !visual.toward.empty() ||
+           visual.angle != 0 || visual.scale != FormulaVec3{1, 1, 1} || visual.size != 1;
+}
+
+void check_displacing(const VisualSpec& visual, uint32_t moves, Diagnostics& diagnostics) {
+    if (!displaces(visual) || (moves & (servo::kMovesProxies | servo::kMovesObject)) != 0) return;
+    diagnostics.error(visual.place, visual.delay > 0 ? "delay" : "noise",
+                      "is of proxies or the object, which are not moved", "Add proxies to moves.");
+}
+
 }  // namespace
 
 Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
                            const scene::Scene& scene, Diagnostics& diagnostics) {
     if (spec.visual) look_up_map(*spec.visual, regions, scene, diagnostics);
     if (spec.body) look_up_body(*spec.body, scene, diagnostics);
-    if (spec.field) look_up_field(*spec.field, regions, scene, diagnostics);
-    if (!spec.visual && !spec.body && !spec.field) {
+    for (const LoadSpec& load : spec.all_loads())
+        loads_.emplace_back(load, regions, scene, diagnostics);
+    profile_ = spec.profile;
+    if (profile_ && profile_->fall > 0 && !profile_->plateau) {
+        diagnostics.error(profile_->place, "fall", "when it falls is missing",
+                          "Add e.g. plateau_ms: 100, the time between rise and fall.");
+    }
+    if (!spec.visual && !spec.body && loads_.empty()) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
-                          "Give it visual, body or field.");
+                          "Give it visual, body, loads or field.");
+    }
+    resolve({});
+}
+
+void Perturbation::resolve(std::span<const double> resolved) noexcept {
+    const auto vector = [&](const std::array<Number, 3>& n) {
+        return Vec3(n[0].in(resolved), n[1].in(resolved), n[2].in(resolved));
+    };
+    if (map_) {
+        map_->scale = vector(map_->scale_as_given);
+        map_->angle = map_->angle_as_given.in(resolved);
+        map_->size = map_->size_as_given.in(resolved);
+    }
+    if (properties_) {
+        const double density = properties_as_given_.density.in(resolved);
+        properties_->mass_scale = density * vector(properties_as_given_.mass);
+        properties_->weight_scale = density * properties_as_given_.weight.in(resolved);
+        properties_->turning_scale = density;
+        properties_->friction_scale = properties_as_given_.friction.in(resolved);
     }
 }
 
@@ -47,22 +93,25 @@ void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Regio
     Map& map = map_.emplace(Map{});
     map.moves = moves_of(visual, diagnostics);
     map.object = scene.object_index();
-    map.about = region(visual.about, "about");
+    map.delay = visual.delay;
+    map.noise = visual.noise;
+    if (has_centre(visual)) map.about = region(visual.about, "about");
+    check_displacing(visual, map.moves, diagnostics);
     if (!visual.toward.empty()) map.toward = region(visual.toward, "toward");
-    map.scale = visual.scale;
+    map.scale_as_given = numbers(visual.scale);
     if (visual.axis || visual.angle != 0)
-        map.axis = axis_of(visual.axis, visual.place, diagnostics);
-    map.angle = visual.angle;
-    map.size = visual.size;
+        map.axis = axis_of(visual.axis, visual.place, "axis", diagnostics);
+    map.angle_as_given = visual.angle;
+    map.size_as_given = visual.size;
     if (map.moves & servo::kMovesObject && map.object < 0) {
         diagnostics.error(visual.place, "moves", "the scene has no object that can move",
                           "Leave out object.");
     }
-    if (map.size != 1 && (map.moves & servo::kMovesObject) == 0) {
+    if (visual.size != 1 && (map.moves & servo::kMovesObject) == 0) {
         diagnostics.error(visual.place, "size", "is the object's, which is not moved",
                           "Add object to moves.");
     }
-    if (map.toward >= 0 && (map.angle != 0 || map.scale != Vec3::Ones())) {
+    if (map.toward >= 0 && (visual.angle != 0 || visual.scale != FormulaVec3{1, 1, 1})) {
         diagnostics.error(visual.place, "toward",
                           "what is shown on a line can be neither rotated nor scaled",
                           "Leave out angle_deg and scale, or toward.");
@@ -78,86 +127,37 @@ void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
         diagnostics.error(body.place, "body", "'" + body.body + "' cannot move",
                           "Name a body that can.");
     }
-    out.mass_scale = body.density_scale * body.mass_scale;
-    out.weight_scale = body.density_scale * body.weight_scale;
-    out.turning_scale = body.density_scale;
-    out.friction_scale = body.friction_scale;
+    properties_as_given_ = {numbers(body.mass_scale), body.weight_scale, body.density_scale,
+                            body.friction_scale};
 }
 
-void Perturbation::look_up_field(const ForceFieldSpec& given, const std::vector<Region>& regions,
-                                 const scene::Scene& scene, Diagnostics& diagnostics) {
-    const auto region = [&](const std::string& name, const char* key) {
-        return look_up(names_of(regions), name, given.place, key, "no region", diagnostics);
-    };
-    ForceField& field = field_.emplace(ForceField{});
-    field.kind = given.kind;
-    field.damping = given.damping;
-    field.stiffness = given.stiffness;
-    std::vector<std::string> things = names_of(scene.bodies);
-    const int bodies = static_cast<int>(things.size());
-    for (const scene::Finger& finger : scene.fingers) things.push_back(finger.name);
-    field.index = look_up(things, given.on, given.place, "on", "no finger or body", diagnostics);
-    if (field.index >= bodies) field.finger = field.index - bodies;
-    if (field.kind == FieldKind::curl) field.axis = axis_of(given.axis, given.place, diagnostics);
-    if (field.kind == FieldKind::channel) {
-        field.from = region(given.from, "from");
-        field.to = region(given.to, "to");
-        if (given.stiffness <= 0) {
-            diagnostics.error(given.place, "stiffness", "a channel needs one",
-                              "Add e.g. stiffness_N_m: 1000.");
-        }
-    } else if (given.damping == 0) {
-        diagnostics.error(given.place, "damping", "is missing: the field would do nothing",
-                          "Add e.g. damping_Ns_m: 10.");
-    }
+Mat3 Perturbation::field_gain() const {
+    Mat3 gain = Mat3::Zero();
+    for (const Load& load : loads_) gain += load.velocity_gain();
+    return gain;
 }
 
 std::optional<Vec3> Perturbation::axis() const {
-    if (map_ && map_->angle != 0) return map_->axis;
-    if (field_ && field_->kind == FieldKind::curl) return field_->axis;
+    if (map_ && (map_->angle != 0 || map_->angle_as_given.index >= 0)) return map_->axis;
+    for (const Load& load : loads_) {
+        if (const auto axis = load.axis()) return axis;
+    }
     return {};
 }
 
-std::optional<Perturbation::OnHandle> Perturbation::on_handle() const {
-    if (!field_ || field_->finger < 0) return {};
-    return OnHandle{field_->finger, field_->damping, field_->stiffness};
-}
-
-Vec3 Perturbation::force(double share, std::span<const Vec3> regions_W, const Vec3& p_W,
-                         const Vec3& v_W) const noexcept {
-    const ForceField& field = *field_;
-    switch (field.kind) {
-        case FieldKind::viscous:
-            return -share * field.damping * v_W;
-        case FieldKind::curl:
-            return share * field.damping * field.axis.cross(v_W);
-        case FieldKind::channel: {
-            const Vec3& from = regions_W[static_cast<size_t>(field.from)];
-            const Vec3 way = regions_W[static_cast<size_t>(field.to)] - from;
-            const double length = way.norm();
-            if (length <= 0) return Vec3::Zero();
-            const Vec3 along = way / length;
-            const Vec3 arm = p_W - from;
-            const Vec3 off = arm - arm.dot(along) * along;
-            const Vec3 across = v_W - v_W.dot(along) * along;
-            return -share * (field.stiffness * off + field.damping * across);
-        }
-    }
-    return Vec3::Zero();
-}
-
-void Perturbation::order(double share, std::span<const Vec3> regions_W, const servo::Frame& last,
-                         std::span<const haptics::Handle> handles,
+void Perturbation::order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                          servo::TaskFrame& out) const noexcept {
     if (map_) {
         const Map& map = *map_;
         servo::VisualMap shown;
         shown.moves = map.moves;
         shown.object = map.object;
-        shown.p_WC = regions_W[static_cast<size_t>(map.about)];
+        if (map.about >= 0) shown.p_WC = regions_W[static_cast<size_t>(map.about)];
         shown.scale = Vec3::Ones() + share * (map.scale - Vec3::Ones());
         shown.R = Quat(Eigen::AngleAxisd(share * map.angle, map.axis));
         shown.size = 1 + share * (map.size - 1);
+        shown.delay = share * map.delay;
+        shown.noise = share * map.noise;
         if (map.toward >= 0) {
             const Vec3 way = regions_W[static_cast<size_t>(map.toward)] - shown.p_WC;
             if (way.norm() > 0) shown.along_W = way.normalized();
@@ -170,16 +170,15 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const se
         now.weight_scale = 1 + share * (now.weight_scale - 1);
         now.turning_scale = 1 + share * (now.turning_scale - 1);
         now.friction_scale = 1 + share * (now.friction_scale - 1);
-        add(out.properties, now);
+        add_to(out.properties, now);
     }
-    if (field_ && field_->finger >= 0) {
-        const haptics::Handle& handle = handles[static_cast<size_t>(field_->finger)];
-        add(out.loads,
-            {field_->index, force(share, regions_W, handle.p_WH, handle.v_WH), Vec3::Zero()});
-    } else if (field_ && last.sequence >= 0) {
-        const servo::BodyFrame& body = last.bodies[static_cast<size_t>(field_->index)];
-        add(out.loads,
-            {field_->index, force(share, regions_W, body.X_WB.p, body.v_WB), Vec3::Zero()});
+    for (const Load& load : loads_) {
+        for (const int thing : load.on()) {
+            const Motion* const motion = motions.of(thing, load.spec().delay);
+            if (motion == nullptr) continue;
+            const Wrench wrench = load.act(share, regions_W, *motion);
+            add(out.loads, {thing, wrench.force, wrench.torque});
+        }
     }
 }
 

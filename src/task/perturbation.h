@@ -1,27 +1,30 @@
 // Perturbations as an experiment file describes them, and the commands that each gives in a tick.
 //
-// A perturbation acts with a share from 0 to 1, so that it can begin abruptly or by a ramp: angles,
-// forces, and the difference of scales from 1 are proportional to the share.
+// A perturbation acts with a share from 0 to 1, so that it can begin abruptly, by a ramp over
+// trials, or by a profile within one: angles, forces, and the difference of scales from 1 are
+// proportional to the share.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/field_reader.h"
-#include "haptics/coupling.h"
+#include "base/formula.h"
 #include "scene/scene.h"
 #include "servo/frame.h"
+#include "task/loads.h"
+#include "task/profile.h"
 
 namespace dihaptic::task {
 
 /// A named sphere where hands are wanted, and which can be shown.
 struct Region {
     std::string name;
-    Vec3 position = Vec3::Zero();  ///< centre [m]
-    double radius = 0.01;          ///< [m]
+    FormulaVec3 position;   ///< centre [m]
+    Formula radius = 0.01;  ///< [m]
     Place place;
 
     template <class Visitor>
@@ -38,23 +41,27 @@ struct Region {
 struct VisualSpec {
     std::vector<std::string> moves;  ///< proxies, object, target
     std::string about;               ///< region
-    Vec3 scale = Vec3::Ones();       ///< along the world's axes
+    FormulaVec3 scale{1, 1, 1};      ///< along the world's axes
     std::optional<Vec3> axis;        ///< axis of the rotation
-    double angle = 0;                ///< angle of the rotation, right-handed [rad]
+    Formula angle = 0;               ///< angle of the rotation, right-handed [rad]
     std::string toward;              ///< region: motion is shown on the line from `about` to it, at
                                      ///< its true distance from `about`
-    double size = 1;                 ///< the object's displayed size over its true size
+    Formula size = 1;                ///< the object's displayed size over its true size
+    double delay = 0;                ///< proxies and object are shown this much later [s]
+    Vec3 noise = Vec3::Zero();       ///< SD of noise on where they are shown, in W [m]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("moves", moves, Field::text().required());
-        v("about", about, Field::text().required());
+        v("about", about);
         v("scale", scale, Field::number().within(-10, 10));
         v("axis", axis, Field::number().within(-1000, 1000));
         v("angle", angle, Field::of(Quantity::angle).within(-6.3, 6.3));
         v("toward", toward);
         v("size", size, Field::number().within(0.1, 10));
+        v("delay", delay, Field::of(Quantity::time).within(0, 5));
+        v("noise", noise, Field::length().within(0, 1));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -62,10 +69,10 @@ struct VisualSpec {
 /// Factors on a body's properties in the scene.
 struct BodySpec {
     std::string body;
-    Vec3 mass_scale = Vec3::Ones();  ///< on inertia along the world's axes; the weight stays
-    double weight_scale = 1;         ///< the inertia stays
-    double density_scale = 1;        ///< on both, and on the moments of inertia
-    double friction_scale = 1;
+    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world's axes; the weight stays
+    Formula weight_scale = 1;         ///< the inertia stays
+    Formula density_scale = 1;        ///< on both, and on the moments of inertia
+    Formula friction_scale = 1;
     Place place;
 
     template <class Visitor>
@@ -79,53 +86,43 @@ struct BodySpec {
     }
 };
 
-/// Force of the field: viscous -b v; curl b e x v; channel -k d - b v_across, with d the
-/// displacement from the line between two regions.
-enum class FieldKind { viscous, curl, channel };
-constexpr auto enum_names(FieldKind) {
-    return std::array{"viscous", "curl", "channel"};
-}
-
-struct ForceFieldSpec {
-    FieldKind kind = FieldKind::viscous;
-    std::string on;            ///< a finger's handle, or a body
-    double damping = 0;        ///< b [N*s/m]
-    double stiffness = 0;      ///< k, channel only [N/m]
-    std::optional<Vec3> axis;  ///< e, curl only
-    std::string from;          ///< region, channel only
-    std::string to;            ///< region, channel only
-    Place place;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("kind", kind, Field::text().required());
-        v("on", on, Field::text().required());
-        v("damping", damping, Field::of(Quantity::damping).within(-1000, 1000));
-        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5));
-        v("axis", axis, Field::number().within(-1000, 1000));
-        v("from", from);
-        v("to", to);
-        if constexpr (requires { v.place(); }) place = v.place();
-    }
-};
-
-/// Any combination of the three, under one name.
+/// Any combination of a visual map, a body's properties and loads, under one name.
 struct PerturbationSpec {
     std::string name;
+    Texts during;  ///< states in which it acts; empty: all that are perturbed
+    std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
-    std::optional<ForceFieldSpec> field;
+    std::optional<LoadSpec> field;  ///< the only load, or the first
+    std::vector<LoadSpec> loads;
     Place place;
+
+    /// `field` and `loads` together.
+    std::vector<LoadSpec> all_loads() const {
+        std::vector<LoadSpec> out = loads;
+        if (field) out.insert(out.begin(), *field);
+        return out;
+    }
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
+        v("during", during);
+        v("profile", profile);
         v("visual", visual);
         v("body", body);
         v("field", field);
+        v("loads", loads);
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
+
+/// Whether it holds a handle or a body to a line or plane.
+inline bool is_channel(const PerturbationSpec& spec) {
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return std::any_of(loads.begin(), loads.end(),
+                       [](const LoadSpec& load) { return load.kind == LoadKind::channel; });
+}
 
 /// A perturbation with its names looked up. In the tick it neither allocates nor throws.
 class Perturbation {
@@ -135,22 +132,21 @@ class Perturbation {
     Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
                  const scene::Scene& scene, Diagnostics& diagnostics);
 
+    /// Factor on its share at `t` since its first state was entered [s].
+    double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
     /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
-    void order(double share, std::span<const Vec3> regions_W, const servo::Frame& last,
-               std::span<const haptics::Handle> handles, servo::TaskFrame& out) const noexcept;
-    /// Force of its field on a point at p_W that moves with v_W [N].
-    Vec3 force(double share, std::span<const Vec3> regions_W, const Vec3& p_W,
-               const Vec3& v_W) const noexcept;
-    /// Axis of its rotation or curl field; nullopt if it has neither.
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               servo::TaskFrame& out) const noexcept;
+    /// Force of its loads over velocity, at share 1 [N*s/m]; of channels and springs zero.
+    Mat3 field_gain() const;
+    /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
-    /// Damping b and stiffness k of a field on a handle, to compare with what a device can render.
-    struct OnHandle {
-        int finger;
-        double damping;    ///< [N*s/m]
-        double stiffness;  ///< [N/m]
-    };
-    /// Nullopt if there is no field on a handle.
-    std::optional<OnHandle> on_handle() const;
+    /// Takes up the numbers that are formulas. `resolved`: what these give, by index.
+    void resolve(std::span<const double> resolved) noexcept;
+    bool has_map() const { return map_.has_value(); }
+    std::span<const Load> loads() const { return loads_; }
+    /// Delay of what it moves on the screen, at share 1 [s].
+    double delay() const { return map_ ? map_->delay : 0; }
     /// A body's properties at share 1; unset if it changes no body.
     const std::optional<servo::PropertiesFrame>& properties() const { return properties_; }
 
@@ -160,30 +156,31 @@ class Perturbation {
         int object = -1;
         int about = -1;
         int toward = -1;
+        std::array<Number, 3> scale_as_given;
+        Number angle_as_given;
+        Number size_as_given;
         Vec3 scale = Vec3::Ones();
         Vec3 axis = Vec3::UnitZ();
         double angle = 0;
         double size = 1;
+        double delay = 0;
+        Vec3 noise = Vec3::Zero();
     };
-    struct ForceField {
-        FieldKind kind = FieldKind::viscous;
-        int index = -1;  // body, or body count + finger
-        int finger = -1;
-        double damping = 0;
-        double stiffness = 0;
-        Vec3 axis = Vec3::UnitZ();
-        int from = -1;
-        int to = -1;
+    struct Properties {
+        std::array<Number, 3> mass;
+        Number weight;
+        Number density;
+        Number friction;
     };
     void look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
                      const scene::Scene& scene, Diagnostics& diagnostics);
     void look_up_body(const BodySpec& body, const scene::Scene& scene, Diagnostics& diagnostics);
-    void look_up_field(const ForceFieldSpec& given, const std::vector<Region>& regions,
-                       const scene::Scene& scene, Diagnostics& diagnostics);
 
     std::optional<Map> map_;
+    Properties properties_as_given_;
     std::optional<servo::PropertiesFrame> properties_;
-    std::optional<ForceField> field_;
+    std::vector<Load> loads_;
+    std::optional<Profile> profile_;
 };
 
 }  // namespace dihaptic::task

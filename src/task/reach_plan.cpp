@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "task/trial_numbers.h"
+
 namespace dihaptic::task {
 namespace {
 
@@ -28,16 +30,14 @@ std::vector<std::pair<Table::Column, Table::Cell>> columns_of(const ReachPlan& r
     return out;
 }
 
-/// The axis of the cell's first perturbation that has one: trials without the block's perturbation
-/// are measured as those with it are.
+}  // namespace
+
 Vec3 usual_axis(const TaskPlan::Cell& cell) {
     for (const Perturbation& perturbation : cell.perturbations) {
         if (const auto axis = perturbation.axis()) return *axis;
     }
     return Vec3::UnitZ();
 }
-
-}  // namespace
 
 void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
     for (const auto& [column, unused] : columns_of({})) list.columns.push_back(column);
@@ -54,8 +54,10 @@ void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
     reach.phase =
         static_cast<int>(std::find(phases.begin(), phases.end(), measured.during) - phases.begin());
     reach.measure = measured.measure;
+    TrialNumbers numbers(plan);
     for (size_t i = 0; i < plan.trials.size(); ++i) {
-        const TaskPlan::Cell& cell = plan.cell(plan.trials[i]);
+        numbers.begin(static_cast<int>(i), 1, plan.start);
+        const TaskPlan::Cell& cell = numbers.cell();
         reach.from_W = cell.p_W[region(measured.from)];
         reach.to_W = cell.p_W[region(measured.to)];
         reach.axis_W = measured.axis ? measured.axis->normalized() : usual_axis(cell);

@@ -26,6 +26,10 @@ void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
 /// Name of the first of these columns: the list's own stand before it.
 inline constexpr const char* kFirstReachColumn = "reach_finger";
 
+/// The axis of the cell's first perturbation that has one: trials without the block's perturbation
+/// are measured as those with it are.
+Vec3 usual_axis(const TaskPlan::Cell& cell);
+
 /// Reads the reaches from trial-list.csv, by trial; none if its task measures none. Of a line that
 /// is cut off, the finger is empty and numbers are NaN from there on.
 std::vector<ReachPlan> read_reaches(const std::string& file);

@@ -5,26 +5,31 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <string>
 
 #include "hand/spec.h"
+#include "task/draws.h"
+#include "task/measures.h"
 #include "task/perturbation.h"
 #include "task/procedure_spec.h"
+#include "task/show.h"
 
 namespace dihaptic::task {
 
 /// What ends a state.
 enum class When {
-    inside,    ///< a finger's handle is in a region
-    outside,   ///< a finger's handle is not in a region
-    touched,   ///< a finger presses a body
-    released,  ///< no finger presses a body
-    gripped,   ///< two fingers press a body
-    lifted,    ///< a body is above its place by a height
-    still,     ///< the finger, or all fingers, are slower than a speed
-    key,       ///< the operator pressed a key
-    button,    ///< a button of a finger's device is held
-    trigger,   ///< a code came in from outside, on one of the rig's outlets
-    time,      ///< the state's time is over
+    inside,      ///< a finger's handle, a hand or a body is in a region
+    outside,     ///< it is not
+    touched,     ///< a finger presses a body
+    released,    ///< no finger presses a body
+    gripped,     ///< two fingers press a body
+    lifted,      ///< a body is above its place by a height
+    still,       ///< the finger, or all fingers, or a body, are slower than a speed
+    key,         ///< the operator pressed a key
+    button,      ///< a button of a finger's device is held
+    trigger,     ///< a code came in from outside, on one of the rig's outlets
+    time,        ///< the state's time is over
+    expression,  ///< what the text says (expression.h)
 };
 
 /// What is known of a condition: a row for each When, in its order.
@@ -41,25 +46,28 @@ struct WhenRow {
         key = 64,
         button = 128,
         code = 256,
-        comes = 512
+        comes = 512,
+        what = 1024,
+        count = 2048
     };
     const char* name;
     unsigned has;  ///< besides the fields of all
 };
 constexpr WhenRow kWhenTable[] = {
-    {"inside", WhenRow::region | WhenRow::any_finger},
-    {"outside", WhenRow::region | WhenRow::any_finger},
-    {"touched", WhenRow::body | WhenRow::any_finger},
-    {"released", WhenRow::body | WhenRow::any_finger},
-    {"gripped", WhenRow::body},
-    {"lifted", WhenRow::body | WhenRow::height},
-    {"still", WhenRow::any_finger | WhenRow::speed},
-    {"key", WhenRow::key | WhenRow::comes},
-    {"button", WhenRow::button | WhenRow::finger | WhenRow::comes},
-    {"trigger", WhenRow::code | WhenRow::comes},
+    {"inside", WhenRow::region | WhenRow::any_finger | WhenRow::what | WhenRow::count},
+    {"outside", WhenRow::region | WhenRow::any_finger | WhenRow::what | WhenRow::count},
+    {"touched", WhenRow::body | WhenRow::any_finger | WhenRow::count},
+    {"released", WhenRow::body | WhenRow::any_finger | WhenRow::count},
+    {"gripped", WhenRow::body | WhenRow::any_finger | WhenRow::count},
+    {"lifted", WhenRow::body | WhenRow::height | WhenRow::count},
+    {"still", WhenRow::any_finger | WhenRow::what | WhenRow::speed | WhenRow::count},
+    {"key", WhenRow::key | WhenRow::comes | WhenRow::count},
+    {"button", WhenRow::button | WhenRow::finger | WhenRow::comes | WhenRow::count},
+    {"trigger", WhenRow::code | WhenRow::comes | WhenRow::count},
     {"time", WhenRow::comes},
+    {"", WhenRow::count},
 };
-static_assert(std::size(kWhenTable) == static_cast<size_t>(When::time) + 1);
+static_assert(std::size(kWhenTable) == static_cast<size_t>(When::expression) + 1);
 constexpr auto enum_names(When) {
     std::array<const char*, std::size(kWhenTable)> out{};
     std::transform(std::begin(kWhenTable), std::end(kWhenTable), out.begin(),
@@ -67,46 +75,72 @@ constexpr auto enum_names(When) {
     return out;
 }
 
+/// A remedy for a key that only these conditions have (WhenRow::Has), where `given` is another.
+std::string conditions_with(const std::string& given, unsigned any);
+
 /// One way out of a state: to another, or out of the trial with an outcome.
 struct Exit {
     When when = When::time;
-    std::string region;  ///< inside, outside
-    bool shown = false;  ///< inside, outside: judged by where the finger is displayed
-    std::string body;    ///< touched, released, gripped, lifted
-    std::string finger;  ///< if empty, the first finger; touched, released: any finger; still: all
-                         ///< fingers; inside, outside: the middle of all
-    double height = 0.02;  ///< lifted [m]
-    double speed = 0.02;   ///< still [m/s]
-    double hold = 0;       ///< time for which the condition must hold without a break; with
-                           ///< When::time, the time in the state [s]
-    std::string key;       ///< one letter or digit
-    int button = 0;        ///< counted from 0
-    int code = 0;          ///< trigger; 0: any
-    std::string to;        ///< state
-    std::string outcome;   ///< ends the trial with this outcome
-    bool redo = false;     ///< the trial is to be done again
-    std::string feedback;  ///< shown for Task::feedback at least, then until the next message
+    std::string condition;  ///< text of an expression
+    std::string region;     ///< inside, outside
+    bool shown = false;     ///< inside, outside: judged by where the finger is displayed
+    std::string body;       ///< touched, released, gripped, lifted
+    std::string what;       ///< inside, outside, still: a body, in place of a finger
+    std::string finger;     ///< a finger or a hand; if empty, the first finger; touched, released:
+                            ///< any finger; gripped: any two; still: all fingers; inside, outside:
+                            ///< the middle of all
+    Formula height = 0.02;  ///< lifted [m]
+    Formula speed = 0.02;   ///< still [m/s]
+    int count = 1;          ///< the exit is taken when the condition is met for this time
+    Formula hold = 0;       ///< time for which the condition must hold without a break to be met;
+                            ///< with When::time, the time in the state [s]
+    std::string key;        ///< one letter or digit
+    int button = 0;         ///< counted from 0
+    int code = 0;           ///< trigger; 0: any
+    std::string to;         ///< state
+    std::string outcome;    ///< ends the trial with this outcome
+    bool redo = false;      ///< the trial is to be done again
+    std::string feedback;   ///< shown for Task::feedback at least, then until the next message
     Place place;
 
     /// Whether its condition has any of these (WhenRow::Has).
     bool has(unsigned any) const { return (kWhenTable[static_cast<size_t>(when)].has & any) != 0; }
+    /// Its condition as the file has it: a word of the table, or an expression.
+    std::string given() const {
+        return when == When::expression ? condition : std::string(enum_name(when));
+    }
+    void set_given(const std::string& text) {
+        when = When::expression;
+        condition = text;
+        for (size_t i = 0; i < static_cast<size_t>(When::expression); ++i) {
+            if (text == kWhenTable[i].name) when = static_cast<When>(i);
+        }
+    }
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("when", when, Field::text().required());
-        if (has(WhenRow::region)) {
-            v("region", region);
-            v("shown", shown);
-        }
-        if (has(WhenRow::body)) v("body", body);
-        if (has(WhenRow::finger | WhenRow::any_finger)) v("finger", finger);
-        if (has(WhenRow::height)) v("height", height, Field::length().within(1e-4, 10));
-        if (has(WhenRow::speed))
-            v("speed", speed, Field::of(Quantity::speed).positive().at_most(100));
+        std::string text = given();
+        v("when", text, Field::text().required());
+        set_given(text);
+        const auto of = [&](unsigned any, const char* name, auto& value, Field field = {}) {
+            if (has(any)) {
+                v(name, value, field);
+            } else if constexpr (requires { v.foreign(name, field, std::string()); }) {
+                v.foreign(name, field, conditions_with(text, any));
+            }
+        };
+        of(WhenRow::region, "region", region);
+        of(WhenRow::region, "shown", shown);
+        of(WhenRow::body, "body", body);
+        of(WhenRow::what, "what", what);
+        of(WhenRow::finger | WhenRow::any_finger, "finger", finger);
+        of(WhenRow::height, "height", height, Field::length().within(1e-4, 10));
+        of(WhenRow::speed, "speed", speed, Field::of(Quantity::speed).positive().at_most(100));
+        of(WhenRow::count, "count", count, Field::number().within(1, 10000));
         v("hold", hold, Field::of(Quantity::time).within(0, 3600));
-        if (has(WhenRow::key)) v("key", key);
-        if (has(WhenRow::button)) v("button", button, Field::number().within(0, 31));
-        if (has(WhenRow::code)) v("code", code, Field::number().within(0, 255));
+        of(WhenRow::key, "key", key);
+        of(WhenRow::button, "button", button, Field::number().within(0, 31));
+        of(WhenRow::code, "code", code, Field::number().within(0, 255));
         v("to", to);
         v("outcome", outcome);
         v("redo", redo);
@@ -133,12 +167,34 @@ struct HandStep {
     }
 };
 
+/// Where a state puts a body as it begins.
+struct StatePlace {
+    std::string body;
+    std::optional<Vec3> position;  ///< unset: where it is [m]
+    bool held = false;             ///< it is held still there while the state lasts
+    bool removed = false;          ///< it is out of reach and sight while the state lasts
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("body", body, Field::text().required());
+        v("position", position, Field::length().within(-100, 100));
+        v("held", held);
+        v("removed", removed);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
 struct State {
     std::string name;
-    std::vector<std::string> show;  ///< regions shown while the state lasts
-    bool perturbed = true;          ///< the trial's perturbation acts
+    Show show;
+    std::vector<LookSpec> look;
+    bool perturbed = true;  ///< the trial's perturbations act
     std::string message;
-    int marker = 0;              ///< event code on entering; 0: none
+    std::vector<std::string> lines;  ///< texts below the message, while the state lasts
+    bool countdown = false;          ///< a line says for how many seconds the state may last still
+    int marker = 0;                  ///< event code on entering; 0: none
+    std::vector<StatePlace> places;
     std::vector<Exit> exits;     ///< the first whose condition holds is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entering the state on
     Place place;
@@ -146,10 +202,14 @@ struct State {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
-        v("show", show);
+        show.visit_in(v);
+        v("look", look);
         v("perturbed", perturbed);
         v("message", message);
+        v("lines", lines);
+        v("countdown", countdown);
         v("marker", marker, Field::number().within(0, 255));
+        v("place", places);
         v("exits", exits);
         v("hand", hand);
         if constexpr (requires { v.place(); }) place = v.place();
@@ -159,7 +219,7 @@ struct State {
 /// Where a body begins the trial, in place of its position in the scene.
 struct BodyPlace {
     std::string body;
-    Vec3 position = Vec3::Zero();  ///< [m]
+    FormulaVec3 position;  ///< [m]
     Place place;
 
     template <class Visitor>
@@ -170,21 +230,39 @@ struct BodyPlace {
     }
 };
 
-/// How trials differ: regions and perturbations that replace those of the same name, and where
-/// bodies begin.
+/// A factor whose levels, crossed with those of the other factors, make the conditions.
+struct Factor {
+    std::string factor;               ///< name, in whose unit the levels are
+    std::vector<std::string> levels;  ///< numbers, or texts
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("factor", factor, Field::text().required());
+        v("levels", levels, Field::text().required());
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// How trials differ: regions and perturbations that replace those of the same name, where bodies
+/// begin, and how things look.
 struct Condition {
     std::string name;
+    Node factors;  ///< its level of each factor
     std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
+    std::vector<LookSpec> look;
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required());
+        v("factors", factors);
         v("places", places);
         v("regions", regions);
         v("perturbations", perturbations);
+        v("look", look);
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -194,22 +272,41 @@ constexpr auto enum_names(Order) {
     return std::array{"sequential", "shuffled", "latin_square", "counterbalanced"};
 }
 
-enum class TrialKind { practice, baseline, perturbed, catch_trial, error_clamp, washout };
+/// visual_clamp: what is shown cannot err, and the hand is free; force_channel: the hand is held to
+/// a line, and what it presses against is measured.
+enum class TrialKind {
+    practice,
+    baseline,
+    perturbed,
+    catch_trial,
+    visual_clamp,
+    force_channel,
+    washout
+};
 constexpr auto enum_names(TrialKind) {
-    return std::array{"practice", "baseline", "perturbed", "catch", "error_clamp", "washout"};
+    return std::array{"practice",     "baseline",      "perturbed", "catch",
+                      "visual_clamp", "force_channel", "washout"};
+}
+/// Both kinds of clamp, in files and recordings of earlier versions.
+constexpr OldName old_name(TrialKind) {
+    return {"error_clamp",
+            "Write visual_clamp, where what is shown follows a line (toward), or force_channel, "
+            "where the hand is held to one."};
 }
 
 /// Trials of another kind, inserted at random places of a block.
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    std::string perturb;  ///< perturbation; empty: none
+    int gap = 1;    ///< least number of other trials between two of them
+    Texts perturb;  ///< perturbations; empty: none
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind);
         v("count", count, Field::number().within(1, 10000).required());
+        v("gap", gap, Field::number().within(1, 10000));
         v("perturb", perturb);
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -221,10 +318,13 @@ struct Block {
     std::vector<std::string> conditions;  ///< empty: all
     int repeats = 1;                      ///< number of times that each condition is done
     Order order = Order::shuffled;        ///< order of the conditions, made anew in each repeat
-    std::string perturb;                  ///< a perturbation; empty: none
-    int ramp = 0;  ///< trials over which its share rises from 0 to 1; 0: at once
+    Texts perturb;                        ///< perturbations, which act together; empty: none
+    int ramp = 0;  ///< trials over which their share rises from 0 to 1; 0: at once
     std::vector<std::string> procedures;  ///< if given, the block consists of their trials, mixed
     std::vector<Insert> insert;
+    std::string until;            ///< a condition on variables, which ends the block; empty: none
+    double rest = 0;              ///< break before the block, unless it is the first [s]
+    std::vector<PageSpec> pages;  ///< shown before the block begins
     Place place;
 
     template <class Visitor>
@@ -238,6 +338,9 @@ struct Block {
         v("ramp", ramp, Field::number().within(0, 100000));
         v("procedures", procedures);
         v("insert", insert);
+        v("until", until);
+        v("rest", rest, Field::of(Quantity::time).within(0, 3600));
+        v("pages", pages);
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -282,12 +385,63 @@ struct ReachMeasure {
     }
 };
 
+/// Fingers that conditions judge together.
+struct Hand {
+    std::string name;
+    std::vector<std::string> fingers;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("fingers", fingers, Field::text().required());
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A number that the rules change between trials.
+struct Variable {
+    std::string name;
+    double start = 0;  ///< at the session's start, in the unit that the name ends in
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("start", start, Field::number().within(-1e9, 1e9));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// What becomes of a variable when a trial ends.
+struct Rule {
+    std::string when;  ///< a condition; empty: always
+    std::string set;   ///< variable
+    std::string to;    ///< expression
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("when", when);
+        v("set", set, Field::text().required());
+        v("to", to, Field::text().required());
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
 struct Task {
+    std::vector<Hand> hands;
+    std::vector<DrawSpec> draws;
+    std::vector<Variable> variables;
+    std::vector<Rule> after_trial;  ///< in their order
+    std::vector<Factor> cross;      ///< makes the conditions
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
-    std::vector<State> states;          ///< each trial begins in the first one
-    std::vector<Condition> conditions;  ///< empty: one condition without a name
-    std::vector<Condition> rounds;      ///< the blocks are done once in each round; empty: once
+    std::vector<State> states;  ///< each trial begins in the first one
+    /// Empty: one condition without a name. With factors that are crossed, what is to be added to
+    /// the conditions that they make.
+    std::vector<Condition> conditions;
+    std::vector<Condition> rounds;  ///< the blocks are done once in each round; empty: once
     Order round_order = Order::sequential;
     std::vector<ProcedureSpec> procedures;
     std::vector<Block> blocks;
@@ -295,11 +449,20 @@ struct Task {
     int most_attempts = 3;  ///< largest number of attempts at a trial
     /// Time for which a feedback stays: no message replaces it, and no trial begins [s].
     double feedback = 1;
+    bool feedback_beside = false;    ///< it is a line below the message, for this time
+    std::vector<std::string> lines;  ///< texts below the message, throughout
     std::optional<ReachMeasure> reach;
+    std::vector<std::string> measures;  ///< names of kMeasureTable
+    std::optional<Movement> movement;   ///< that they are taken of
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("hands", hands);
+        v("draws", draws);
+        v("variables", variables);
+        v("after_trial", after_trial);
+        v("cross", cross);
         v("regions", regions);
         v("perturbations", perturbations);
         v("states", states, Field::text().required());
@@ -311,7 +474,11 @@ struct Task {
         v("redo", redo);
         v("most_attempts", most_attempts, Field::number().within(1, 100));
         v("feedback", feedback, Field::of(Quantity::time).within(0, 60));
+        v("feedback_beside", feedback_beside);
+        v("lines", lines);
         v("reach", reach);
+        v("measures", measures);
+        v("movement", movement);
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

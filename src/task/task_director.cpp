@@ -1,10 +1,9 @@
 #include "task/task_director.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <utility>
 
-#include "servo/displayed.h"
 #include "task/clearance.h"
 
 namespace dihaptic::task {
@@ -17,30 +16,48 @@ bool same_pose(const Pose& a, const Pose& b) noexcept {
     return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
 }
 
-/// Position of the hand, by which the simulated hand's steps and a person's eyes go.
-Vec3 middle(std::span<const haptics::Handle> handles) noexcept {
-    Vec3 sum = Vec3::Zero();
-    for (const haptics::Handle& handle : handles) sum += handle.p_WH;
-    return sum / static_cast<double>(handles.size());
+/// Whether a finger presses the body.
+bool pressed(const servo::Frame& last, int body) noexcept {
+    const auto bodies = static_cast<int>(last.bodies.size());
+    return std::any_of(
+        last.contacts.begin(), last.contacts.end(), [&](const servo::ContactFrame& contact) {
+            const bool of_body = contact.a == body || contact.b == body;
+            return contact.normal_force > 0 && of_body && std::max(contact.a, contact.b) >= bodies;
+        });
 }
 
-/// Whether the finger is slower than `speed` [m/s]; -1: whether all fingers are.
-bool slower(std::span<const haptics::Handle> handles, int finger, double speed) noexcept {
-    for (size_t i = 0; i < handles.size(); ++i) {
-        const bool counts = finger < 0 || i == static_cast<size_t>(finger);
-        if (counts && handles[i].v_WH.norm() >= speed) return false;
+/// A time to the nanosecond: sums of ticks are off by their rounding.
+double exact(double time) noexcept {
+    return std::round(time * 1e9) / 1e9;
+}
+
+/// Where the body is, or is put in this tick.
+Pose pose_of(int body, const servo::Frame& last, const servo::Commands& commands) noexcept {
+    for (const servo::PlacementFrame& placed : commands.task.placements) {
+        if (placed.body == body) return placed.X_WB;
     }
-    return true;
+    return last.bodies[static_cast<size_t>(body)].X_WB;
 }
 
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
                            const std::vector<Attempt>& done)
-    : plan_(plan), tick_(tick), queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed) {
+    : plan_(plan),
+      tick_(tick),
+      queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed),
+      numbers_(plan),
+      variables_(plan.start),
+      motions_(plan.bodies, plan.finger_radius.size(), plan.longest_delay, tick),
+      began_(plan.task.perturbations.size(), kNever),
+      displayer_(plan, seed, tick),
+      opening_(plan) {
     for (const ProcedureSpec& spec : plan.task.procedures)
         procedures_.push_back(make_procedure(spec));
+    skip_done();
     for (const Attempt& attempt : done) {
+        for (size_t i = 0; i < attempt.variables.size(); ++i)
+            variables_[i].value = attempt.variables[i];
         if (!queue_.go_to(attempt.trial, attempt.attempt) || attempt.outcome < 0) continue;
         take_answer(attempt.outcome);
         queue_.finish(plan.outcomes[static_cast<size_t>(attempt.outcome)].redo);
@@ -48,13 +65,30 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     }
     share_ = static_cast<double>(queue_.done()) / queue_.all();
     size_t ways = 0;
-    for (const TaskPlan::Stage& stage : plan.stages) ways = std::max(ways, stage.ways.size());
-    since_.assign(ways, kNever);
+    size_t puts = 0;
+    for (const TaskPlan::Stage& stage : plan.stages) {
+        ways = std::max(ways, stage.ways.size());
+        puts = std::max(puts, stage.puts.size());
+    }
+    judged_.assign(ways, {});
+    is_put_.assign(puts, 0);
+    put_at_.resize(puts);
 }
 
 void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
                               servo::Commands& commands) noexcept {
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
+    motions_.add(last, handles);
+    displayer_.see(last);
+    // texts name quantities between trials too
+    numbers_.quantities().update(last, handles);
+    direct(last, now, commands);
+    displayer_.order(now, commands.task);
+    say(now, commands.task);
+}
+
+void TaskDirector::direct(const servo::Frame& last, double now,
+                          servo::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
     // taken in every tick, so that input between trials counts for no trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
@@ -68,10 +102,10 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         return;
     }
     if (state_ < 0) {
-        begin(last, now, commands);
-    } else if (const TaskPlan::Way* way = way_out(last, handles, input, now)) {
+        begin(last, input.key, now, commands);
+    } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
         if (way->feedback >= 0) {
-            message_ = way->feedback;
+            (plan_.task.feedback_beside ? feedback_ : message_) = way->feedback;
             next_message_ = -1;
             feedback_until_ = now + plan_.task.feedback - tick_ / 2;
         }
@@ -81,89 +115,110 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
         }
         enter(way->state, now, commands);
     }
-    order(last, handles, commands);
+    put_bodies(last, commands);
+    order(now, commands);
 }
 
-void TaskDirector::begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept {
+void TaskDirector::begin(const servo::Frame& last, char key, double now,
+                         servo::Commands& commands) noexcept {
     if (now < feedback_until_) return;  // the feedback is still being read
+    if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
+    if (!std::exchange(begun_, true)) numbers_.begin(queue_.trial(), queue_.attempt(), variables_);
     if (!clear(last)) {
         message_ = plan_.move_away;
         return;
     }
-    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
+    for (const TaskPlan::Home& home : numbers_.cell().homes) {
         const bool there =
             last.sequence >= 0 &&
             (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
              last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
-        if (!there) add(commands.task.placements, {home.body, home.X_WB});
+        if (!there) put(home.body, home.X_WB, commands);
     }
     if (message_ == plan_.move_away) message_ = -1;
     enter(0, now, commands);
 }
 
-/// Whether bodies can be put back. A body put where a finger is would push the finger out; a body
-/// taken from between fingers that press it would let them clap together.
+/// Whether all bodies can be put back.
 bool TaskDirector::clear(const servo::Frame& last) const noexcept {
+    const auto& homes = numbers_.cell().homes;
+    return std::all_of(homes.begin(), homes.end(),
+                       [&](const TaskPlan::Home& home) { return clear(last, home); });
+}
+
+/// Whether a body can be put there. A body put where a finger is would push the finger out; a body
+/// taken from between fingers that press it would let them clap together.
+bool TaskDirector::clear(const servo::Frame& last, const TaskPlan::Home& home) const noexcept {
     if (last.sequence < 0) return true;
-    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
-        if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) continue;
-        if (pressed(last, home.body, -1, 1)) return false;
-        for (size_t i = 0; i < last.fingers.size(); ++i) {
-            if (in_the_way(home.X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
-                return false;
-        }
+    if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) return true;
+    if (pressed(last, home.body)) return false;
+    for (size_t i = 0; i < last.fingers.size(); ++i) {
+        if (in_the_way(home.X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
+            return false;
     }
     return true;
 }
 
+/// Orders that the body be put there in this tick, whatever was ordered of it before.
+void TaskDirector::put(int body, const Pose& X_WB, servo::Commands& commands) noexcept {
+    std::vector<servo::PlacementFrame>& list = commands.task.placements;
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const auto& placed) { return placed.body == body; });
+    if (same == list.end()) {
+        add(list, {body, X_WB});
+    } else {
+        same->X_WB = X_WB;
+    }
+    motions_.put(body, X_WB.p);
+}
+
 void TaskDirector::enter(int state, double now, servo::Commands& commands) noexcept {
+    if (state_ < 0) trial_began_ = now;
+    const TaskPlan::Cell& cell = numbers_.cell();
+    for (const int i : trial().perturb) {
+        if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
+    }
+    displayer_.enter(plan_.stages[static_cast<size_t>(state)], cell, state_ < 0);
     state_ = state;
     entered_ = now;
-    std::fill(since_.begin(), since_.end(), kNever);
+    std::fill(judged_.begin(), judged_.end(), Judged{});
+    std::fill(is_put_.begin(), is_put_.end(), 0);
     const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
-    if (stage.message >= 0) (now < feedback_until_ ? next_message_ : message_) = stage.message;
+    const bool waits = now < feedback_until_ && !plan_.task.feedback_beside;
+    if (stage.message >= 0) (waits ? next_message_ : message_) = stage.message;
     commands.task.marker = stage.marker;
 }
 
-const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last,
-                                           std::span<const haptics::Handle> handles,
-                                           const Input& input, double now) noexcept {
+const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last, const Input& input,
+                                           double now) noexcept {
     const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
+    Quantities& quantities = numbers_.quantities();
+    quantities.set(Quantities::kTimeInState, exact(now - entered_));
+    quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
     for (size_t i = 0; i < ways.size(); ++i) {
         const TaskPlan::Way& way = ways[i];
         // half a tick of tolerance, because times are sums of ticks, which round
         if (way.exit.when == When::time) {
-            if (now - entered_ >= way.exit.hold - tick_ / 2) return &way;
+            if (now - entered_ >= numbers_.of(way.exit.hold) - tick_ / 2) return &way;
             continue;
         }
-        if (!holds(way, last, handles, input)) {
-            since_[i] = kNever;
+        Judged& judged = judged_[i];
+        if (!holds(way, last, input)) {
+            judged.since = kNever;
+            judged.met = false;
             continue;
         }
-        if (since_[i] == kNever) since_[i] = now;
-        if (now - since_[i] >= way.exit.hold - tick_ / 2) return &way;
+        if (judged.since == kNever) judged.since = now;
+        if (judged.met || now - judged.since < numbers_.of(way.exit.hold) - tick_ / 2) continue;
+        judged.met = true;
+        if (++judged.count >= way.exit.count) return &way;
     }
     return nullptr;
 }
 
 bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
-                         std::span<const haptics::Handle> handles,
                          const Input& input) const noexcept {
     switch (way.exit.when) {
-        case When::inside:
-            return inside(way, last, handles);
-        case When::outside:
-            return !inside(way, last, handles);
-        case When::touched:
-            return pressed(last, way.body, way.finger, 1);
-        case When::released:
-            return !pressed(last, way.body, way.finger, 1);
-        case When::gripped:
-            return pressed(last, way.body, -1, 2);
-        case When::lifted:
-            return lifted(way, last);
-        case When::still:
-            return slower(handles, way.finger, way.exit.speed);
         case When::key:
             return input.key == way.exit.key.front();
         case When::button: {
@@ -173,44 +228,9 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
         case When::trigger:
             return input.trigger == kAnyTrigger ||
                    (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
-        case When::time:
-            break;
+        default:
+            return way.condition(numbers_.values()) != 0;
     }
-    return false;
-}
-
-bool TaskDirector::inside(const TaskPlan::Way& way, const servo::Frame& last,
-                          std::span<const haptics::Handle> handles) const noexcept {
-    const TaskPlan::Cell& cell = plan_.cell(trial());
-    const auto region = static_cast<size_t>(way.region);
-    const Vec3 hand_W =
-        way.finger < 0 ? middle(handles) : handles[static_cast<size_t>(way.finger)].p_WH;
-    const servo::VisualMap* map =
-        way.exit.shown ? servo::map_of(last, servo::kMovesProxies) : nullptr;
-    const Vec3 p_W = map != nullptr ? map->displayed(hand_W) : hand_W;
-    return (p_W - cell.p_W[region]).norm() <= cell.radius[region];
-}
-
-bool TaskDirector::lifted(const TaskPlan::Way& way, const servo::Frame& last) const noexcept {
-    for (const TaskPlan::Home& home : plan_.cell(trial()).homes) {
-        if (home.body != way.body) continue;
-        const double z = last.bodies[static_cast<size_t>(way.body)].X_WB.p.z();
-        return z - home.X_WB.p.z() >= way.exit.height;
-    }
-    return false;
-}
-
-/// Whether at least `fingers` fingers press the body. Counts only `finger`, unless it is -1.
-bool TaskDirector::pressed(const servo::Frame& last, int body, int finger,
-                           int fingers) const noexcept {
-    const auto scene_bodies = static_cast<int>(last.bodies.size());
-    uint32_t which = 0;
-    for (const servo::ContactFrame& contact : last.contacts) {
-        if (contact.normal_force <= 0 || (contact.a != body && contact.b != body)) continue;
-        const int other = (contact.a == body ? contact.b : contact.a) - scene_bodies;
-        if (other >= 0 && other < 32 && (finger < 0 || other == finger)) which |= 1u << other;
-    }
-    return std::popcount(which) >= fingers;
 }
 
 void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept {
@@ -222,10 +242,13 @@ void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& c
     commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;
     commands.task.message = message_;
+    follow_rules(outcome);
+    commands.task.variables = variables_;
     take_answer(outcome);
     queue_.finish(redo);
     skip_done();
     state_ = -1;
+    begun_ = false;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
     commands.stop = queue_.empty() && now >= feedback_until_;
 }
@@ -238,12 +261,101 @@ void TaskDirector::order_end(double now, servo::Commands& commands) const noexce
     commands.phase = 0;
     commands.task.attempt = last_attempt_;
     commands.task.message = message_;
+    commands.task.variables = variables_;
+}
+
+void TaskDirector::say(double now, servo::TaskFrame& out) const noexcept {
+    if (const int page = opening_.page(); page >= 0) {
+        out.page = page;
+        out.message = plan_.pages[static_cast<size_t>(page)].message;
+        say(out.message, now, out);
+        return;
+    }
+    const bool rests = opening_.on();
+    if (rests) out.message = plan_.rest;
+    say(out.message, now, out);
+    const auto add_line = [&](int message) {
+        add(out.lines, {message});
+        say(message, now, out);
+    };
+    if (feedback_ >= 0 && now < feedback_until_) add_line(feedback_);
+    if (rests) add_line(plan_.countdown);
+    if (state_ >= 0) {
+        for (const int line : plan_.stages[static_cast<size_t>(state_)].lines) add_line(line);
+    }
+    for (const int line : plan_.lines) add_line(line);
+}
+
+void TaskDirector::say(int message, double now, servo::TaskFrame& out) const noexcept {
+    if (message < 0) return;
+    for (const TextNumber& number : plan_.numbers[static_cast<size_t>(message)]) {
+        add(out.numbers, {number.quantity.empty() ? value_of(number.figure, now)
+                                                  : number.quantity(numbers_.values())});
+    }
+}
+
+double TaskDirector::value_of(Figure figure, double now) const noexcept {
+    // between trials a text is about the one that ended, a page about the one that comes
+    const bool ended = state_ < 0 && !opening_.on() && last_trial_ > 0;
+    if (queue_.empty() && !ended) return kUnmeasured;
+    const int number = ended ? last_trial_ : queue_.trial() + 1;
+    const Trial& trial = plan_.trials[static_cast<size_t>(number - 1)];
+    switch (figure) {
+        case Figure::trial_num:
+            return number;
+        case Figure::trials:
+            return static_cast<double>(plan_.trials.size());
+        case Figure::trials_left:
+            return queue_.all() - queue_.done();
+        case Figure::trial_num_in_block:
+            return trial.in_block;
+        case Figure::block_num:
+            return trial.number;
+        case Figure::blocks:
+            return plan_.trials.back().number;
+        case Figure::attempt:
+            return ended ? last_attempt_ : queue_.attempt();
+        case Figure::countdown:
+            return countdown(now);
+    }
+    return kUnmeasured;
+}
+
+/// Half a tick of tolerance, because times are sums of ticks, which round.
+double TaskDirector::countdown(double now) const noexcept {
+    const double rest = opening_.rest_left(now);
+    if (rest >= 0) return std::ceil(rest - tick_ / 2);
+    if (state_ < 0) return kUnmeasured;
+    for (const TaskPlan::Way& way : plan_.stages[static_cast<size_t>(state_)].ways) {
+        if (way.exit.when == When::time)
+            return std::max(0.0,
+                            std::ceil(numbers_.of(way.exit.hold) - (now - entered_) - tick_ / 2));
+    }
+    return kUnmeasured;
 }
 
 void TaskDirector::skip_done() noexcept {
-    while (!queue_.empty() && trial().procedure >= 0 &&
-           procedures_[static_cast<size_t>(trial().procedure)].done())
-        queue_.finish(false);
+    numbers_.set(variables_);
+    while (!queue_.empty() && is_done()) queue_.finish(false);
+}
+
+bool TaskDirector::is_done() noexcept {
+    if (numbers_.ends_before(queue_.trial())) return true;
+    return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
+}
+
+void TaskDirector::follow_rules(int outcome) noexcept {
+    // a trial that is skipped before it began has its numbers all the same
+    if (!std::exchange(begun_, true)) numbers_.begin(queue_.trial(), queue_.attempt(), variables_);
+    Quantities& quantities = numbers_.quantities();
+    quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
+    for (const TaskPlan::Change& change : plan_.changes) {
+        if (change.when && (*change.when)(quantities.values()) == 0) continue;
+        const double value = change.to.value(quantities.values());
+        if (!std::isfinite(value)) continue;
+        variables_[change.variable].value = value;
+        numbers_.set(variables_);
+    }
 }
 
 /// The level that the trial's procedure chose, within the range of the shares.
@@ -268,24 +380,47 @@ void TaskDirector::take_answer(int outcome) noexcept {
     if (yes || name == plan_.task.procedures[i].no) procedures_[i].answer(level(), yes);
 }
 
-void TaskDirector::order(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                         servo::Commands& commands) const noexcept {
+/// Puts the state's bodies, each as soon as no finger presses it or is in its way, and keeps in
+/// place those that stay.
+void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept {
+    if (state_ < 0) return;
+    const auto& puts = plan_.stages[static_cast<size_t>(state_)].puts;
+    for (size_t i = 0; i < puts.size(); ++i) {
+        const TaskPlan::Put& wanted = puts[i];
+        const int body = wanted.home.body;
+        if (is_put_[i] && !wanted.stays) continue;
+        if (!is_put_[i]) {
+            // before the first Frame nobody knows where fingers are
+            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home))) continue;
+            is_put_[i] = 1;
+            put_at_[i] = wanted.moves ? wanted.home.X_WB : pose_of(body, last, commands);
+        }
+        put(body, put_at_[i], commands);
+    }
+}
+
+void TaskDirector::order(double now, servo::Commands& commands) const noexcept {
     commands.trial = queue_.trial() + 1;
     commands.phase = state_ + 1;
     servo::TaskFrame& out = commands.task;
     out.attempt = queue_.attempt();
     out.message = message_;
+    out.variables = variables_;
     if (state_ < 0) return;
     const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state_)];
-    const TaskPlan::Cell& cell = plan_.cell(trial());
+    const TaskPlan::Cell& cell = numbers_.cell();
     for (size_t i = 0; i < cell.p_W.size(); ++i) {
         if (stage.shown >> i & 1u)
             add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.radius[i]});
     }
-    if (stage.perturbed && trial().perturb >= 0) {
+    for (const int p : trial().perturb) {
+        const auto i = static_cast<size_t>(p);
+        if (!cell.acts(p, state_)) continue;
+        const double part = cell.perturbations[i].share_at(now - began_[i]);
+        if (part == 0) continue;  // its profile has not begun, or is over
+        // the trial's share: what the profile makes of it shows in what is ordered
         out.share = share_of_trial();
-        cell.perturbations[static_cast<size_t>(trial().perturb)].order(out.share, cell.p_W, last,
-                                                                       handles, out);
+        cell.perturbations[i].order(part * out.share, cell.p_W, motions_, out);
     }
 }
 

@@ -6,7 +6,9 @@
 #include <atomic>
 
 #include "servo/servo.h"
-#include "task/task_plan.h"
+#include "task/displayer.h"
+#include "task/opening.h"
+#include "task/trial_numbers.h"
 
 namespace dihaptic::task {
 
@@ -31,15 +33,22 @@ class TaskDirector {
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
         state_ = -1;
+        begun_ = false;
+        motions_.forget();
     }
+    /// The numbers of the trials so far: whether formulas of theirs had to be kept within bounds.
+    const TrialNumbers& numbers() const noexcept { return numbers_; }
     /// Share of the trials that are done, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const servo::Frame& last) const noexcept;
-    /// Begins the next trial once the last feedback has been read and bodies can be put back.
-    void begin(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
+    bool clear(const servo::Frame& last, const TaskPlan::Home& home) const noexcept;
+    void put(int body, const Pose& X_WB, servo::Commands& commands) noexcept;
+    /// Begins the next trial once the last feedback and its block's pages have been read and bodies
+    /// can be put back.
+    void begin(const servo::Frame& last, char key, double now, servo::Commands& commands) noexcept;
     void enter(int state, double now, servo::Commands& commands) noexcept;
     /// What came in from outside since the last tick.
     struct Input {
@@ -47,20 +56,28 @@ class TaskDirector {
         int trigger;  // 0: none
     };
     bool holds(const TaskPlan::Way& way, const servo::Frame& last,
-               std::span<const haptics::Handle> handles, const Input& input) const noexcept;
-    bool inside(const TaskPlan::Way& way, const servo::Frame& last,
-                std::span<const haptics::Handle> handles) const noexcept;
-    bool lifted(const TaskPlan::Way& way, const servo::Frame& last) const noexcept;
-    bool pressed(const servo::Frame& last, int body, int finger, int fingers) const noexcept;
-    const TaskPlan::Way* way_out(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                                 const Input& input, double now) noexcept;
+               const Input& input) const noexcept;
+    const TaskPlan::Way* way_out(const servo::Frame& last, const Input& input, double now) noexcept;
     void finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept;
     void order_end(double now, servo::Commands& commands) const noexcept;
-    void order(const servo::Frame& last, std::span<const haptics::Handle> handles,
-               servo::Commands& commands) const noexcept;
+    void order(double now, servo::Commands& commands) const noexcept;
+    void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
 
-    /// Skips trials whose procedure is done: it may need fewer trials than the list has.
+    /// As operator(), but for how things look and what texts say.
+    void direct(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
+    /// Orders the texts, once the message is ordered, or the page in their place.
+    void say(double now, servo::TaskFrame& out) const noexcept;
+    void say(int message, double now, servo::TaskFrame& out) const noexcept;
+    /// Number in a text; NaN if there is none now.
+    double value_of(Figure figure, double now) const noexcept;
+    double countdown(double now) const noexcept;
+
+    /// Skips trials whose procedure is done, or whose block: they may need fewer trials than the
+    /// list has.
     void skip_done() noexcept;
+    bool is_done() noexcept;
+    /// Changes the variables by the rules for the trial that ends.
+    void follow_rules(int outcome) noexcept;
     double level() const noexcept;
     double share_of_trial() const noexcept;
     void take_answer(int outcome) noexcept;
@@ -69,15 +86,32 @@ class TaskDirector {
     double tick_;
     std::vector<Procedure> procedures_;
     TrialQueue queue_;
-    int state_ = -1;      // -1: between trials
-    double entered_ = 0;  // [s]
+    TrialNumbers numbers_;
+    std::vector<servo::VariableFrame> variables_;
+    bool begun_ = false;      // the trial's numbers are resolved
+    int state_ = -1;          // -1: between trials
+    double trial_began_ = 0;  // when the trial entered its first state [s]
+    double entered_ = 0;      // [s]
     int message_ = -1;
     int next_message_ = -1;       // shown once the feedback has been read
+    int feedback_ = -1;           // line below the message
     double feedback_until_ = -1;  // [s]
     int last_trial_ = 0;          // last trial that ended, from 1; 0: none yet
     int last_attempt_ = 0;
-    std::vector<double>
-        since_;  // by way: when its condition began to hold; -1: it does not hold [s]
+    /// Of a way: its condition.
+    struct Judged {
+        double since = -1;  // when it began to hold; -1: it does not hold [s]
+        bool met = false;   // it has held long enough since then
+        int count = 0;      // how often it was met in the state
+    };
+    std::vector<Judged> judged_;
+    std::vector<char> is_put_;  // by the state's puts: whether it could be done yet
+    std::vector<Pose> put_at_;  // and where
+    Motions motions_;
+    // by perturbation: when a state in which it acts was entered from one in which it does not [s]
+    std::vector<double> began_;
+    Displayer displayer_;
+    Opening opening_;
     std::atomic<char> key_{0};
     std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};

@@ -10,6 +10,7 @@ namespace dihaptic::task {
 TaskHand::TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
                    const std::vector<std::string>& fingers)
     : plan_(std::move(plan)),
+      numbers_(*plan_),
       places_(hand::finger_places(spec, fingers)),
       start_{spec.centre, spec.aperture} {
     for (const hand::FingerPlace& place : places_) {
@@ -23,6 +24,7 @@ TaskHand::TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& s
 }
 
 void TaskHand::restart() {
+    numbers_.restart();
     trial_ = attempt_ = 0;
     phase_ = -1;
     step_ = 0;
@@ -50,6 +52,8 @@ hand::FingerTarget TaskHand::do_target(int finger, double t) const noexcept {
 
 void TaskHand::do_see(const servo::Frame& frame) noexcept {
     const double now = seconds(frame.time);
+    if (frame.phase != kBetween)
+        numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables);
     // between trials the hand still ends the steps that it has begun
     const bool between = frame.phase == kBetween || frame.trial < 1;
     const bool entered = !between && (frame.trial != trial_ || frame.phase != phase_ ||
@@ -73,13 +77,12 @@ void TaskHand::do_see(const servo::Frame& frame) noexcept {
 
 void TaskHand::begin_step(double now) noexcept {
     const TaskPlan::Step& next = plan_->stages[static_cast<size_t>(phase_ - 1)].hand[step_];
-    const Trial& trial = plan_->trials[static_cast<size_t>(trial_ - 1)];
     from_ = posture(now);
     begun_ = now;
     duration_ = next.step.duration;
     to_.aperture = next.step.aperture.value_or(from_.aperture);
     to_.centre =
-        next.reach < 0 ? from_.centre : plan_->cell(trial).p_W[static_cast<size_t>(next.reach)];
+        next.reach < 0 ? from_.centre : numbers_.cell().p_W[static_cast<size_t>(next.reach)];
     to_.centre += next.step.move;
 }
 

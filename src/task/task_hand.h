@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "task/seeing_driver.h"
-#include "task/task_plan.h"
+#include "task/trial_numbers.h"
 
 namespace dihaptic::task {
 
@@ -32,6 +32,7 @@ class TaskHand final : public SeeingDriver {
     Posture posture(double t) const noexcept;
 
     std::shared_ptr<const TaskPlan> plan_;
+    TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
     Posture start_;
     std::vector<Phase> phases_;

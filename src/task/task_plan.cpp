@@ -1,29 +1,28 @@
 #include "task/task_plan.h"
 
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <set>
 
 #include "task/clearance.h"
+#include "task/factors.h"
 #include "task/lookup.h"
+#include "task/plan_formulas.h"
 #include "task/reach_plan.h"
+#include "task/seen_plan.h"
 
 namespace dihaptic::task {
 namespace {
 
 constexpr size_t kMostStates = 64;
 constexpr size_t kMostTrials = 100000;
+constexpr size_t kMostPerturbations = 8;  // of a trial
+/// Where bodies are that a state removes: beyond any plane, and far from each other [m].
+constexpr double kAway = 1000;
+constexpr double kApart = 100;
 constexpr const char* kMoveAway = "Take the hands off the objects";
 constexpr const char* kSkipped = "skipped";
-
-/// Index of a text in a list, to which it is added when new; -1 for an empty text.
-int listed(std::vector<std::string>& list, const std::string& text) {
-    if (text.empty()) return -1;
-    const auto found = std::find(list.begin(), list.end(), text);
-    if (found != list.end()) return static_cast<int>(found - list.begin());
-    list.push_back(text);
-    return static_cast<int>(list.size()) - 1;
-}
 
 /// The list, with each item replaced by the one of the same name in `others`, if there is one.
 template <class T>
@@ -36,8 +35,54 @@ std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     return list;
 }
 
-bool is_key(const std::string& text) {
-    return text.size() == 1 && std::isalnum(static_cast<unsigned char>(text[0])) != 0;
+Vec3 vector(const FormulaVec3& v) {
+    return {v[0].value, v[1].value, v[2].value};
+}
+
+/// A name as an expression has it.
+std::string quoted(const std::string& name) {
+    std::string out = "\"";
+    for (const char c : name) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+/// A number of a condition as an expression has it.
+std::string as_expression(const Formula& number, const TaskPlan& plan, const char* unit) {
+    if (number.index < 0) return fmt::format("{}", number.value);
+    const CompiledFormula& compiled = plan.formulas[static_cast<size_t>(number.index)];
+    if (compiled.expression.dimension() != Dimension{}) return fmt::format("({})", number.text);
+    return fmt::format("({}) * {} {}", number.text, number.to_si, unit);
+}
+
+/// What a condition of the table says, as an expression; "" for what no expression can say.
+std::string as_expression(const Exit& exit, const TaskPlan& plan) {
+    const std::string who = quoted(exit.what.empty() ? exit.finger : exit.what);
+    const std::string body = quoted(exit.body);
+    switch (exit.when) {
+        case When::inside:
+        case When::outside:
+            return fmt::format("{}({}{}, {})", enum_name(exit.when), who,
+                               exit.shown ? ".shown" : "", quoted(exit.region));
+        case When::touched:
+        case When::released:
+        case When::gripped:
+            return fmt::format("{}({}, {})", enum_name(exit.when), body, who);
+        case When::lifted:
+            return fmt::format("lifted({}, {})", body, as_expression(exit.height, plan, "m"));
+        case When::still:
+            return fmt::format("still({}, {})", who, as_expression(exit.speed, plan, "m_s"));
+        case When::expression:
+            return exit.condition;
+        case When::key:
+        case When::button:
+        case When::trigger:
+        case When::time:
+            break;
+    }
+    return "";
 }
 
 class Planner {
@@ -47,27 +92,43 @@ class Planner {
           diagnostics_(diagnostics),
           regions_(names_of(task.regions)),
           bodies_(names_of(scene.bodies)),
-          fingers_(scene::finger_names(scene)) {
-        plan_.task = task;
+          fingers_(scene::finger_names(scene)),
+          plan_(plan_of(task)),
+          seen_(plan_, scene, diagnostics) {
+        plan_.quantities = Quantities({fingers_, bodies_, regions_, hands()});
+        // fixed bodies stay there; a trial sets where the others begin
+        for (size_t i = 0; i < bodies_.size(); ++i)
+            plan_.quantities.set(plan_.quantities.start(i), scene.bodies[i].pose().p);
+        plan_.bodies = scene.bodies.size();
     }
 
     TaskPlan plan() {
+        cross_factors(plan_.task, diagnostics_);
         check_lists();
-        plan_.move_away = listed(plan_.messages, kMoveAway);
+        plan_formulas(plan_, diagnostics_);
+        plan_.move_away = seen_.text(kMoveAway, plan_.task.place, "message");
         for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
         plan_.skipped = static_cast<int>(plan_.outcomes.size());
         plan_.outcomes.push_back({kSkipped, false});
         check_ways();
         make_cells();
+        seen_.plan_task();
         for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
         for (const Block& block : plan_.task.blocks) check_block(block);
         check_reach();
+        plan_rules(plan_, diagnostics_);
+        check_measures(plan_, scene_, diagnostics_);
         for (const scene::Finger& finger : scene_.fingers)
             plan_.finger_radius.push_back(reach_of(finger));
         return std::move(plan_);
     }
 
   private:
+    static TaskPlan plan_of(const Task& task) {
+        TaskPlan out;
+        out.task = task;
+        return out;
+    }
     void error(const Place& place, const std::string& key, const std::string& what,
                const std::string& remedy) {
         diagnostics_.error(place, key, what, remedy);
@@ -75,10 +136,13 @@ class Planner {
 
     void check_lists() {
         const Task& task = plan_.task;
+        check_names(task.hands, "hands", diagnostics_);
         check_names(task.regions, "regions", diagnostics_);
         check_names(task.perturbations, "perturbations", diagnostics_);
         check_names(task.states, "states", diagnostics_);
         check_names(task.conditions, "conditions", diagnostics_);
+        check_names(task.draws, "draws", diagnostics_);
+        check_names(task.variables, "variables", diagnostics_);
         check_names(task.rounds, "rounds", diagnostics_);
         check_names(task.procedures, "procedures", diagnostics_);
         check_names(task.blocks, "blocks", diagnostics_);
@@ -120,12 +184,10 @@ class Planner {
 
     TaskPlan::Stage stage(const State& state) {
         TaskPlan::Stage out;
-        for (const std::string& name : state.show) {
-            if (const int i = region(name, state.place, "show"); i >= 0) out.shown |= 1u << i;
-        }
-        out.perturbed = state.perturbed;
-        out.message = listed(plan_.messages, state.message);
+        out.message = seen_.text(state.message, state.place, "message");
+        seen_.plan_state(state, out);
         out.marker = state.marker;
+        for (const StatePlace& place : state.places) add_put(place, out.puts);
         for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
         for (const HandStep& step : state.hand) {
             const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
@@ -138,11 +200,61 @@ class Planner {
         return out;
     }
 
+    std::vector<Quantities::Names::Hand> hands() {
+        std::vector<Quantities::Names::Hand> out;
+        for (const Hand& hand : plan_.task.hands) {
+            auto& made = out.emplace_back(Quantities::Names::Hand{hand.name, 0});
+            for (const std::string& finger : hand.fingers) {
+                const int i = look_up(fingers_, finger, hand.place, "fingers",
+                                      "none of the scene's fingers", diagnostics_);
+                if (i >= 0) made.fingers |= 1u << i;
+            }
+            const auto is = [&](const std::string& other) { return other == hand.name; };
+            if (std::any_of(fingers_.begin(), fingers_.end(), is) ||
+                std::any_of(bodies_.begin(), bodies_.end(), is))
+                error(hand.place, "name",
+                      fmt::format("'{}' is a finger or a body of the scene", hand.name),
+                      "Call the hand something else.");
+            if (hand.fingers.empty())
+                error(hand.place, "fingers", "there are none", "Name one at least.");
+        }
+        return out;
+    }
+
+    void add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
+        const int index =
+            look_up(bodies_, place.body, place.place, "body", "no body", diagnostics_);
+        if (index < 0) return;
+        const scene::Body& body = scene_.bodies[static_cast<size_t>(index)];
+        if (!body.moves_at_all())
+            error(place.place, "body", fmt::format("'{}' cannot move", place.body),
+                  "Name a body that can.");
+        if (!place.position && !place.held && !place.removed)
+            error(place.place, "position", "what becomes of the body is missing",
+                  "Add position_mm, held: yes or removed: yes.");
+        if (place.removed && (place.position || place.held))
+            error(place.place, "removed", "a body that is removed is nowhere else",
+                  "Leave out position_mm and held.");
+        for (const TaskPlan::Put& put : puts) {
+            if (put.home.body == index)
+                error(place.place, "body", fmt::format("'{}' is put twice", place.body),
+                      "Keep one of the two.");
+        }
+        Pose X_WB = body.pose();
+        if (place.position) X_WB.p = *place.position;
+        if (place.removed) X_WB.p = {kApart * index, 0, kAway};
+        puts.push_back({{index, X_WB, scene::bounds(body.shape), {}},
+                        place.position || place.removed,
+                        place.held || place.removed});
+    }
+
     TaskPlan::Way way(const Exit& exit) {
         TaskPlan::Way out;
         out.exit = exit;
-        out.finger = judged_finger(exit);
-        look_up_condition(exit, out);
+        if (exit.has(WhenRow::finger) && !exit.finger.empty())
+            out.finger = look_up(fingers_, exit.finger, exit.place, "finger",
+                                 "none of the scene's fingers", diagnostics_);
+        out.condition = condition(exit);
         if (exit.to.empty() == exit.outcome.empty()) {
             error(exit.place, "to",
                   exit.to.empty() ? "leads nowhere" : "leads to a state and out of the trial",
@@ -153,32 +265,79 @@ class Planner {
                                 diagnostics_);
         }
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
-        out.feedback = listed(plan_.messages, exit.feedback);
+        out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
         return out;
     }
 
-    int judged_finger(const Exit& exit) {
-        if (!exit.finger.empty())
-            return look_up(fingers_, exit.finger, exit.place, "finger",
-                           "none of the scene's fingers", diagnostics_);
-        return exit.has(WhenRow::any_finger) ? -1 : 0;
+    Expression condition(const Exit& exit) {
+        const size_t before = diagnostics_.problems().size();
+        check_condition(exit);
+        if (exit.when == When::expression) check_word(exit);
+        const std::string text = as_expression(exit, plan_);
+        if (text.empty() || diagnostics_.problems().size() > before) return {};
+        Expression out =
+            Expression::compile(text, plan_.quantities, exit.place, "when", diagnostics_);
+        if (!out.empty() && out.type() != Expression::Type::truth)
+            error(exit.place, "when", fmt::format("'{}' is no condition", text),
+                  fmt::format("Compare it with something, e.g. {} > 2.", text));
+        return out;
+    }
+
+    /// A single word that is no quantity was meant as one of the table's.
+    void check_word(const Exit& exit) {
+        const std::string& text = exit.condition;
+        const auto letter = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+        };
+        if (!std::all_of(text.begin(), text.end(), letter) || plan_.quantities.find(text)) return;
+        std::vector<std::string> words;
+        for (size_t i = 0; i < static_cast<size_t>(When::expression); ++i)
+            words.emplace_back(kWhenTable[i].name);
+        const std::string guess = nearest(text, words);
+        error(exit.place, "when", fmt::format("'{}' is not known", text),
+              guess.empty() ? fmt::format("Use {}, or an expression.", fmt::join(words, ", "))
+                            : fmt::format("Did you mean {}?", guess));
     }
 
     /// Looks up the names in the exit's condition.
-    void look_up_condition(const Exit& exit, TaskPlan::Way& out) {
-        if (exit.has(WhenRow::region)) out.region = region(exit.region, exit.place, "region");
+    void check_condition(const Exit& exit) {
+        if (exit.has(WhenRow::region)) region(exit.region, exit.place, "region");
         if (exit.has(WhenRow::body)) {
-            out.body = look_up(bodies_, exit.body, exit.place, "body", "no body", diagnostics_);
-            check_body(exit, out.body);
+            check_body(exit,
+                       look_up(bodies_, exit.body, exit.place, "body", "no body", diagnostics_));
         }
+        if (exit.has(WhenRow::any_finger)) check_who(exit);
         if (exit.has(WhenRow::key) && !is_key(exit.key)) {
             error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
                   "Write one letter or digit, e.g. key: y.");
         }
-        if (exit.when == When::time && exit.hold <= 0)
+        if (exit.when == When::time && !exit.hold.computed() && exit.hold.value <= 0)
             error(exit.place, "hold", "how long is missing", "Add e.g. hold_s: 2.");
-        if (exit.when == When::trigger && exit.hold > 0)
+        if (exit.when == When::trigger && exit.hold != 0)
             error(exit.place, "hold", "a trigger is over at once", "Leave it out.");
+    }
+
+    /// Whose handle, or what, the condition judges.
+    void check_who(const Exit& exit) {
+        if (!exit.what.empty()) {
+            const int i = look_up(plan_.quantities.things(), exit.what, exit.place, "what",
+                                  "no body, finger or hand", diagnostics_);
+            if (!exit.finger.empty())
+                error(exit.place, "finger", "is said by what already", "Leave it out.");
+            if (i >= 0 && exit.shown && plan_.quantities.thing(exit.what)->body >= 0)
+                error(exit.place, "shown", "is said of fingers and hands, not of bodies",
+                      "Leave it out.");
+        }
+        if (exit.finger.empty()) return;
+        std::vector<std::string> known = fingers_;
+        for (const Hand& hand : plan_.task.hands) known.push_back(hand.name);
+        const int i = look_up(known, exit.finger, exit.place, "finger",
+                              "none of the scene's fingers, and no hand of the task", diagnostics_);
+        if (i < 0 || exit.when != When::gripped) return;
+        if (std::popcount(plan_.quantities.thing(exit.finger)->fingers) < 2)
+            error(exit.place, "finger",
+                  fmt::format("a grip takes two fingers, and '{}' is one", exit.finger),
+                  "Name a hand, or use when: touched.");
     }
 
     void check_body(const Exit& exit, int body) {
@@ -251,16 +410,23 @@ class Planner {
                 const auto regions =
                     replaced(replaced(plan_.task.regions, round.regions), condition.regions);
                 for (const Region& region : regions) {
-                    cell.p_W.push_back(region.position);
-                    cell.radius.push_back(region.radius);
+                    cell.position_as_given.push_back(numbers(region.position));
+                    cell.radius_as_given.emplace_back(region.radius);
+                    cell.p_W.push_back(vector(region.position));
+                    cell.radius.push_back(region.radius.value);
                 }
                 Diagnostics found;
-                for (const PerturbationSpec& spec :
+                for (PerturbationSpec& spec :
                      replaced(replaced(plan_.task.perturbations, round.perturbations),
                               condition.perturbations)) {
-                    cell.perturbations.emplace_back(spec, regions, scene_, found);
+                    add_perturbation(cell, spec, regions, found);
+                    each_formula(spec, [&](const Formula& formula) {
+                        if (formula.index >= 0) cell.in_perturbations.push_back(formula.index);
+                    });
                 }
                 cell.homes = homes({&round, &condition});
+                for (const Condition* of : {&round, &condition})
+                    seen_.add_looks(of->look, cell.looks, found);
                 for (const Problem& problem : found.problems()) {
                     if (said.insert(problem.text()).second) diagnostics_.add({problem});
                 }
@@ -268,10 +434,30 @@ class Planner {
         }
     }
 
+    void add_perturbation(TaskPlan::Cell& cell, const PerturbationSpec& spec,
+                          const std::vector<Region>& regions, Diagnostics& found) {
+        const Perturbation& added = cell.perturbations.emplace_back(spec, regions, scene_, found);
+        for (const Load& load : added.loads())
+            plan_.longest_delay = std::max(plan_.longest_delay, load.spec().delay);
+        uint64_t& during = cell.during.emplace_back(0);
+        const std::vector<State>& states = plan_.task.states;
+        for (size_t i = 0; i < std::min(states.size(), kMostStates); ++i) {
+            if (spec.during.empty() && states[i].perturbed) during |= uint64_t{1} << i;
+        }
+        for (const std::string& name : spec.during) {
+            const int i = look_up(names_of(states), name, spec.place, "during", "no state", found);
+            if (i < 0 || i >= static_cast<int>(kMostStates)) continue;
+            during |= uint64_t{1} << i;
+            if (!states[static_cast<size_t>(i)].perturbed)
+                found.error(spec.place, "during",
+                            fmt::format("nothing acts in '{}', which says perturbed: no", name),
+                            "Leave out one of the two.");
+        }
+    }
+
     void check_procedure(const ProcedureSpec& procedure) {
         check(procedure, diagnostics_);
-        look_up(names_of(plan_.task.perturbations), procedure.perturb, procedure.place, "perturb",
-                "no perturbation", diagnostics_);
+        check_perturbations({procedure.perturb}, procedure.place);
         for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
             const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
                                   "no outcome", diagnostics_);
@@ -285,7 +471,7 @@ class Planner {
         for (const std::string& name : block.conditions)
             look_up(names_of(plan_.task.conditions), name, block.place, "conditions",
                     "no condition", diagnostics_);
-        check_perturbation(block.perturb, block.place);
+        check_perturbations(block.perturb, block.place);
         const size_t answers = most_answers(block);
         check_ways_to_perturb(block);
         const size_t conditions = block.conditions.empty()
@@ -297,11 +483,17 @@ class Planner {
         const size_t trials =
             block.procedures.empty() ? conditions * static_cast<size_t>(block.repeats) : answers;
         for (const Insert& insert : block.insert) {
-            check_perturbation(insert.perturb, insert.place);
+            check_perturbations(insert.perturb, insert.place);
+            check_clamp(insert.kind, insert.perturb, insert.place);
             if (static_cast<size_t>(insert.count) > trials)
                 error(insert.place, "count",
                       fmt::format("is {}, more than the block's {} trials", insert.count, trials),
                       "Insert fewer, or raise the block's repeats.");
+            else if ((insert.count - 1.0) * insert.gap + 1 > static_cast<double>(trials))
+                error(insert.place, "gap",
+                      fmt::format("of {} between {} trials takes more than the block's {}",
+                                  insert.gap, insert.count, trials),
+                      "Insert fewer, lower it, or raise the block's repeats.");
         }
         trials_ += trials * std::max<size_t>(1, plan_.task.rounds.size());
         if (trials_ > kMostTrials)
@@ -309,10 +501,71 @@ class Planner {
                   fmt::format("makes more than {} trials in all", kMostTrials), "Lower it.");
     }
 
-    void check_perturbation(const std::string& name, const Place& place) {
-        if (!name.empty())
-            look_up(names_of(plan_.task.perturbations), name, place, "perturb", "no perturbation",
-                    diagnostics_);
+    /// Checks the perturbations of a trial, each and together.
+    void check_perturbations(const std::vector<std::string>& names, const Place& place) {
+        std::vector<int> which;
+        for (const std::string& name : names) {
+            const int i = look_up(names_of(plan_.task.perturbations), name, place, "perturb",
+                                  "no perturbation", diagnostics_);
+            if (i < 0) continue;
+            if (std::find(which.begin(), which.end(), i) != which.end())
+                error(place, "perturb", fmt::format("'{}' is named twice", name),
+                      "Name it once, and make it stronger if it should be.");
+            which.push_back(i);
+        }
+        for (const PerturbationSpec& spec : plan_.task.perturbations) {
+            if (names.size() > 1 && spec.name.find(kBetweenNames) != std::string::npos)
+                error(spec.place, "name",
+                      fmt::format("'{}' cannot be told from several, which trial-list.csv joins by "
+                                  "'{}'",
+                                  spec.name, kBetweenNames),
+                      "Call it something else.");
+        }
+        if (names.size() > kMostPerturbations) {
+            error(place, "perturb",
+                  fmt::format("names {} perturbations, where {} are the most", names.size(),
+                              kMostPerturbations),
+                  "Put several into one: each may have a visual map, a body and loads.");
+        }
+        check_together(which, place);
+    }
+
+    /// One visual map and a number of loads are the most that act in a tick. Reports the first
+    /// state that has more.
+    void check_together(const std::vector<int>& which, const Place& place) {
+        for (const TaskPlan::Cell& cell : plan_.cells) {
+            for (size_t s = 0; s < std::min(plan_.task.states.size(), kMostStates); ++s) {
+                if (!fit_together(cell, which, static_cast<int>(s), place)) return;
+            }
+        }
+    }
+
+    bool fit_together(const TaskPlan::Cell& cell, const std::vector<int>& which, int state,
+                      const Place& place) {
+        const std::string& where = plan_.task.states[static_cast<size_t>(state)].name;
+        const std::string* map = nullptr;  // name of the perturbation
+        size_t loads = 0;
+        for (const int i : which) {
+            if (!cell.acts(i, state)) continue;
+            const Perturbation& perturbation = cell.perturbations[static_cast<size_t>(i)];
+            const std::string& name = plan_.task.perturbations[static_cast<size_t>(i)].name;
+            for (const Load& load : perturbation.loads()) loads += load.on().size();
+            if (!perturbation.has_map()) continue;
+            if (map != nullptr) {
+                error(place, "perturb",
+                      fmt::format("'{}' and '{}' both change what is shown in state '{}'", *map,
+                                  name, where),
+                      "Give them different states by during, or make them one perturbation.");
+                return false;
+            }
+            map = &name;
+        }
+        if (loads <= servo::TaskFrame::kMostLoads) return true;
+        error(place, "perturb",
+              fmt::format("makes {} loads act in state '{}', where {} are the most", loads, where,
+                          servo::TaskFrame::kMostLoads),
+              "Leave some out, or sum loads on one thing up in one of kind general.");
+        return false;
     }
 
     /// Largest number of trials that the block's procedures may ask for in all.
@@ -335,18 +588,38 @@ class Planner {
         if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
             error(block.place, "perturb", "is missing in a perturbed block",
                   "Name a perturbation, or make it a baseline block.");
-        if (block.kind == TrialKind::error_clamp && block.perturb.empty())
-            error(block.place, "perturb", "is missing in a block of error clamps",
-                  "Name a perturbation with a line (toward), or a channel.");
+        check_clamp(block.kind, block.perturb, block.place);
         if (block.ramp > 0 && block.perturb.empty())
             error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
+    }
+
+    /// Trials are analysed by their kind, which must say what their perturbation does.
+    void check_clamp(TrialKind kind, const std::vector<std::string>& perturb, const Place& place) {
+        const bool channels = kind == TrialKind::force_channel;
+        if (!channels && kind != TrialKind::visual_clamp) return;
+        const char* const remedy = channels ? "Name a perturbation whose field is a channel."
+                                            : "Name a perturbation with a line (visual: toward).";
+        if (perturb.empty()) {
+            error(place, "perturb", fmt::format("is missing in a {}", enum_name(kind)), remedy);
+            return;
+        }
+        const std::vector<PerturbationSpec>& all = plan_.task.perturbations;
+        const bool has_channel = std::any_of(all.begin(), all.end(), [&](const auto& spec) {
+            return is_channel(spec) &&
+                   std::find(perturb.begin(), perturb.end(), spec.name) != perturb.end();
+        });
+        if (has_channel == channels) return;
+        error(place, "kind",
+              fmt::format("is {}, and '{}' {} a force channel", enum_name(kind),
+                          fmt::join(perturb, kBetweenNames), channels ? "is not" : "is"),
+              channels ? remedy : "Write kind: force_channel.");
     }
 
     void check_reach() {
         if (!plan_.task.reach) return;
         const ReachMeasure& reach = *plan_.task.reach;
-        region(reach.from, reach.place, "from");
-        region(reach.to, reach.place, "to");
+        check_fixed(region(reach.from, reach.place, "from"), reach.place, "from");
+        check_fixed(region(reach.to, reach.place, "to"), reach.place, "to");
         look_up(names_of(plan_.task.states), reach.during, reach.place, "during", "no state",
                 diagnostics_);
         if (!reach.finger.empty())
@@ -356,6 +629,20 @@ class Planner {
             error(reach.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
     }
 
+    /// How a reach is measured is frozen before the session.
+    void check_fixed(int region, const Place& place, const char* key) {
+        if (region < 0) return;
+        for (const TaskPlan::Cell& cell : plan_.cells) {
+            for (const Number& n : cell.position_as_given[static_cast<size_t>(region)]) {
+                if (n.index < 0 || plan_.formulas[static_cast<size_t>(n.index)].expression.frozen())
+                    continue;
+                error(place, key, "names a region that variables move",
+                      "Measure between regions that follow from draws and factors alone.");
+                return;
+            }
+        }
+    }
+
     /// Where bodies begin a trial; places of later conditions replace those of earlier ones.
     std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const {
         std::vector<TaskPlan::Home> out;
@@ -363,12 +650,15 @@ class Planner {
             const scene::Body& body = scene_.bodies[i];
             if (!body.moves_at_all()) continue;
             Pose X_WB = body.pose();
+            FormulaVec3 position{X_WB.p.x(), X_WB.p.y(), X_WB.p.z()};
             for (const Condition* condition : conditions) {
                 for (const BodyPlace& place : condition->places) {
-                    if (place.body == body.name) X_WB.p = place.position;
+                    if (place.body == body.name) position = place.position;
                 }
             }
-            out.push_back({static_cast<int>(i), X_WB, scene::bounds(body.shape)});
+            X_WB.p = vector(position);
+            out.push_back(
+                {static_cast<int>(i), X_WB, scene::bounds(body.shape), numbers(position)});
         }
         return out;
     }
@@ -380,14 +670,46 @@ class Planner {
     std::vector<std::string> fingers_;
     size_t trials_ = 0;
     TaskPlan plan_;
+    SeenPlanner seen_;
 };
 
 }  // namespace
+
+std::string conditions_with(const std::string& given, unsigned any) {
+    std::vector<std::string> names;
+    for (const WhenRow& row : kWhenTable) {
+        if ((row.has & any) != 0) names.emplace_back(*row.name == 0 ? "an expression" : row.name);
+    }
+    if (const std::string guess = nearest(given, names); !guess.empty() && guess != given)
+        return fmt::format("Did you mean when: {}?", guess);
+    return fmt::format("It belongs to when: {}.", fmt::join(names, ", "));
+}
 
 std::vector<std::string> TaskPlan::phases() const {
     std::vector<std::string> out{"between trials"};
     for (const State& state : task.states) out.push_back(state.name);
     return out;
+}
+
+std::vector<int> TaskPlan::used_in(const Trial& trial) const {
+    const Cell& cell = this->cell(trial);
+    std::vector<int> out = in_states;
+    const auto use = [&](const Number& number) {
+        if (number.index >= 0) out.push_back(number.index);
+    };
+    for (const auto& position : cell.position_as_given)
+        std::for_each(position.begin(), position.end(), use);
+    std::for_each(cell.radius_as_given.begin(), cell.radius_as_given.end(), use);
+    for (const Home& home : cell.homes)
+        std::for_each(home.position_as_given.begin(), home.position_as_given.end(), use);
+    out.insert(out.end(), cell.in_perturbations.begin(), cell.in_perturbations.end());
+    return out;
+}
+
+double TaskPlan::largest(const Formula& number) const {
+    if (number.index < 0) return number.value;
+    const CompiledFormula& compiled = formulas[static_cast<size_t>(number.index)];
+    return compiled.expression.frozen() ? compiled.largest : compiled.formula.field.max;
 }
 
 TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics) {
@@ -397,6 +719,7 @@ TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& dia
 Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
     Table table = trial_list(plan.task, plan.trials);
     if (plan.task.reach) add_reaches(table, plan, scene);
+    add_movements(table, plan, scene);
     return table;
 }
 

@@ -2,6 +2,8 @@
 // read.
 #pragma once
 
+#include "servo/task_frame.h"
+#include "task/formulas.h"
 #include "task/trials.h"
 
 namespace dihaptic::task {
@@ -9,10 +11,34 @@ namespace dihaptic::task {
 /// Phase number, in frames, of the time before a trial's first state.
 constexpr int kBetween = 0;
 
+/// A number about the trials that a text may have. `countdown`: seconds that the state or the break
+/// may last still, rounded up.
+enum class Figure {
+    trial_num,
+    trials,
+    trials_left,  ///< with the running one
+    trial_num_in_block,
+    block_num,
+    blocks,
+    attempt,
+    countdown,
+};
+constexpr auto enum_names(Figure) {
+    return std::array{"trial_num", "trials", "trials_left", "trial_num_in_block",
+                      "block_num", "blocks", "attempt",     "countdown"};
+}
+
+/// A number in a text: a quantity of the task, or else a Figure.
+struct TextNumber {
+    Figure figure;
+    Expression quantity;
+};
+
 struct TaskPlan {
     Task task;
     std::vector<Trial> trials;
     std::vector<std::string> messages;
+    std::vector<std::vector<TextNumber>> numbers;  ///< by message: those in its text, in order
     struct Outcome {
         std::string name;
         bool redo;
@@ -22,49 +48,145 @@ struct TaskPlan {
 
     struct Way {
         Exit exit;
-        int region = -1;
-        int body = -1;
-        int finger = -1;   ///< finger that is judged; -1: any, all, or the middle of all (Exit)
-        int state = -1;    ///< state that it leads to
-        int outcome = -1;  ///< outcome that it ends the trial with
+        Expression condition;  ///< empty: of key, button, trigger, time
+        int finger = 0;        ///< whose button it is
+        int state = -1;        ///< state that it leads to
+        int outcome = -1;      ///< outcome that it ends the trial with
         int feedback = -1;
+
+        /// Whether it comes whatever the hand does.
+        bool comes() const {
+            return condition.empty() ? exit.has(WhenRow::comes) : !condition.follows_tick();
+        }
     };
     struct Step {
         HandStep step;
         int reach = -1;  ///< region
     };
+    /// What conditions and formulas name; a director has a copy.
+    Quantities quantities;
+
+    /// A body that is put somewhere, and the box that must then be clear of fingers.
+    struct Home {
+        int body;
+        Pose X_WB;
+        scene::Bounds box;
+        std::array<Number, 3> position_as_given;
+    };
+    /// A body that a state puts somewhere.
+    struct Put {
+        Home home;   // where, unless it stays where it is
+        bool moves;  // whether it is put elsewhere
+        bool stays;  // whether it is kept there while the state lasts
+    };
+    /// How bodies, proxies and targets look; of a target the radius is the factor on it.
+    struct Looks {
+        std::vector<servo::LookFrame> things;
+        std::vector<servo::TargetFrame> targets;
+    };
     struct Stage {
         uint32_t shown = 0;  ///< regions shown, one bit each
-        bool perturbed = true;
+        Looks looks;
+        bool holds_cursor = false;
+        std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;
+        std::vector<Put> puts;
         std::vector<Way> ways;
         std::vector<Step> hand;
     };
     std::vector<Stage> stages;  ///< by state
 
-    /// A body that is put back between trials, and the box that must then be clear of fingers.
-    struct Home {
-        int body;
-        Pose X_WB;
-        scene::Bounds box;
-    };
-    /// Regions, perturbations and bodies' places of one condition in one round.
+    /// Regions, perturbations and bodies' places of one condition in one round. Numbers that are
+    /// formulas are resolved for each trial (task/trial_numbers.h).
     struct Cell {
         std::vector<Vec3> p_W;
         std::vector<double> radius;
         std::vector<Perturbation> perturbations;
+        std::vector<uint64_t> during;  ///< by perturbation: states in which it acts, one bit each
         std::vector<Home> homes;
+        Looks looks;
+        std::vector<std::array<Number, 3>> position_as_given;  ///< by region
+        std::vector<Number> radius_as_given;
+        std::vector<int> in_perturbations;  ///< formulas
+
+        bool acts(int perturbation, int state) const {
+            return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
+        }
     };
     std::vector<Cell> cells;            ///< by round, then condition
+    size_t bodies = 0;                  ///< of the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
+    double longest_delay = 0;           ///< of the loads [s]
     int move_away = -1;                 ///< message while a finger is in the way
 
-    const Cell& cell(const Trial& trial) const {
+    struct Page {
+        PageSpec spec;
+        int message = -1;  ///< its text
+
+        /// A key that turns the page.
+        char any_key() const { return spec.key.empty() ? '1' : spec.key.front(); }
+    };
+    std::vector<Page> pages;
+    struct Opening {
+        double rest = 0;  ///< [s]
+        int first = 0;    ///< index of its first page
+        int pages = 0;
+    };
+    std::vector<Opening> openings;  ///< by block of the task
+    int rest = -1;                  ///< message during a break
+    int countdown = -1;             ///< line that counts down
+    std::vector<int> lines;         ///< messages that are shown throughout
+    int object = -1;                ///< the scene's
+
+    /// What formulas may name, and where its values go.
+    struct Symbols {
+        struct Draw {
+            int slot;
+            double si;                  ///< unit of the draw's name
+            std::vector<double> codes;  ///< of texts
+            double value(double drawn) const noexcept {
+                return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
+            }
+        };
+        struct Levels {
+            int slot;
+            std::vector<double> by_condition;
+        };
+        std::vector<Draw> draws;
+        std::vector<Levels> factors;
+        struct Changing {
+            int slot = 0;
+            int between = 0;  ///< slot in TaskPlan::between
+        };
+        std::vector<Changing> variables;
+        int outcome = 0;
+        std::vector<double> outcomes;  ///< code of each outcome's name
+    };
+    /// What happens to a variable after a trial.
+    struct Change {
+        std::optional<Expression> when;
+        size_t variable = 0;
+        CompiledFormula to;
+    };
+    Quantities between;  ///< what ends a block: variables alone
+    Symbols symbols;
+    std::vector<CompiledFormula> formulas;
+    std::vector<int> in_states;  ///< formulas
+    std::vector<servo::VariableFrame> start;
+    std::vector<Change> changes;
+    std::vector<std::optional<Expression>> until;  ///< by block
+
+    size_t cell_index(const Trial& trial) const noexcept {
         const size_t conditions = std::max<size_t>(1, task.conditions.size());
-        return cells[static_cast<size_t>(trial.round) * conditions +
-                     static_cast<size_t>(trial.condition)];
+        return static_cast<size_t>(trial.round) * conditions + static_cast<size_t>(trial.condition);
     }
+    const Cell& cell(const Trial& trial) const { return cells[cell_index(trial)]; }
+    /// The formulas that the trial uses.
+    std::vector<int> used_in(const Trial& trial) const;
+    /// The largest value of a number that may be a formula, over all trials; where variables change
+    /// it, the largest that it may have [SI].
+    double largest(const Formula& number) const;
     /// Names of the phases: "between trials", then the states.
     std::vector<std::string> phases() const;
 };

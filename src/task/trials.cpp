@@ -1,6 +1,7 @@
 #include "task/trials.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,6 +10,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/text_file.h"
+#include "task/factors.h"
 #include "task/lookup.h"
 
 namespace dihaptic::task {
@@ -56,6 +59,27 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+std::vector<int> perturbations_of(const Task& task, const std::vector<std::string>& names) {
+    std::vector<int> out;
+    for (const std::string& name : names)
+        out.push_back(index_of(names_of(task.perturbations), name));
+    return out;
+}
+
+/// The names in a cell of the column `perturbation`.
+std::vector<std::string> names_in(const std::string& cell) {
+    std::vector<std::string> out;
+    if (cell.empty()) return out;
+    size_t from = 0;
+    for (size_t to = cell.find(kBetweenNames); to != std::string::npos;
+         to = cell.find(kBetweenNames, from)) {
+        out.push_back(cell.substr(from, to - from));
+        from = to + kBetweenNames.size();
+    }
+    out.push_back(cell.substr(from));
+    return out;
+}
+
 /// The largest number of trials of each procedure, mixed, so that the turn tells a participant
 /// nothing.
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
@@ -71,8 +95,7 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     std::vector<Trial> out;
     for (const int i : turns) {
         trial.procedure = i;
-        trial.perturb =
-            index_of(names_of(task.perturbations), task.procedures[static_cast<size_t>(i)].perturb);
+        trial.perturb = perturbations_of(task, {task.procedures[static_cast<size_t>(i)].perturb});
         out.push_back(trial);
     }
     return out;
@@ -119,18 +142,22 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
     return out;
 }
 
-/// Inserts trials at random places, each after another trial, so that none comes first.
+/// Inserts trials at random places, each after another trial, so that none comes first. Places with
+/// a gap between them are drawn without it, and then moved apart.
 void insert_trials(const Insert& insert, const Task& task, Random& random,
                    std::vector<Trial>& trials) {
-    const auto places = ordered(static_cast<int>(trials.size()), Order::shuffled, 0, random);
+    const int gaps = (insert.count - 1) * (insert.gap - 1);
+    const auto places = ordered(static_cast<int>(trials.size()) - gaps, Order::shuffled, 0, random);
     std::vector<int> which;
     for (int k = 0; k < insert.count; ++k)
         which.push_back(places[static_cast<size_t>(k) % places.size()]);
     std::sort(which.rbegin(), which.rend());
+    for (int k = 0; k < insert.count; ++k)
+        which[static_cast<size_t>(k)] += (insert.count - 1 - k) * (insert.gap - 1);
     for (const int i : which) {
         Trial extra = trials[static_cast<size_t>(i)];
         extra.kind = insert.kind;
-        extra.perturb = index_of(names_of(task.perturbations), insert.perturb);
+        extra.perturb = perturbations_of(task, insert.perturb);
         extra.procedure = -1;
         if (std::isnan(extra.share)) extra.share = 1;
         trials.insert(trials.begin() + i + 1, extra);
@@ -143,7 +170,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     Trial trial;
     trial.round = round;
     trial.kind = block.kind;
-    trial.perturb = index_of(names_of(task.perturbations), block.perturb);
+    trial.perturb = perturbations_of(task, block.perturb);
     const std::vector<int> conditions = conditions_of(task, block);
     std::vector<Trial> out;
     if (block.procedures.empty()) {
@@ -159,11 +186,78 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     return out;
 }
 
+/// A cell of the column `perturbation`.
+std::string perturbations_cell(const Task& task, const std::vector<int>& perturb) {
+    std::vector<std::string> names;
+    for (const int i : perturb) names.push_back(task.perturbations[static_cast<size_t>(i)].name);
+    return fmt::format("{}", fmt::join(names, kBetweenNames));
+}
+
+/// The perturbations that such a cell names; -1 for a name that is unknown. A name may have an
+/// " + " of its own.
+std::vector<int> read_perturbations(const Task& task, const std::string& cell) {
+    const int one = index_of(names_of(task.perturbations), cell);
+    return one >= 0 ? std::vector<int>{one} : perturbations_of(task, names_in(cell));
+}
+
 std::string name_at(const std::vector<std::string>& names, int i) {
     return i >= 0 && i < static_cast<int>(names.size()) ? names[static_cast<size_t>(i)] : "";
 }
 
+void draw_for(std::vector<Trial>& trials, const Task& task, int number, uint64_t seed) {
+    std::vector<int> blocks;
+    for (const Trial& trial : trials) blocks.push_back(trial.number);
+    for (const DrawSpec& draw : task.draws) {
+        const std::vector<double> values = drawn(draw, blocks, number, seed);
+        for (size_t i = 0; i < trials.size(); ++i) trials[i].draws.push_back(values[i]);
+    }
+}
+
+/// The cells of own_columns().
+void add_own_cells(const Task& task, const std::vector<Factor>& factors, const Trial& trial,
+                   std::vector<Table::Cell>& row) {
+    for (const Factor& factor : factors) {
+        const std::string level =
+            level_of(task.conditions[static_cast<size_t>(trial.condition)], factor.factor);
+        if (are_texts(factor.levels)) {
+            row.emplace_back(level);
+        } else {
+            row.emplace_back(*finite_number(level));
+        }
+    }
+    for (size_t k = 0; k < task.draws.size(); ++k) {
+        const std::vector<std::string>& values = task.draws[k].values();
+        if (are_texts(values)) {
+            row.emplace_back(values[static_cast<size_t>(trial.draws[k])]);
+        } else {
+            row.emplace_back(trial.draws[k]);
+        }
+    }
+}
+
+/// The values of the draws in a row of a list. Throws bad(column) where one is none of the draw's.
+template <class Bad>
+std::vector<double> read_draws(const Task& task, const std::vector<std::string>& header,
+                               const std::vector<std::string>& row, const Bad& bad) {
+    std::vector<double> out;
+    for (const DrawSpec& draw : task.draws) {
+        const int column = index_of(header, draw.name);
+        if (column < 0 || column >= static_cast<int>(row.size())) throw bad(draw.name.c_str());
+        const std::string& cell = row[static_cast<size_t>(column)];
+        const int text = index_of(draw.values(), cell);
+        const auto number = finite_number(cell);
+        if (are_texts(draw.values()) ? text < 0 : !number) throw bad(draw.name.c_str());
+        out.push_back(are_texts(draw.values()) ? text : *number);
+    }
+    return out;
+}
+
 }  // namespace
+
+bool names_perturbation(const std::string& cell, const std::string& name) {
+    const std::vector<std::string> names = names_in(cell);
+    return cell == name || std::find(names.begin(), names.end(), name) != names.end();
+}
 
 std::vector<int> ordered(int n, Order order, int number, Random& random) {
     switch (order) {
@@ -193,7 +287,9 @@ bool needs_number(const Task& task) {
     const auto by_number = [](Order order) {
         return order == Order::latin_square || order == Order::counterbalanced;
     };
+    const auto is_number = [](const DrawSpec& draw) { return draw.participant; };
     return (by_number(task.round_order) && task.rounds.size() > 1) ||
+           std::any_of(task.draws.begin(), task.draws.end(), is_number) ||
            std::any_of(task.blocks.begin(), task.blocks.end(),
                        [&](const Block& block) { return by_number(block.order); });
 }
@@ -217,21 +313,32 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
             }
         }
     }
+    draw_for(out, task, number, seed);
+    return out;
+}
+
+std::vector<Table::Column> own_columns(const Task& task) {
+    std::vector<Table::Column> out;
+    for (const Factor& factor : factors_of(task))
+        out.push_back({factor.factor, "a factor's level"});
+    for (const DrawSpec& draw : task.draws) out.push_back({draw.name, "drawn for the trial"});
     return out;
 }
 
 Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     Table table;
     table.columns = kTrialListColumns;
+    for (const Table::Column& column : own_columns(task)) table.columns.push_back(column);
+    const std::vector<Factor> factors = factors_of(task);
     for (size_t i = 0; i < trials.size(); ++i) {
         const Trial& t = trials[i];
-        table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
-                              task.blocks[static_cast<size_t>(t.block)].name,
-                              static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
-                              name_at(names_of(task.rounds), t.round),
-                              name_at(names_of(task.conditions), t.condition),
-                              name_at(names_of(task.perturbations), t.perturb), t.share,
-                              name_at(names_of(task.procedures), t.procedure)});
+        table.rows.push_back(
+            {static_cast<double>(i + 1), static_cast<double>(t.number),
+             task.blocks[static_cast<size_t>(t.block)].name, static_cast<double>(t.in_block),
+             std::string(enum_name(t.kind)), name_at(names_of(task.rounds), t.round),
+             name_at(names_of(task.conditions), t.condition), perturbations_cell(task, t.perturb),
+             t.share, name_at(names_of(task.procedures), t.procedure)});
+        add_own_cells(task, factors, t, table.rows.back());
     }
     return table;
 }
@@ -258,7 +365,7 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
         t.round = task.rounds.empty() ? 0 : index_of(names_of(task.rounds), row[5]);
         t.condition = task.conditions.empty() ? 0 : index_of(names_of(task.conditions), row[6]);
-        t.perturb = index_of(names_of(task.perturbations), row[7]);
+        t.perturb = read_perturbations(task, row[7]);
         t.share = row[8].empty() ? std::numeric_limits<double>::quiet_NaN()
                                  : std::strtod(row[8].c_str(), nullptr);
         t.procedure = index_of(names_of(task.procedures), row[9]);
@@ -266,9 +373,11 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         if (kind == kinds.end()) throw bad("kind");
         if (t.round < 0) throw bad("round");
         if (t.condition < 0) throw bad("condition");
-        if (t.perturb < 0 && !row[7].empty()) throw bad("perturbation");
+        if (std::find(t.perturb.begin(), t.perturb.end(), -1) != t.perturb.end())
+            throw bad("perturbation");
         if (t.procedure < 0 && !row[9].empty()) throw bad("procedure");
         t.kind = static_cast<TrialKind>(kind - kinds.begin());
+        t.draws = read_draws(task, rows[0], row, bad);
         out.push_back(t);
     }
     return out;

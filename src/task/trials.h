@@ -2,6 +2,8 @@
 // seed, and the queue that puts trials to be done again back in.
 #pragma once
 
+#include <string_view>
+
 #include "base/random.h"
 #include "base/table.h"
 #include "task/task.h"
@@ -15,10 +17,16 @@ struct Trial {
     int round = 0;
     int condition = 0;
     TrialKind kind = TrialKind::baseline;
-    int perturb = -1;    ///< index among the task's perturbations; -1: none
-    int procedure = -1;  ///< index of the task's procedure that chooses the share; -1: none
-    double share = 1;    ///< share of the perturbation; NaN where a procedure chooses it
+    std::vector<int> perturb;  ///< indices among the task's perturbations
+    int procedure = -1;        ///< index of the task's procedure that chooses the share; -1: none
+    double share = 1;          ///< share of the perturbations; NaN where a procedure chooses it
+    std::vector<double> draws{};  ///< values of the task's draws (task/draws.h)
 };
+
+/// Between the names in the column `perturbation`.
+inline constexpr std::string_view kBetweenNames = " + ";
+/// Whether a cell of that column names the perturbation, by itself or with others.
+bool names_perturbation(const std::string& cell, const std::string& name);
 
 /// Returns 0 to n - 1 in the order for a participant. Shuffled: by `random`. Latin square: row
 /// `number` of Williams's design, in which each item follows each other item equally often (two
@@ -28,25 +36,31 @@ std::vector<int> ordered(int n, Order order, int number, Random& random);
 
 /// The number at the end of a participant's identifier, e.g. 7 for S07; -1 if there is none.
 int participant_number(const std::string& id);
-/// Whether the order of the task's trials depends on the participant's number.
+/// Whether the order of the task's trials, or a draw, depends on the participant's number.
 bool needs_number(const Task& task);
 
 /// Makes all trials, in their order. The task must have passed plan_task() without errors.
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed);
 
-/// Columns of trial-list.csv, which trials.csv repeats for each trial; in trial-list.csv, columns
-/// on how a reach is measured follow them.
+/// Columns of trial-list.csv, which trials.csv repeats for each trial. Columns of the task's
+/// factors and draws follow them; in trial-list.csv, then columns on how a reach is measured.
 inline const std::vector<Table::Column> kTrialListColumns = {
     {"trial_num", "number in the session, from 1"},
     {"block_num", "number, from 1"},
     {"block", "name"},
     {"trial_num_in_block", "number, from 1"},
-    {"kind", "practice, baseline, perturbed, catch, error_clamp or washout"},
+    {"kind", "practice, baseline, perturbed, catch, visual_clamp, force_channel or washout"},
     {"round", "name"},
     {"condition", "name"},
-    {"perturbation", "name; empty: none"},
+    {"perturbation", "name, or names joined by ' + '; empty: none"},
     {"share", "of the perturbation that acts; empty: the procedure's to say"},
     {"procedure", "name; empty: none"}};
+/// Column of trials.csv with a variable's value after the trial, in the unit of its name.
+inline std::string next_column(const std::string& variable) {
+    return "next_" + variable;
+}
+/// Columns of the task's factors and draws.
+std::vector<Table::Column> own_columns(const Task& task);
 /// trial-list.csv: one row per trial.
 Table trial_list(const Task& task, const std::vector<Trial>& trials);
 /// Reads trial-list.csv. Throws Error when it is no list of this task's trials.
@@ -57,6 +71,7 @@ struct Attempt {
     int trial = 0;     ///< index among the session's trials
     int attempt = 1;   ///< number of the attempt at this trial, from 1
     int outcome = -1;  ///< index among the task's outcomes; -1: interrupted, or its end is lost
+    std::vector<double> variables{};  ///< values after it [SI]
 };
 
 /// The trials still to be done. It allocates nothing once it is constructed.

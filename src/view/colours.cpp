@@ -15,12 +15,16 @@ constexpr const char* kFixed = "#c4c1b9";
 }  // namespace
 
 Vec3 linear_colour(const std::string& hex) {
-    unsigned value = 0x999999;
+    uint32_t value = 0x999999;
     if (hex.size() == 7 && hex[0] == '#')
         std::from_chars(hex.data() + 1, hex.data() + hex.size(), value, 16);
+    return linear_colour(value);
+}
+
+Vec3 linear_colour(uint32_t rgb) {
     Vec3 out;
     for (int i = 0; i < 3; ++i) {
-        const double s = (value >> (16 - 8 * i) & 0xff) / 255.0;
+        const double s = (rgb >> (16 - 8 * i) & 0xff) / 255.0;
         out[i] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
     }
     return out;

@@ -11,6 +11,8 @@ namespace dihaptic::view {
 
 /// Linear red, green and blue of the colour "#rrggbb"; grey for any other text.
 Vec3 linear_colour(const std::string& hex);
+/// As above; `rgb`: 65536 red + 256 green + blue, each 0 to 255.
+Vec3 linear_colour(uint32_t rgb);
 
 Vec3 body_colour(const scene::Scene& scene, size_t body);
 Vec3 finger_colour(size_t finger);

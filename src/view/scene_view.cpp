@@ -249,19 +249,21 @@ struct SceneView::Parts {
     }
 
     void draw_models(const servo::Frame& frame, const gl::Program& program,
-                     const std::function<void(const Thing&)>& prepare) const {
-        for (size_t i = 0; i < bodies.size(); ++i) {
-            prepare(bodies[i]);
+                     const std::function<void(const Thing&, const Vec3& tint)>& prepare) const {
+        const auto draw = [&](const Thing& thing, size_t body, const Pose& X) {
+            if (!servo::is_displayed(frame, body)) return;
+            const servo::LookFrame* look = servo::item_of(frame.task.looks, body);
+            const bool tinted = look != nullptr && look->colour >= 0;
+            prepare(thing,
+                    tinted ? linear_colour(static_cast<uint32_t>(look->colour)) : thing.colour);
             program.set("world_from_model",
-                        placed(servo::displayed_body(frame, i),
-                               Vec3::Constant(servo::displayed_size(frame, i))));
-            bodies[i].model.draw();
-        }
-        for (size_t i = 0; i < fingers.size(); ++i) {
-            prepare(fingers[i]);
-            program.set("world_from_model", gl::matrix(servo::displayed_proxy(frame, i)));
-            fingers[i].model.draw();
-        }
+                        placed(X, Vec3::Constant(servo::displayed_size(frame, body))));
+            thing.model.draw();
+        };
+        for (size_t i = 0; i < bodies.size(); ++i)
+            draw(bodies[i], i, servo::displayed_body(frame, i));
+        for (size_t i = 0; i < fingers.size(); ++i)
+            draw(fingers[i], bodies.size() + i, servo::displayed_proxy(frame, i));
     }
 
     void draw_background(const Eigen::Vector2d& size) const;
@@ -298,7 +300,7 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
                         [&](const gl::Program& program) {
                             program.set("world_from_model", gl::matrix(p.X_WF));
                             p.floor.draw();
-                            p.draw_models(frame, program, [](const Parts::Thing&) {});
+                            p.draw_models(frame, program, [](const Parts::Thing&, const Vec3&) {});
                         });
 
     glBindFramebuffer(GL_FRAMEBUFFER, p.samples);
@@ -346,8 +348,8 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Camera& ca
     surface.set("alpha", 1.0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_map.texture());
-    draw_models(frame, surface, [&](const Thing& thing) {
-        surface.set("albedo", thing.colour);
+    draw_models(frame, surface, [&](const Thing& thing, const Vec3& tint) {
+        surface.set("albedo", tint);
         surface.set("gloss", thing.ground ? 0.25 : 1.0);
         surface.set("grid", thing.ground ? 0.28 : 0.0);
         surface.set("fade", thing.plane ? 1.2 : 0.0);
@@ -358,10 +360,11 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Camera& ca
 void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
     surface.set("gloss", 0.4);
     surface.set("alpha", 0.45);
-    surface.set("albedo", ink("#d55e00"));
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
     for (size_t i = 0; i < frame.task.targets.size(); ++i) {
+        const int32_t rgb = frame.task.targets[i].colour;
+        surface.set("albedo", rgb < 0 ? ink("#d55e00") : linear_colour(static_cast<uint32_t>(rgb)));
         surface.set("world_from_model",
                     placed({Quat::Identity(), servo::displayed_target(frame, i)},
                            Vec3::Constant(frame.task.targets[i].radius)));

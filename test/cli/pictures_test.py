@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import unittest
 
-from program import PROGRAM, dihaptic, session_of
+from program import PROGRAM, dihaptic, patient, session_of
 
 
 class Commands(unittest.TestCase):
@@ -30,6 +30,15 @@ class Commands(unittest.TestCase):
             recorded = pathlib.Path(file).read_bytes()
             self.assertEqual(dihaptic("picture", "scenes/block-on-table.yaml", "--time", "2.5", *small).returncode, 0)
             self.assertEqual(pathlib.Path(file).read_bytes(), recorded)
+
+    def test_a_path_is_the_fingers_where_there_is_no_object(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/reach.png"
+            reach = ["picture", "scenes/reach-in-space.yaml", "--time", "0.5", "--size", "192x128", "-o", file]
+            self.assertEqual(dihaptic(*reach).returncode, 0)
+            bare = pathlib.Path(file).read_bytes()
+            self.assertEqual(dihaptic(*reach, "--show", "path").returncode, 0)
+            self.assertNotEqual(pathlib.Path(file).read_bytes(), bare)
 
     def test_pictures_that_cannot_be_say_why_and_leave_nothing(self):
         scene = "scenes/block-on-table.yaml"
@@ -75,7 +84,7 @@ class Commands(unittest.TestCase):
                 process = subprocess.Popen([PROGRAM, *command], stderr=subprocess.PIPE, text=True)
                 process.stderr.readline()  # it has begun
                 process.send_signal(signal_)
-                self.assertIn("interrupted: there is no video", process.communicate(timeout=60)[1])
+                self.assertIn("interrupted: there is no video", process.communicate(timeout=patient(60))[1])
                 self.assertEqual(process.returncode, 1)
             self.assertEqual(os.listdir(folder), [])
 

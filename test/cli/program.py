@@ -9,6 +9,9 @@ import subprocess
 import sys
 import time
 
+sys.path.append("test")  # patience.py
+from patience import SLOWNESS, patient
+
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SHORT = """bodies:
   - {name: floor, shape: plane, fixed: yes}
@@ -19,7 +22,7 @@ MADE = ["session.nwb", "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", 
 
 
 def dihaptic(*arguments, program=PROGRAM, **options):
-    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=300, **options)
+    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=patient(300), **options)
 
 
 def session_of(out):
@@ -30,7 +33,7 @@ def session_of(out):
 
 def wait_for_log(out, size):
     """Until the only session's raw log in `out` is longer; returns how long it is."""
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + patient(60)
     while time.monotonic() < deadline:
         logs = glob.glob(out + "/*/raw.log")
         if logs and os.path.getsize(logs[0]) > size:

@@ -13,7 +13,7 @@ import termios
 import time
 import unittest
 
-from program import PROGRAM, dihaptic, session_of, wait_for_log
+from program import PROGRAM, dihaptic, patient, session_of, wait_for_log
 
 # the makers' fakes pass for real devices: a busy machine that leaves hands without an answer shall not end the session
 PATIENT = "max_pause_ms: 1000, hand_damping_Ns_m: 100"
@@ -90,7 +90,7 @@ class RealDevices(unittest.TestCase):
         lines = iter(process.stdout.readline, b"")
         next(line for line in lines if b"3 of 4" in line)
         process.send_signal(signal.SIGINT)
-        _, stderr = process.communicate(timeout=20)
+        _, stderr = process.communicate(timeout=patient(20))
         self.assertEqual(process.returncode, 1)
         self.assertIn(b"nothing was stored", stderr)
 
@@ -125,7 +125,7 @@ class RealDevices(unittest.TestCase):
                 os.write(master, answer)
                 wait_for_log(out, 100000)
                 process.send_signal(signal.SIGINT)
-                stdout, stderr = process.communicate(timeout=60)
+                stdout, stderr = process.communicate(timeout=patient(60))
                 os.close(master)
                 os.close(slave)
                 told = "held together, are 0.0 mm apart, and were 12.0 mm apart when the rig was calibrated"
@@ -143,7 +143,7 @@ class RealDevices(unittest.TestCase):
                                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=self.env)
                 wait_for_log(out, 100000)
                 process.send_signal(signal.SIGINT)
-                stdout, stderr = process.communicate(timeout=60)
+                stdout, stderr = process.communicate(timeout=patient(60))
                 self.assertIn("Escape or Ctrl-C switches force off", stdout, stderr)
                 session = pathlib.Path(session_of(out) + "session.yaml").read_text()
                 self.assertIn("clock: real", session)

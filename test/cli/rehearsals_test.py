@@ -167,6 +167,25 @@ groups:
         self.assertEqual([row["slow_retention"] == "0.9" for row in people], [False, True] * 2)
         self.assertEqual({(row["id"], row["group"]) for row in self.rows(out, "trials.csv")},
                          {(row["id"], row["group"]) for row in people})
+        # one of them alone is the same person, with the same order of trials
+        result = dihaptic("run", self.experiment, "--simulate", "--participant", "sim-002", "--population", population,
+                          "--out", self.folder + "/one")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (alone,) = glob.glob(self.folder + "/one/*/")
+        for name in ["person.yaml", "trial-list.csv"]:
+            self.assertEqual(pathlib.Path(alone + name).read_bytes(), pathlib.Path(out, "sim-002", name).read_bytes())
+        result = dihaptic("run", self.experiment, "--population", population)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--population requires --simulate", result.stderr)
+
+    def test_collect_names_who_is_left_out(self):
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out, "--people", "1").returncode, 0)
+        os.mkdir(out + "/unfinished-sim-002")
+        result = dihaptic("collect", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"left out: {out}/unfinished-sim-002: its session has not ended", result.stdout)
+        self.assertIn("1 session, ", result.stdout)
 
     def test_collect_brings_lifts_and_thresholds(self):
         text = pathlib.Path("experiments/visual-scaling.yaml").read_text().replace("../", os.getcwd() + "/")

@@ -13,7 +13,7 @@ import tempfile
 import time
 import unittest
 
-from program import PROGRAM, dihaptic, session_of
+from program import PROGRAM, dihaptic, patient, session_of
 
 
 class SessionFiles(unittest.TestCase):
@@ -98,7 +98,7 @@ task:
                     self.replace(session + "/" + file, kind)
                     (command,) = [command for command in self.commands(session) if command[0] == name]
                     where = f"{name} with {file}: {kind}"
-                    result = subprocess.run([PROGRAM, *command], capture_output=True, text=True, timeout=60)
+                    result = subprocess.run([PROGRAM, *command], capture_output=True, text=True, timeout=patient(60))
                     self.assertIn(result.returncode, [0, 1, 2], where + result.stderr)
                     self.assertNotIn("report this", result.stderr, where)
                     if commands and kind in ["pipe", "device", "folder", "loop", "large"]:
@@ -131,7 +131,7 @@ task:
                 session = self.copy()
                 self.replace(session + "/" + file, kind)
                 for command in [["picture", session, "-o", self.out + "/x.png"], ["video", session, "-o", self.out + "/x.mp4"]]:
-                    result = subprocess.run([PROGRAM, *command, "--size", "64x48"], capture_output=True, text=True, timeout=60)
+                    result = subprocess.run([PROGRAM, *command, "--size", "64x48"], capture_output=True, text=True, timeout=patient(60))
                     self.assertEqual(result.returncode, 2, f"{command} {file} {kind} " + result.stderr)
                     self.assertNotIn("report this", result.stderr)
         os.makedirs(self.out + "/people/sim-001", exist_ok=True)
@@ -143,7 +143,7 @@ task:
                     shutil.rmtree(there) if os.path.isdir(there) else os.path.lexists(there) and os.remove(there)
                     pathlib.Path(there).write_text("id: S07\n" if name == "person.yaml" else "outcome\nreached\n")
                 self.replace(self.out + "/people/sim-001/" + file, kind)
-                result = subprocess.run([PROGRAM, "collect", self.out + "/people"], capture_output=True, text=True, timeout=60)
+                result = subprocess.run([PROGRAM, "collect", self.out + "/people"], capture_output=True, text=True, timeout=patient(60))
                 self.assertEqual(result.returncode, 2, file + kind + result.stderr)
                 # without person.yaml, or with an empty one, it is no session of a simulated person
                 self.assertRegex(result.stderr, f"{file}|session.yaml|no complete session")

@@ -8,7 +8,7 @@ import unittest
 
 import h5py
 
-from window import PROGRAM, Window
+from window import PROGRAM, Window, patient
 from felt import Felt
 
 EVERY_SIGNAL = "DIHAPTIC_EVERY_SIGNAL" in os.environ  # `./dev soak`: each takes a window, and six seconds
@@ -41,7 +41,7 @@ class Force(Window):
     def pushed(self):
         """A busy machine may draw the first picture for longer than a window may be silent: then it is told to go on."""
         for _ in range(6):
-            end = time.monotonic() + 6
+            end = time.monotonic() + patient(6)
             while time.monotonic() < end:
                 if min(self.forces()) > 1:
                     return
@@ -50,13 +50,13 @@ class Force(Window):
         self.fail("no force came")
 
     def off_after(self, act, most):
-        """How long after `act` force was off everywhere, and stays so; at most `most` [s]."""
+        """How long after `act` force was off everywhere, and stays so; at most `most` [s] in the program that labs run."""
         begin = time.monotonic()
         act()
-        while max(self.forces()) > 0 and time.monotonic() < begin + 10:
+        while max(self.forces()) > 0 and time.monotonic() < begin + patient(10):
             time.sleep(0.0002)
         took = time.monotonic() - begin
-        self.assertLess(took, most)
+        self.assertLess(took, patient(most))
         for _ in range(20):
             self.assertEqual(max(self.forces()), 0)
             time.sleep(0.01)
@@ -139,7 +139,7 @@ class Force(Window):
                 number = getattr(signal, "SIG" + name)
                 took = self.off_after(lambda: self.window.send_signal(number), 0.2)
                 print(f"SIG{name}: {took * 1e3:.1f} ms")
-                self.assertEqual(self.window.wait(60), 1)
+                self.assertEqual(self.window.wait(patient(60)), 1)
                 self.assertEqual(self.last_frame(), [True, True])
                 self.assertIn("state: interrupted", pathlib.Path(self.recording() + "session.yaml").read_text())
                 self.log.seek(0)
@@ -177,7 +177,7 @@ class Force(Window):
                     recovered = subprocess.run([PROGRAM, "recover", folder], capture_output=True, text=True)
                     self.assertEqual(recovered.returncode, 0, recovered.stderr)
                 else:
-                    self.assertEqual(self.window.wait(60), 1)
+                    self.assertEqual(self.window.wait(patient(60)), 1)
                     self.log.seek(0)
                     self.assertIn("The window is lost: force is off", self.log.read())
                 self.assertEqual(self.last_frame(), [True, True])

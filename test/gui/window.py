@@ -17,7 +17,9 @@ import unittest
 
 import h5py
 
-sys.path.append("test")  # felt.py
+sys.path.append("test")  # felt.py, patience.py
+from patience import SLOWNESS, patient
+
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
 SIZE = "1400x900"
@@ -70,7 +72,8 @@ class Window(unittest.TestCase):
         self.settle()
 
     def xdotool(self, *words):
-        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True, timeout=60).stdout
+        return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True,
+                              timeout=patient(60)).stdout
 
     def key(self, *keys):
         for key in keys:
@@ -89,7 +92,7 @@ class Window(unittest.TestCase):
             time.sleep(0.016)
 
     def wait(self, what, condition, seconds=60):
-        end = time.monotonic() + seconds
+        end = time.monotonic() + patient(seconds)
         while time.monotonic() < end:
             value = condition()
             if value:
@@ -103,7 +106,7 @@ class Window(unittest.TestCase):
     def settle(self):
         """Until the window, of which no session runs, has drawn all: five looks in a row find its threads asleep."""
         look = ["ps", "-L", "-o", "state=", "-p", str(self.window.pid)]
-        end, asleep = time.monotonic() + 5, 0
+        end, asleep = time.monotonic() + patient(5), 0
         while asleep < 5 and time.monotonic() < end:
             states = subprocess.run(look, capture_output=True, text=True).stdout
             asleep = 0 if "R" in states or "D" in states else asleep + 1
@@ -112,7 +115,8 @@ class Window(unittest.TestCase):
     def screenshot(self, name):
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i",
-                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True, timeout=60)
+                        self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True,
+                       timeout=patient(60))
 
     def recording(self):
         """Folder of the session that runs, or the last one."""
@@ -145,7 +149,7 @@ class Window(unittest.TestCase):
 
     def quit(self):
         self.key("ctrl+q")
-        self.assertEqual(self.window.wait(60), 0)
+        self.assertEqual(self.window.wait(patient(60)), 0)
 
 
 class Participants(Window):

@@ -2,12 +2,16 @@
 // file may say without limit surfaces as a simulation that diverges, or as a force.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <optional>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 #include "base/field.h"
+#include "base/formula.h"
 #include "base/geometry.h"
 #include "base/node.h"
 
@@ -21,6 +25,9 @@ class BoundsFinder {
     void operator()(std::string_view name, double&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, int&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, Vec3&, Field field = {}) { number(name, field); }
+    void operator()(std::string_view name, Formula&, Field field = {}) { number(name, field); }
+    void operator()(std::string_view name, FormulaVec3&, Field field = {}) { number(name, field); }
+    void operator()(std::string_view name, Mat3&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, std::optional<double>&, Field field = {}) {
         number(name, field);
     }
@@ -69,5 +76,15 @@ class BoundsFinder {
 
     std::string path_;
 };
+
+/// Expects that each number of a settings struct, of which there are some, has two bounds.
+template <class Struct>
+void expect_bounds(Struct value = {}) {
+    BoundsFinder finder;
+    finder("", value);
+    EXPECT_GT(finder.numbers, 0);
+    for (const std::string& path : finder.unbounded)
+        ADD_FAILURE() << path << " of " << typeid(Struct).name() << " lacks a bound";
+}
 
 }  // namespace dihaptic::testing

@@ -12,6 +12,7 @@
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/regular_file.h"
+#include "task/measures.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
@@ -55,7 +56,9 @@ std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lif
     for (const char* name : kAskedFor)
         if (trials.has(name)) out.push_back(known[name]);
     // what happened or was measured in a trial: only the trial's own row has it
-    for (const Table::Column& c : list_figures(TrialMeasures{}).columns)
+    std::vector<Table::Column> measured = list_figures(TrialMeasures{}).columns;
+    for (Table::Column& c : task::measure_columns()) measured.push_back(std::move(c));
+    for (const Table::Column& c : measured)
         if (c.name != "attempt" && trials.has(c.name)) out.push_back(c);
     if (lifts == nullptr) return out;
     for (const Table::Column& c : list_figures(Lift{}).columns) {
@@ -78,6 +81,8 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
                   {"phase", "value: the state that began"},
                   {"outcome", "value: how the trial ended"},
                   {"message", "value: what the participant was shown"},
+                  {"line", "value: what the participant was shown below the message"},
+                  {"page", "value: text or picture of the page that was shown"},
                   {"marker", "value: the code that was sent"},
                   {"perturbation", "value: on or off"},
                   {"touch", "value: the finger, and what it touched"},

@@ -22,6 +22,38 @@ std::string who_moved(const Sessions& sessions) {
     return fmt::format("{}", fmt::join(who, " "));
 }
 
+/// A session's participant; sessions that name none are of different people.
+std::string person_of(const SessionData& session) {
+    const std::string& id = session.info.participant.id;
+    return id.empty() ? session.folder.path() : id;
+}
+
+/// Values of people. Who did several sessions counts once, with the mean of their values.
+class ByPerson {
+  public:
+    void add(const std::string& person, double value) {
+        const auto [at, is_new] = index_.emplace(person, values_.size());
+        if (is_new) values_.emplace_back();
+        values_[at->second].push_back(value);
+    }
+    Sample over_people() const {
+        std::vector<double> means;
+        for (const std::vector<double>& of_person : values_)
+            means.push_back(sample(of_person).mean);
+        return sample(means);
+    }
+
+  private:
+    std::map<std::string, size_t> index_;
+    std::vector<std::vector<double>> values_;  // by person, in the order of their first sessions
+};
+
+size_t number_of_people(const Sessions& sessions) {
+    std::set<std::string> people;
+    for (const SessionData* session : sessions) people.insert(person_of(*session));
+    return people.size();
+}
+
 /// The origin of these sessions' figures, for captions.
 std::string origin_of(const Sessions& sessions, const std::string& folder) {
     std::set<std::string> programs;
@@ -74,7 +106,7 @@ void list(FigureLister& row, const Sample& people) {
 /// person, and all but the last attempt at a trial are left out.
 void add_mean_curve(PopulationPage& out, const std::string& title, const std::string& round,
                     const std::vector<PersonCurve>& people, const std::string& origin) {
-    std::map<int, std::vector<double>> by_place;
+    std::map<int, ByPerson> by_place;
     std::map<int, std::string> blocks;
     for (const PersonCurve& person : people) {
         const int first = person.curve->trials.front().number;
@@ -85,13 +117,15 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
             own[place] = trial.compensation;
             blocks[place] = trial.block;
         }
-        for (const auto& [place, x] : own) by_place[place].push_back(x);
+        for (const auto& [place, x] : own) by_place[place].add(person_of(*person.session), x);
     }
+    Sessions of_round;
+    for (const PersonCurve& person : people) of_round.push_back(person.session);
     Series mean{"mean", Drawn::line, {}, {}, {}, {}, {}};
     std::vector<Mark> marks;
     std::string block;
     for (const auto& [place, values] : by_place) {
-        const Sample all = sample(values);
+        const Sample all = values.over_people();
         mean.x.push_back(place);
         mean.y.push_back(all.mean);
         mean.low.push_back(all.count > 1 ? all.mean_interval.low : all.mean);
@@ -112,26 +146,27 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
     Chart chart;
     chart.title = "Mean compensation" + (round.empty() ? "" : ", " + round);
     chart.x_label = "trial";
-    chart.y_label = "compensation [" + people.front().curve->unit + "]";
+    chart.y_label = y_label(*people.front().curve);
     chart.caption = fmt::format("Mean of {} people and its 95 % interval; without catch trials. {}",
-                                people.size(), origin);
+                                number_of_people(of_round), origin);
     chart.series = {mean};
     chart.marks = marks;
     out.page.chart(chart);
 }
 
 /// Adds statistics over people of the numbers of one round, which begin at `first` in
-/// population-people.csv.
-void sum_up(Table& table, const std::string& round, const Table& people, size_t first) {
+/// population-people.csv, a row for each of these sessions.
+void sum_up(Table& table, const std::string& round, const std::vector<PersonCurve>& sessions,
+            const Table& people, size_t first) {
     for (size_t c = 0; c < people.columns.size(); ++c) {
         const std::string& name = people.columns[c].name;
         if (name.ends_with("_low") || name.ends_with("_high")) continue;  // intervals of one person
-        std::vector<double> values;
-        for (size_t i = first; i < people.rows.size(); ++i) {
-            if (const auto* value = std::get_if<double>(&people.rows[i][c]))
-                values.push_back(*value);
+        ByPerson values;
+        for (size_t i = 0; i < sessions.size(); ++i) {
+            if (const auto* value = std::get_if<double>(&people.rows[first + i][c]))
+                values.add(person_of(*sessions[i].session), *value);
         }
-        const Sample all = sample(values);
+        const Sample all = values.over_people();
         if (all.count == 0) continue;
         table.rows.push_back({round, name, static_cast<double>(all.count), all.mean,
                               in_words(all.mean_interval), all.sd, all.median,
@@ -145,9 +180,10 @@ void add_not_measured(PopulationPage& out, const std::string& title, const Sessi
     for (const SessionData* session : sessions) {
         if (session->unmeasured.empty()) continue;
         all.insert(session->not_measured());
+        AdaptationCurve none;
+        none.unit = none.measure = "";
         if (session->curves.empty())
-            add_person(out, title, *session, {"", "", {}}, {},
-                       "not measured: " + session->not_measured());
+            add_person(out, title, *session, none, {}, "not measured: " + session->not_measured());
     }
     if (all.empty()) return;
     out.page.text(fmt::format(
@@ -172,21 +208,21 @@ void add_adaptation(PopulationPage& out, const std::string& title, const Session
         add_mean_curve(out, title, round, people, origin);
         for (const PersonCurve& p : people)
             add_person(out, title, *p.session, *p.curve, p.fits, p.curve->note());
-        sum_up(table, round, out.people, first);
+        sum_up(table, round, people, out.people, first);
     }
-    out.page.table(table, "Over people; population-people.csv has each of them. " + origin);
+    out.page.table(table, "Over people; population-people.csv has each session. " + origin);
 }
 
 void add_thresholds(PopulationPage& out, const std::string& title, const Sessions& sessions,
                     const std::string& origin) {
     std::vector<std::string> procedures;
-    std::map<std::string, std::vector<double>> shares;
+    std::map<std::string, ByPerson> shares;
     int not_counted = 0;
     for (const SessionData* session : sessions) {
         for (const ThresholdTrack& track : session->tracks) {
             const ThresholdFit threshold = fit_threshold(track);
             if (!shares.contains(track.procedure)) procedures.push_back(track.procedure);
-            std::vector<double>& of_people = shares[track.procedure];
+            ByPerson& of_people = shares[track.procedure];
             const model::Psychometric f = threshold.function();
             FigureLister row;
             row("experiment", title, "", "title");
@@ -201,7 +237,7 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
             row("session", session->folder.path(), "", "folder");
             add_row(out.thresholds, row);
             const bool counts = threshold.fit && !threshold.outside;
-            if (counts) of_people.push_back(track.share(f.threshold));
+            if (counts) of_people.add(person_of(*session), track.share(f.threshold));
             not_counted += !counts;
         }
     }
@@ -210,7 +246,7 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
     table.columns = {
         {"procedure", ""}, {"people", ""}, {"mean", ""}, {"mean 95 %", ""}, {"SD", ""}};
     for (const std::string& procedure : procedures) {
-        const Sample all = sample(shares[procedure]);
+        const Sample all = shares[procedure].over_people();
         table.rows.push_back({procedure, static_cast<double>(all.count), all.mean,
                               in_words(all.mean_interval), all.sd});
     }
@@ -227,9 +263,9 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
 
 void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
                const std::string& origin) {
-    // each person's median comes first, since people differ more than lifts do
+    // each session's median comes first, since people differ more than lifts do
     std::vector<std::string> groups;
-    std::map<std::string, std::map<std::string, std::vector<double>>> medians;
+    std::map<std::string, std::map<std::string, ByPerson>> medians;
     int lifts = 0;
     int complete = 0;
     for (const SessionData* session : sessions) {
@@ -244,7 +280,7 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
             for (const char* figure : kLiftFigures) {
                 std::vector<double> values;
                 for (const size_t i : of_group) values.push_back(session->lifts->number(i, figure));
-                medians[group][figure].push_back(sample(values).median);
+                medians[group][figure].add(person_of(*session), sample(values).median);
             }
         }
     }
@@ -254,7 +290,7 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
                      {"mean", ""},   {"mean 95 %", ""}, {"SD", ""}};
     for (const std::string& group : groups) {
         for (const char* figure : kLiftFigures) {
-            const Sample all = sample(medians[group][figure]);
+            const Sample all = medians[group][figure].over_people();
             if (all.count == 0) continue;
             table.rows.push_back({group, std::string(figure), static_cast<double>(all.count),
                                   all.mean, in_words(all.mean_interval), all.sd});
@@ -282,18 +318,17 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
     for (const Table* table : tables_of(out)) first.push_back(table->rows.size());
     const std::string& population = sessions.front()->info.moved_by.population;
     out.page.heading(population.empty() ? title : title + ": " + population);
-    std::set<std::string> people;
-    for (const SessionData* session : sessions) people.insert(session->participant());
-    const std::string of =
-        people.size() == 1 ? "one participant" : fmt::format("{} participants", people.size());
+    std::set<std::string> names;
+    for (const SessionData* session : sessions) names.insert(session->participant());
+    const size_t people = number_of_people(sessions);
+    const std::string of = people == 1 ? "one participant" : fmt::format("{} participants", people);
     out.page.text(fmt::format("{} {} of {}: {}.", who,
                               counted(static_cast<int64_t>(sessions.size()), "session"), of,
-                              fmt::join(people, ", ")));
-    if (sessions.size() > people.size()) {
+                              fmt::join(names, ", ")));
+    if (sessions.size() > people) {
         out.page.text(
-            "Several sessions are of the same participant: each counts as a person in the means "
-            "below, whose intervals are too narrow for that. Take one session of each, or means "
-            "of each participant from population-people.csv.");
+            "Several sessions are of the same participant, who counts once in the means below, "
+            "with the mean of these sessions. population-people.csv has each session.");
     }
     add_not_measured(out, title, sessions);
     add_adaptation(out, title, sessions, origin);

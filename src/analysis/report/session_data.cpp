@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/regular_file.h"
+#include "task/trials.h"
 
 namespace dihaptic::analysis {
 
@@ -23,15 +24,30 @@ SessionData SessionData::read(const std::string& path) {
                      {},     {}};
     for (const auto& [name, what] : unmeasured_perturbations(folder.file("task.yaml"))) {
         for (size_t i = 0; i < data.trials.rows(); ++i) {
-            if (data.trials.text(i, "perturbation") != name) continue;
+            if (!task::names_perturbation(data.trials.text(i, "perturbation"), name)) continue;
             data.unmeasured[name] = what;
             break;
         }
     }
-    if (is_there(folder.file("lifts.csv"))) data.lifts.emplace(folder.file("lifts.csv"));
+    if (is_there(folder.file("lifts.csv"))) {
+        CsvFile& lifts = data.lifts.emplace(folder.file("lifts.csv"));
+        lifts.rename("coupling", "grip_load_r");
+        lifts.rename("coupling_lag_s", "grip_load_lag_s");
+    }
+    const bool in_channels = has_adaptation_index(data.trials);
+    if (in_channels)
+        std::erase_if(data.unmeasured,
+                      [](const auto& of) { return of.second.starts_with("a force"); });
     data.curves = adaptation_curves(data.trials, data.unmeasured);
+    const std::string errors = column_of_errors(folder.file("task.yaml"));
+    const bool in_errors = !errors.empty() && data.trials.has(errors);
+    if (in_errors) {
+        data.curves = error_curves(data.trials, errors);
+        data.unmeasured.clear();  // the curves say what does not show
+    }
     // what a channel or a field does to the hand does not show what was learned
-    if (!data.curves.empty() && data.unmeasured.empty() && is_there(folder.file("trial-list.csv")))
+    if (!data.curves.empty() && !in_channels && !in_errors && data.unmeasured.empty() &&
+        is_there(folder.file("trial-list.csv")))
         data.generalisation =
             find_generalisation(data.trials, task::read_reaches(folder.file("trial-list.csv")));
     if (is_there(folder.file("procedures.csv")))

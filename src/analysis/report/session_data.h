@@ -50,7 +50,7 @@ std::vector<LiftRow> lift_rows(const SessionData& session);
 inline constexpr const char* kLiftFigures[] = {
     "preload_s",     "loading_s",     "peak_grip_rate_N_s", "peak_load_rate_N_s",
     "peak_grip_N",   "static_grip_N", "static_load_N",      "static_ratio",
-    "safety_margin", "coupling",      "coupling_lag_s",     "overshoot_mm"};
+    "safety_margin", "grip_load_r",   "grip_load_lag_s",    "overshoot_mm"};
 
 /// How a lift depends on the weight of the last one (Johansson and Westling 1988): the regression
 ///

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "analysis/lifts.h"
+#include "analysis/report/measure_section.h"
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
 #include "base/palette.h"
@@ -89,8 +90,8 @@ void add_windows(Page& page, const SessionData& session,
         const AdaptationCurve& curve = session.curves[c];
         FigureLister list;
         curve.list_landmarks(list);
-        // after the unit and the perturbation, each mean has a column, and its interval two
-        for (size_t i = 2; i + 2 < list.cells.size(); i += 3) {
+        // after measure, unit and perturbation, each mean has a column, and its interval two
+        for (size_t i = 3; i + 2 < list.cells.size(); i += 3) {
             const auto at = [&](size_t k) { return std::get<double>(list.cells[k]); };
             if (std::isnan(at(i))) continue;
             table.rows.push_back({curve.round, list.columns[i].name, at(i),
@@ -132,7 +133,9 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         row("block", trial.block, "", "name");
         row("kind", trial.kind, "", "of the trial");
         row("unit", curve.unit, "", "of what follows");
-        row("perturbation", trial.perturbation, "1", "0 in a clamp");
+        row("perturbation", trial.perturbation, "1", "0 where no error was seen");
+        row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
+            "no in clamps, reaches that fell short, and where it is not known");
         row("compensation", trial.compensation, "1", "of the hand");
         row("two_rate", fitted, "1", "fitted");
         row("single_rate", single, "1", "fitted");
@@ -141,7 +144,7 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
     Chart chart;
     chart.title = curve.round.empty() ? "Adaptation" : "Adaptation " + curve.round;
     chart.x_label = "trial";
-    chart.y_label = "compensation [" + curve.unit + "]";
+    chart.y_label = y_label(curve);
     chart.caption = origin_of(session);
     chart.marks = marks;
     chart.series = {perturbation, measured};
@@ -153,15 +156,23 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
         "Compensation is the angle of the hand against the perturbation when it had gone the "
-        "measured distance, or the logarithm by which its first stroke fell short [%]: 0 before "
-        "anything is learned, the perturbation itself when all of it is. Models are fitted to it "
-        "less the baseline's mean, by least squares, with 95 % profile "
-        "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
-        "parameters.");
+        "measured distance, or the logarithm by which its first stroke fell short [%], or, for a "
+        "force field, the adaptation index: the force on a channel over the force that would "
+        "cancel the field [%]. It is 0 before anything is learned, the perturbation itself when "
+        "all of it is. Models are fitted to it less the baseline's mean, by least squares, with "
+        "95 % profile intervals; the valley of the two-rate model is flat, so compare its curve "
+        "rather than its parameters.");
     std::vector<std::optional<AdaptationFits>> all_fits;
     for (const AdaptationCurve& curve : session.curves) {
         const auto& fits = all_fits.emplace_back(fit_adaptation(curve));
         add_curve(out, session, curve, fits);
+        if (curve.errors)
+            out.page.text(fmt::format(
+                "{}: {} is {:.4g} more (standard error {:.2g}) for who has learned nothing of the "
+                "perturbation than for who needs not, {:.4g}. Compensation is what is missing of "
+                "that; the intervals of rates take these figures as known.",
+                curve.round.empty() ? "All trials" : curve.round, curve.measure,
+                curve.errors->effect, curve.errors->standard_error, curve.errors->offset));
         FigureLister row;
         row("round", curve.round, "", "name");
         curve.list_landmarks(row);
@@ -489,6 +500,9 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     out.page.heading("Trials");
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
+    if (const Table all = perturbation_table(session.folder.file("task.yaml")); !all.rows.empty())
+        out.page.table(all, "Perturbations; share in trials.csv says how much of one acts. " +
+                                origin_of(session));
     if (!session.unmeasured.empty()) {
         out.page.heading("Not measured");
         out.page.text(
@@ -497,6 +511,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
             ". Figures of trials under them are empty. What the hand did is in trials.csv, and all "
             "of it in session.nwb.");
     }
+    add_measures(out.page, session);
     if (!session.curves.empty()) add_adaptation(out, session);
     if (!session.generalisation.empty()) add_generalisation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);

@@ -143,14 +143,14 @@ TEST(Lifts, GripIsSeenToFollowLoad) {
     Plan plan;
     const Lift together = lift_of(plan);
     // the grip's first rise, in the preload, reaches into the loading's first 31 ms
-    EXPECT_GT(together.coupling, 0.88);
-    EXPECT_NEAR(together.coupling_lag, 0, 0.015);
+    EXPECT_GT(together.grip_load_r, 0.88);
+    EXPECT_NEAR(together.grip_load_lag, 0, 0.015);
     EXPECT_NEAR(together.slope, 0.75, 0.03);
     plan.lag = 0.04;
     const Lift late = lift_of(plan);
-    EXPECT_LT(late.coupling, together.coupling);
-    EXPECT_NEAR(late.coupling_lag - together.coupling_lag, 0.04, 0.01);
-    EXPECT_GT(late.coupling_peak, 0.88);
+    EXPECT_LT(late.grip_load_r, together.grip_load_r);
+    EXPECT_NEAR(late.grip_load_lag - together.grip_load_lag, 0.04, 0.01);
+    EXPECT_GT(late.grip_load_r_peak, 0.88);
 }
 
 TEST(Lifts, WhatIsNotThereIsMarked) {

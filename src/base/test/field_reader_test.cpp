@@ -32,6 +32,8 @@ struct Outer {
     Fruit fruit = Fruit::apple;
     Inner inner;
     std::vector<Inner> list;
+    Mat3 matrix = Mat3::Zero();
+    Texts texts;
     template <class V>
     void visit(V& v) {
         v("name", name, Field::text().required());
@@ -41,6 +43,8 @@ struct Outer {
         v("fruit", fruit);
         v("inner", inner);
         v("list", list);
+        v("matrix", matrix, Field::of(Quantity::stiffness).within(-10, 10));
+        v("texts", texts);
     }
 };
 
@@ -125,6 +129,15 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name: a\nlist: [{stiffness_N_m: 0}]\n", "stiffness_N_m: must be positive, is 0"},
         Bad{"name: [a]\n", "name: must be a single word or text"},
         Bad{"name: ''\n", "test.yaml:1: error: name: is empty"},
+        Bad{"name: a\nmatrix_N_m: [1, 2, 3]\n",
+            "matrix_N_m: must be three rows of three numbers. Write matrix_N_m: [[0, 0, 0], "},
+        Bad{"name: a\nmatrix_N_m: [[1, 2, 3], [1, 2, 3], [1, 2]]\n", "three rows of three"},
+        Bad{"name: a\nmatrix_N_m: [[1, 2, 3], [1, 20, 3], [1, 2, 3]]\n",
+            "matrix_N_m: must be at least -10 and at most 10, is 20"},
+        Bad{"name: a\nmatrix: [[1, 2, 3], [1, 2, 3], [1, 2, 3]]\n", "needs its unit in the key"},
+        Bad{"name: a\ntexts: { a: 1 }\n",
+            "texts: must be a text or a list of texts. Write texts: a"},
+        Bad{"name: a\ntexts: [a, [b]]\n", "texts: must be a single word or text"},
         Bad{"name: a\ncount:\n", "must be a number, is nothing"}));
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
@@ -161,6 +174,23 @@ TEST(FieldWriter, WhatIsWrittenReadsBackToTheBit) {
     EXPECT_EQ(in.value.size, out.size);
     EXPECT_EQ(in.value.inner.damping, out.inner.damping);
     EXPECT_EQ(in.value.list.size(), 2u);
+}
+
+TEST(FieldReader, ReadsMatricesByRowsAndTextsWithOrWithoutAList) {
+    const Read one(
+        "name: a\nmatrix_N_mm: [[1e-3, 2e-3, 0], [0, 0, 5e-3], [0, 0, 0]]\ntexts: b c\n");
+    EXPECT_TRUE(one.diagnostics.problems().empty());
+    EXPECT_EQ(one.value.matrix(0, 1), 2);
+    EXPECT_EQ(one.value.matrix(1, 2), 5);
+    EXPECT_EQ(one.value.texts, Texts({"b c"}));
+    const Read two(to_yaml(write_fields(one.value)));
+    EXPECT_EQ(two.value.matrix, one.value.matrix);
+    EXPECT_EQ(two.value.texts, one.value.texts);
+    EXPECT_NE(to_yaml(write_fields(one.value)).find("texts: b c"), std::string::npos);
+    const Read more("name: a\ntexts: [b, c]\n");
+    EXPECT_EQ(more.value.texts, Texts({"b", "c"}));
+    EXPECT_EQ(Read(to_yaml(write_fields(more.value))).value.texts, more.value.texts);
+    EXPECT_TRUE(Read("name: a\ntexts: ''\n").value.texts.empty());
 }
 
 TEST(Node, ReportsBrokenYamlWithItsLine) {

@@ -43,7 +43,7 @@ std::vector<std::vector<double>> curves(const std::string& blocks) {
 std::string block(const std::string& perturb, int repeats) {
     const std::string kind = perturb.empty()      ? "baseline"
                              : perturb == "none"  ? "washout"
-                             : perturb == "clamp" ? "error_clamp, perturb: clamp"
+                             : perturb == "clamp" ? "visual_clamp, perturb: clamp"
                                                   : "perturbed, perturb: " + perturb;
     static int count = 0;
     return fmt::format("    - {{ name: block {}, kind: {}, repeats: {} }}\n", ++count, kind,

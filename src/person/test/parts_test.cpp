@@ -30,9 +30,16 @@ TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
         EXPECT_EQ(eyes.sight().trial, std::max(0, i - 100));
     }
     EXPECT_NEAR(eyes.sight().hand.x(), 2 * 0.4, 1e-12);  // displayed, not true
+    EXPECT_TRUE(eyes.sight().hand_shown);
     EXPECT_NEAR(eyes.sight().hand.y(), 1, 1e-12);
     EXPECT_EQ(eyes.sight().shown, 1u << 3);
     EXPECT_EQ(eyes.sight().target[3], Vec3(0, 0, 1));
+    frame.task.looks = {{0, 1, -1, 1}};
+    for (int i = 0; i <= 100; ++i) eyes.take(frame);
+    EXPECT_TRUE(eyes.sight().hand_shown);  // by the other finger
+    frame.task.looks.push_back({1, 1, -1, 1});
+    for (int i = 0; i <= 100; ++i) eyes.take(frame);
+    EXPECT_FALSE(eyes.sight().hand_shown);
 }
 
 TEST(Strokes, AddUpAndEndWhereTheyLead) {

@@ -14,7 +14,7 @@ TEST(Reaches, OfAPersonWithoutNoiseFollowTheTwoRateModelIncludingCatchTrialsAndT
     - { name: baseline, kind: baseline, repeats: 4 }
     - { name: rotation, kind: perturbed, perturb: rotation, repeats: 40, insert: [{ kind: catch, count: 4 }] }
     - { name: reversal, kind: perturbed, perturb: reversal, repeats: 8 }
-    - { name: clamp, kind: error_clamp, perturb: clamp, repeats: 24 }
+    - { name: clamp, kind: visual_clamp, perturb: clamp, repeats: 24 }
     - { name: washout, kind: washout, repeats: 8 }
 )");
     session::Plan plan = sitting.plan();

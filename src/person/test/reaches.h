@@ -49,9 +49,9 @@ inline std::vector<model::AdaptationTrial> schedule(const session::Plan& plan) {
     std::vector<model::AdaptationTrial> out;
     for (const task::Trial& trial : plan.task->trials) {
         const std::string& name =
-            trial.perturb < 0
+            trial.perturb.empty()
                 ? ""
-                : plan.task->task.perturbations[static_cast<size_t>(trial.perturb)].name;
+                : plan.task->task.perturbations[static_cast<size_t>(trial.perturb[0])].name;
         out.push_back({name == "rotation"   ? kRotation
                        : name == "reversal" ? -kRotation
                                             : 0,

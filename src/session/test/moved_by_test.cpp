@@ -100,6 +100,22 @@ TEST(Report, OfAFolderNeverMixesASimulationWithAPerson) {
     EXPECT_NE(page.find("Simulated: a simulated person moved the hand"), std::string::npos);
 }
 
+TEST(Report, OfAFolderCountsAParticipantWithSeveralSessionsOnce) {
+    Sessions sessions;
+    for (const char* person : {"sim-001", "sim-001", "sim-002"})
+        sessions.make(Mover::simulated_person, false, person);
+    const std::string folder = sessions.files.folder.file("sessions");
+    const auto report = analysis::write_report(folder, "dihaptic report", {});
+    const CsvFile curves(folder + "/population-adaptation.csv");
+    ASSERT_GT(curves.rows(), 0u);
+    for (size_t i = 0; i < curves.rows(); ++i) EXPECT_LE(curves.number(i, "people"), 2);
+    EXPECT_EQ(curves.number(0, "people"), 2);
+    EXPECT_EQ(CsvFile(folder + "/population-people.csv").rows(), 3u);
+    const std::string page = testing::read_file(report.page);
+    EXPECT_NE(page.find("who counts once"), std::string::npos);
+    EXPECT_NE(page.find("of 2 participants: sim-001, sim-002"), std::string::npos);
+}
+
 TEST(SimulatedId, CannotBeTakenForAPersons) {
     EXPECT_EQ(recording::simulated_id(""), "sim-001");
     EXPECT_EQ(recording::simulated_id("S07"), "sim-S07");

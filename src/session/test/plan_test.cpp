@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "session/check.h"
+#include "session/test/reaches.h"
 #include "testing/files.h"
 
 namespace dihaptic::session::plan_test {
@@ -24,7 +25,7 @@ std::vector<std::string> shipped(const std::string& folder, const std::string& e
 }
 
 TEST(ShippedFiles, AreInOrder) {
-    for (const char* folder : {"scenes", "rigs", "experiments"}) {
+    for (const char* folder : {"scenes", "rigs", "experiments", "populations"}) {
         for (const std::string& file : shipped(folder, ".yaml")) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");
@@ -438,6 +439,26 @@ INSTANTIATE_TEST_SUITE_P(
             },
             "the scene has no box named 'ball'"}));
 
+TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
+    const auto warnings = [](const std::string& what, const std::string& by) {
+        session::Files files;
+        files.replace(what, by);
+        std::string all;
+        for (const Problem& p : make_plan(files.request()).warnings) all += p.text() + "\n";
+        return all;
+    };
+    const std::string usual = warnings("title: Reaches", "title: The same");
+    EXPECT_EQ(usual.find("baseline"), std::string::npos) << usual;
+    EXPECT_EQ(usual.find("is not measured"), std::string::npos) << usual;
+    EXPECT_EQ(warnings("distance_mm: 30", "distance_mm: 50"), usual);
+    EXPECT_NE(warnings("kind: baseline", "kind: baseline, perturb: rotation")
+                  .find("kind: is baseline, and its trials are perturbed"),
+              std::string::npos);
+    EXPECT_NE(warnings("distance_mm: 30", "distance_mm: 51")
+                  .find("distance: is 51 mm, and the nearest target is 50 mm away"),
+              std::string::npos);
+}
+
 TEST(Plan, SetWithoutValueSaysHow) {
     Files files;
     Request request = files.request();
@@ -510,6 +531,20 @@ TEST(Plan, AMovementNeedsAnExperimentThatKnowsWhatToDoWithIt) {
     Request request = files.request();
     request.movement = "movements/reach-to-grasp.csv";
     EXPECT_THROW(make_plan(request), Error);
+}
+
+TEST(CheckFile, ReadsPopulations) {
+    testing::TemporaryFolder folder;
+    Diagnostics diagnostics;
+    check_file(folder.write("people.yaml", "title: People\nbased_on: nobody.yaml\n"), diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors());
+    const std::string adults = fs::absolute("populations/adults.yaml").string();
+    const std::string group = "groups:\n  - {name: control, traits: [{trait: nerve, median: 1}]}\n";
+    Diagnostics of_trait;
+    check_file(folder.write("people.yaml", "title: P\nbased_on: " + adults + "\n" + group),
+               of_trait);
+    ASSERT_TRUE(of_trait.has_errors());
+    EXPECT_NE(of_trait.problems().front().text().find("nerve"), std::string::npos);
 }
 
 TEST(CheckFile, SaysWhatItDoesNotKnow) {

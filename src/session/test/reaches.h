@@ -63,7 +63,7 @@ task:
   blocks:
     - { name: before, kind: baseline, repeats: 1 }
     - { name: turned, kind: perturbed, perturb: rotation, repeats: 2, ramp: 2, insert: [{ kind: catch, count: 1 }] }
-    - { name: clamped, kind: error_clamp, perturb: clamp, repeats: 1, order: sequential }
+    - { name: clamped, kind: visual_clamp, perturb: clamp, repeats: 1, order: sequential }
 )";
 
 struct Files {

@@ -2,10 +2,6 @@
 // and that a value that overflows by its unit is refused.
 #include <gtest/gtest.h>
 
-#include "devices/forcedimension/group.h"
-#include "devices/haply/options.h"
-#include "devices/openhaptics/group.h"
-#include "devices/simulated/options.h"
 #include "rig/rig.h"
 #include "servo/settings.h"
 #include "task/experiment.h"
@@ -14,14 +10,7 @@
 namespace dihaptic::task::bounds_test {
 namespace {
 
-template <class Struct>
-void expect_bounds(Struct value = {}) {
-    testing::BoundsFinder finder;
-    finder("", value);
-    EXPECT_GT(finder.numbers, 0);
-    for (const std::string& path : finder.unbounded)
-        ADD_FAILURE() << path << " of " << typeid(Struct).name() << " lacks a bound";
-}
+using testing::expect_bounds;
 
 TEST(Bounds, AreOfEverySettingAndOfScenesAndHands) {
     expect_bounds<servo::Settings>();
@@ -34,13 +23,9 @@ TEST(Bounds, AreOfEverySettingAndOfScenesAndHands) {
     }
 }
 
-TEST(Bounds, AreOfRigsCalibrationsAndDevices) {
+TEST(Bounds, AreOfRigsAndCalibrations) {
     expect_bounds<rig::Rig>();
     expect_bounds<rig::Calibration>();
-    expect_bounds<devices::simulated::Options>();
-    expect_bounds<devices::haply::Options>();
-    expect_bounds<devices::forcedimension::Options>();
-    expect_bounds<devices::openhaptics::Options>();
 }
 
 TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
@@ -49,6 +34,11 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
         Exit exit;
         exit.when = static_cast<When>(when);
         expect_bounds(exit);
+    }
+    for (size_t kind = 0; kind < enum_names(LoadKind{}).size(); ++kind) {
+        LoadSpec load;
+        load.kind = static_cast<LoadKind>(kind);
+        expect_bounds(load);
     }
 }
 

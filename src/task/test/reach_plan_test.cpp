@@ -2,6 +2,7 @@
 #include "task/reach_plan.h"
 
 #include <cmath>
+#include <map>
 
 #include "session/test/reaches.h"
 
@@ -26,6 +27,47 @@ TEST(ReachPlan, IsReadAsItWasFrozen) {
         EXPECT_EQ(plan.task->phases().at(static_cast<size_t>(reach.phase)), "reach");
         EXPECT_EQ(reach.measure, Measure::angle);
     }
+}
+
+TEST(MovementPlan, IsReadAsItWasFrozen) {
+    session::Files files;
+    files.replace("  states:", R"(    - name: curl
+      field: { kind: curl, on: index, damping_Ns_m: 15, axis: [0, 0, 1] }
+    - name: back
+      field: { kind: curl, on: index, damping_Ns_m: -7.5, axis: [0, 0, 1] }
+  measures: [channel_force, adaptation_index]
+  states:)");
+    files.experiment += R"(    - { name: field, kind: perturbed, perturb: curl, repeats: 1 }
+    - { name: opposite, kind: perturbed, perturb: back, repeats: 1 }
+    - { name: held, kind: force_channel, perturb: channel, repeats: 1 }
+)";
+    const session::Plan plan = session::make_plan(files.request());
+    const std::string list = files.folder.file("trial-list.csv");
+    write_csv(frozen_list(*plan.task, plan.scene), list);
+    const std::vector<MovementPlan> movements = read_movements(list);
+    ASSERT_EQ(movements.size(), plan.task->trials.size());
+    const std::map<std::string, double> shares{
+        {"before", 0}, {"turned", 0}, {"field", 1}, {"opposite", -0.5}};
+    for (size_t i = 0; i < movements.size(); ++i) {
+        const MovementPlan& movement = movements[i];
+        const Trial& trial = plan.task->trials[i];
+        const std::string block = plan.task->task.blocks[static_cast<size_t>(trial.block)].name;
+        const Vec3 along = trial.condition == 1 ? Vec3::UnitY() : Vec3::UnitX();
+        EXPECT_TRUE(movement.along_W().isApprox(along));
+        EXPECT_TRUE(movement.left_W().isApprox(Vec3::UnitZ().cross(along)));
+        EXPECT_EQ(movement.channel, block == "held");
+        EXPECT_TRUE((movement.ideal * Vec3::UnitX()).isApprox(Vec3(0, 15, 0)));
+        EXPECT_EQ(std::isnan(movement.field_share), movement.channel);
+        const auto share = shares.find(block);
+        EXPECT_TRUE(share == shares.end() || movement.field_share == share->second) << block;
+    }
+    EXPECT_EQ(read_reaches(list).size(), movements.size());
+}
+
+TEST(MovementPlan, HasNoLeftWhereTheAxisLiesAlongTheLine) {
+    MovementPlan movement;
+    movement.to_W = {0, 0, 0.1};
+    EXPECT_TRUE(movement.left_W().array().isNaN().all());
 }
 
 TEST(ReachPlan, IsReadByTheNamesOfItsColumns) {

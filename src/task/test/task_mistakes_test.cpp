@@ -21,6 +21,8 @@ const char* const kRotation =
 const char* const kChannel =
     "field: { kind: channel, on: index, from: start, to: target, stiffness_N_m: 1000, "
     "damping_Ns_m: 5 }";
+const char* const kReach =
+    "reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }";
 const char* const kBlock = "{ name: before, kind: baseline, repeats: 1 }";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -97,9 +99,56 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlock, "{ name: before, order: random }", "order"},
         Mistake{kBlock, "{ name: before, kind: perturbed }", "is missing in a perturbed block"},
         Mistake{kBlock, "{ name: before, ramp: 3 }", "there is nothing to ramp"},
+        Mistake{kBlock, "{ name: before, kind: error_clamp, perturb: clamp }",
+                "'error_clamp' is gone. Write visual_clamp"},
+        Mistake{kBlock, "{ name: before, kind: visual_clamp }", "is missing in a visual_clamp"},
+        Mistake{kBlock, "{ name: before, kind: visual_clamp, perturb: channel }",
+                "'channel' is a force channel. Write kind: force_channel"},
+        Mistake{kBlock, "{ name: before, kind: force_channel, perturb: clamp }",
+                "'clamp' is not a force channel. Name a perturbation whose field is a channel"},
+        Mistake{"kind: catch, count: 1", "kind: force_channel, count: 1",
+                "is missing in a force_channel"},
         Mistake{"perturb: rotation", "perturb: rotatoin", "Did you mean rotation?"},
         Mistake{"count: 1 }", "count: 5 }", "more than the block's 4 trials"},
         Mistake{"  blocks:\n", "  block:\n", "blocks"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Measures, BrokenFile,
+    ::testing::Values(
+        Mistake{"redo: next", "measures: [reaction_tim]", "Did you mean reaction_time?"},
+        Mistake{"redo: next", "measures: [peak_speed, peak_speed]", "'peak_speed' is there twice"},
+        Mistake{kReach, "measures: [peak_speed]", "measures of movement are asked for"},
+        Mistake{"redo: next", "measures: [peak_grip]", "need an object that can move and two"},
+        Mistake{"redo: next", "measures: [grip_latency]", "counts from a load step"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { of: inde }",
+                "Did you mean index?"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { of: table }",
+                "'table' is nothing that moves"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { from: strat }",
+                "Did you mean start?"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { to: start }",
+                "is where the movement begins"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { during: [rech] }",
+                "Did you mean reach?"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { go: hom }",
+                "Did you mean home?"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { axis: [0, 0, 0] }",
+                "has no direction"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { onset_speed_mm_s: 0 }",
+                "onset_speed_mm_s"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { onset: 5 }", "onset"},
+        Mistake{"redo: next",
+                "measures: [lateral_deviation]\n  movement: { error: lateral_deviaton }",
+                "Did you mean lateral_deviation?"},
+        Mistake{"redo: next", "measures: [peak_speed]\n  movement: { error: path_length }",
+                "'path_length' is no figure of the measures listed"},
+        Mistake{"redo: next", "measures: [channel_force]\n  movement: { of: block }",
+                "no channel holds 'block'"},
+        Mistake{"redo: next", "measures: [adaptation_index]", "needs a field that is learned"},
+        Mistake{"redo: next", "measures: [adaptation_index]\n  movement: { ideal: chanel }",
+                "Did you mean channel?"},
+        Mistake{"redo: next", "measures: [adaptation_index]\n  movement: { ideal: channel }",
+                "'channel' has no field on 'index' that follows its velocity"}));
 
 }  // namespace
 }  // namespace dihaptic::task::task_mistakes_test

@@ -45,7 +45,7 @@ session::Recorded run_some(session::Plan& plan, const std::shared_ptr<const Task
 
 TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     session::Files files;
-    files.replace("perturb: clamp", "perturb: channel");
+    files.replace("kind: visual_clamp, perturb: clamp", "kind: force_channel, perturb: channel");
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     const analysis::SessionFigures figures = finish(result);
@@ -59,7 +59,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     for (size_t i = 0; i < 9; ++i) {
         const Trial& trial = plan.task->trials[i];
         EXPECT_NEAR(std::stod(hand[i]), 0, 0.2) << i;
-        const double turned = trial.perturb == 0 ? 30 * trial.share : 0;
+        const double turned = trial.perturb == std::vector{0} ? 30 * trial.share : 0;
         EXPECT_NEAR(std::stod(shown[i]), turned, 0.2) << i;
     }
     std::map<std::string, int> events;
@@ -75,7 +75,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
 
 TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     session::Files files;
-    files.replace("perturb: clamp", "perturb: channel");
+    files.replace("kind: visual_clamp, perturb: clamp", "kind: force_channel, perturb: channel");
     // the hand goes astray, 10 mm to the side
     files.replace("hand: [{ duration_s: 0.2, reach: target }]",
                   "hand: [{ duration_s: 0.2, reach: target, move_mm: [10, 10, 0] }]");
@@ -439,7 +439,7 @@ TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
         EXPECT_NEAR(std::stod(shown[i]), kind[i] == "perturbed" ? 30 : 0, 0.3) << i << kind[i];
     }
     EXPECT_GT(kinds["perturbed"], 10);
-    EXPECT_EQ(kinds["error_clamp"], 4);
+    EXPECT_EQ(kinds["visual_clamp"], 4);
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
 }
 

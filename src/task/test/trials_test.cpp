@@ -53,7 +53,8 @@ TEST(Order, TrialsHaveTheirKindsSharesAndInsertsAndTheSeedDecides) {
         EXPECT_EQ(trials[i].number, 2);
         EXPECT_EQ(trials[i].in_block, static_cast<int>(i) - 1);
         caught += trials[i].kind == TrialKind::catch_trial;
-        EXPECT_EQ(trials[i].perturb, trials[i].kind == TrialKind::catch_trial ? -1 : 0);
+        EXPECT_EQ(trials[i].perturb,
+                  trials[i].kind == TrialKind::catch_trial ? std::vector<int>{} : std::vector{0});
     }
     EXPECT_EQ(caught, 1);
     EXPECT_EQ(trials[2].kind, TrialKind::perturbed);

@@ -44,7 +44,7 @@ struct Learner {
 
     void add(int count, const std::string& block, const std::string& kind, double f) {
         for (int i = 0; i < count; ++i) {
-            schedule.push_back({f, kind == "error_clamp"});
+            schedule.push_back({f, kind == "visual_clamp"});
             kinds.push_back({block, kind});
         }
     }
@@ -72,7 +72,7 @@ std::string trials_of(const model::TwoRate& rates, double rotation, double bias)
     learner.add(30, "perturbed", "perturbed", rotation);
     learner.add(1, "catch", "catch", 0);
     learner.add(29, "perturbed", "perturbed", rotation);
-    learner.add(20, "error_clamp", "error_clamp", 0);
+    learner.add(20, "visual_clamp", "visual_clamp", 0);
     learner.add(10, "washout", "washout", 0);
     return learner.trials(rates, bias, 20);
 }
@@ -127,7 +127,7 @@ TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
     learner.add(64, "before", "baseline", 0);
     learner.add(160, "learn", "perturbed", 30);
     learner.add(16, "reverse", "perturbed", -30);
-    learner.add(48, "clamp", "error_clamp", 0);
+    learner.add(48, "clamp", "visual_clamp", 0);
     const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 0)));
     const auto curve = adaptation_curves(trials).at(0);
     const auto& t = curve.trials;
@@ -155,11 +155,11 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
                   std::to_string(-compensation) + "\n";
     };
     for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
-    add("error_clamp", 45, 20);  // before training, so it is no probe
+    add("visual_clamp", 45, 20);  // before training, so it is no probe
     for (int i = 0; i < 10; ++i) add("perturbed", 0, 3.0 * i);
     for (int i = 0; i < 2; ++i) {
-        add("error_clamp", 0, 21);
-        add("error_clamp", 45, 11);
+        add("visual_clamp", 0, 21);
+        add("visual_clamp", 45, 11);
         add("catch", 90, 3);
     }
     const auto reaches = task::read_reaches(folder.write("trial-list.csv", list));
@@ -176,7 +176,7 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
     // probes in the trained direction alone show no generalisation
     const std::string one =
         "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
-        "2,error_clamp,a,z,-3\n";
+        "2,visual_clamp,a,z,-3\n";
     EXPECT_TRUE(find_generalisation(CsvFile(folder.write("one.csv", one)), reaches).empty());
 }
 
@@ -307,11 +307,11 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     testing::TemporaryFolder folder;
     Learner learner;
     learner.add(10, "before", "baseline", 0);
-    learner.add(2, "before", "error_clamp", 0);  // inserted
+    learner.add(2, "before", "visual_clamp", 0);  // inserted
     learner.add(60, "first", "perturbed", 30);
-    learner.add(3, "first", "error_clamp", 0);
+    learner.add(3, "first", "visual_clamp", 0);
     learner.add(20, "reversal", "perturbed", -30);
-    learner.add(20, "clamp", "error_clamp", 0);
+    learner.add(20, "clamp", "visual_clamp", 0);
     learner.add(12, "after", "washout", 0);
     const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
     const auto curve = adaptation_curves(trials).at(0);
@@ -346,11 +346,14 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
         "  - { name: turn, visual: { moves: [proxies], about: a, angle_deg: 30 } }\n"
         "  - { name: curl, field: { kind: curl, on: finger, damping: 15 } }\n"
         "  - { name: rail, field: { kind: channel, on: finger } }\n"
+        "  - name: push\n"
+        "    loads: [{ kind: channel, on: finger }, { kind: constant, on: finger }]\n"
         "  - { name: heavy, body: { body: block, mass_scale: [2, 2, 2] } }\n"
         "rounds:\n"
         "  - perturbations: [{ name: side, body: { body: block, mass_scale: [3, 3, 1] } }]\n");
     const Unmeasured unmeasured = unmeasured_perturbations(task);
     EXPECT_EQ(unmeasured, (Unmeasured{{"curl", "a force field (curl)"},
+                                      {"push", "a force field (constant)"},
                                       {"rail", "a force channel"},
                                       {"side", "a mass that differs by direction"}}));
     std::string text =
@@ -359,7 +362,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
         const bool field = i > 10 && i <= 20;
         const bool rail = field && i % 5 == 0;
         text += std::to_string(i) + (field ? ",field," : ",flat,") +
-                (rail     ? "error_clamp,,rail,1,0,0\n"
+                (rail     ? "error_clamp,,turn + rail,1,0,0\n"  // as earlier versions called it
                  : field  ? "perturbed,,curl,1,12,12\n"
                  : i > 20 ? "washout,,,0,-5,-5\n"
                           : "baseline,,,0,1,1\n");
@@ -377,9 +380,157 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_FALSE(fit_adaptation(curve));
     FigureLister landmarks;
     curve.list_landmarks(landmarks);
-    const double perturbation = std::get<double>(landmarks.cells[1]);
+    const double perturbation = std::get<double>(landmarks.cells[2]);
     EXPECT_TRUE(std::isnan(perturbation));
     EXPECT_TRUE(unmeasured_perturbations(folder.file("none.yaml")).empty());
+    const Table all = perturbation_table(task);
+    ASSERT_EQ(all.rows.size(), 6u);
+    const auto what = [&](size_t i) { return std::get<std::string>(all.rows[i][2]); };
+    EXPECT_EQ(what(0), "rotation by 30 deg about (0, 0, 0)");
+    EXPECT_EQ(what(1), "curl field of 0 N*s/m");  // the file above has no unit
+    EXPECT_EQ(what(2), "force channel of 0 N/m");
+    EXPECT_EQ(what(5), "inertia (3, 3, 1) times");
+    EXPECT_TRUE(perturbation_table(folder.file("none.yaml")).rows.empty());
+    EXPECT_EQ(curve.trials[14].kind, "force_channel");
+    EXPECT_EQ(kind_of("error_clamp", "turn", unmeasured), "visual_clamp");
+    EXPECT_EQ(kind_of("error_clamp", "turn + rail", unmeasured), "force_channel");
+    EXPECT_EQ(kind_of("catch", "rail", unmeasured), "catch");
+    EXPECT_EQ(unmeasured_in("rail + turn + curl", unmeasured),
+              "a force field (curl), a force channel");
+    EXPECT_EQ(unmeasured_in("rails", unmeasured), "");
+}
+
+/// trials.csv of a person who learns a field, with a channel in every eighth trial.
+std::string fields_of(const model::TwoRate& rates, double sign) {
+    Learner learner;
+    const auto add = [&](int count, const std::string& block, const std::string& kind, double f) {
+        for (int i = 0; i < count; ++i)
+            learner.add(1, block, i % 8 == 3 ? "force_channel" : kind, i % 8 == 3 ? 0 : f);
+    };
+    add(32, "before", "baseline", 0);
+    add(240, "field", "perturbed", sign);
+    add(32, "after", "washout", 0);
+    for (auto& trial : learner.schedule) trial.clamp = false;
+    for (size_t i = 0; i < learner.kinds.size(); ++i)
+        learner.schedule[i].clamp = learner.kinds[i].kind == "force_channel";
+    const auto x = model::compensation(rates, learner.schedule);
+    std::string out =
+        "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg,"
+        "adaptation_index,field_share\n";
+    for (size_t i = 0; i < x.size(); ++i) {
+        const bool channel = learner.schedule[i].clamp;
+        const double f = learner.schedule[i].perturbation;
+        out += std::to_string(i + 1) + "," + learner.kinds[i].block + "," + learner.kinds[i].kind +
+               ",," +
+               (channel  ? "rail"
+                : f != 0 ? "curl"
+                         : "") +
+               ",1,0,0," + (channel ? std::to_string(x[i] + 0.01) + "," : "," + std::to_string(f)) +
+               "\n";
+    }
+    return out;
+}
+
+TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
+    testing::TemporaryFolder folder;
+    for (const double sign : {1.0, -1.0}) {
+        const CsvFile trials(folder.write("trials.csv", fields_of(model::kSmith2006, sign)));
+        ASSERT_TRUE(has_adaptation_index(trials));
+        const auto curves = adaptation_curves(trials);
+        ASSERT_EQ(curves.size(), 1u);
+        const AdaptationCurve& curve = curves[0];
+        EXPECT_EQ(curve.measure, kAdaptationIndex);
+        EXPECT_EQ(y_label(curve), "adaptation_index [%]");
+        EXPECT_EQ(curve.note(), "");
+        EXPECT_NEAR(curve.perturbation(), 100 * sign, 1e-9);
+        EXPECT_TRUE(std::isnan(curve.trials[40].compensation));  // in the field
+        EXPECT_FALSE(curve.trials[40].clamp);
+        EXPECT_TRUE(curve.trials[35].clamp);
+        const auto at = curve.windows();
+        EXPECT_NEAR(at.baseline.mean, 1, 1e-6);
+        EXPECT_EQ(at.baseline.trials, 4);
+        EXPECT_EQ(at.late.trials, 8);
+        EXPECT_GT(sign * at.late.mean, sign * at.early.mean + 10);
+        EXPECT_EQ(at.washout_first.trials, 4);
+        EXPECT_EQ(curve.blocks().at(1).last.trials, 8);
+        const auto fits = fit_adaptation(curve);
+        ASSERT_TRUE(fits);
+        EXPECT_LT(fits->two_rate.residual_sd, 0.01);
+        EXPECT_NEAR(fits->two_rate.rates.slow.retention, 0.992, 0.003);
+        EXPECT_NEAR(fits->two_rate.rates.slow.learning, 0.02, 0.005);
+    }
+    // without the index a channel shows nothing, whatever its trials are called with
+    const CsvFile blind(folder.write(
+        "blind.csv",
+        "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg\n"
+        "1,a,baseline,,,0,1,1\n2,a,force_channel,,rail,1,0,0\n"));
+    const auto curve = adaptation_curves(blind).at(0);
+    EXPECT_EQ(curve.note(), "not measured under a force channel");
+    EXPECT_TRUE(std::isnan(curve.trials[1].compensation));
+}
+
+/// trials.csv of carries in two directions, in which the error shows what is not learned yet.
+std::string errors_of(double effect, double noise) {
+    Random random(5, "errors");
+    std::vector<model::AdaptationTrial> schedule;
+    for (int i = 0; i < 160; ++i) {
+        const bool acts = i >= 30 && i < 120 && i % 10 != 9;  // catch trials among them
+        schedule.push_back({acts ? 1.0 : 0.0, false});
+    }
+    const auto x = model::compensation(model::SingleRate{0.95, 0.15}, schedule);
+    std::string out = "trial_num,block,kind,round,condition,perturbation,share,deviation_mm\n";
+    for (size_t i = 0; i < schedule.size(); ++i) {
+        const double p = schedule[i].perturbation;
+        const std::string kind = i < 30     ? "baseline"
+                                 : i >= 120 ? "washout"
+                                 : p > 0    ? "perturbed"
+                                            : "catch";
+        for (const bool left : {true, false}) {
+            const double error =
+                3 + (left ? -1 : 0.5) * effect * (p - x[i]) + noise * random.normal();
+            out += std::to_string(2 * i + (left ? 1 : 2)) + "," + kind + "," + kind + ",," +
+                   (left ? "left" : "right") + "," + (p > 0 ? "heavy" : "") + ",1," +
+                   std::to_string(error) + "\n";
+        }
+    }
+    return out;
+}
+
+TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
+    testing::TemporaryFolder folder;
+    const auto curves =
+        error_curves(CsvFile(folder.write("trials.csv", errors_of(12, 0.3))), "deviation_mm");
+    ASSERT_EQ(curves.size(), 2u);
+    EXPECT_EQ(curves[0].round, "left");
+    EXPECT_EQ(curves[1].round, "right");
+    for (const AdaptationCurve& curve : curves) {
+        ASSERT_TRUE(curve.errors);
+        const double effect = curve.round == "left" ? -12 : 6;
+        EXPECT_NEAR(curve.errors->effect, effect, 0.6);
+        EXPECT_NEAR(curve.errors->offset, 3, 0.3);
+        EXPECT_EQ(curve.note(), "");
+        EXPECT_NEAR(curve.perturbation(), 100, 1e-9);
+        const auto at = curve.windows();
+        EXPECT_NEAR(at.baseline.mean, 0, 3);
+        EXPECT_NEAR(at.late.mean, 70, 7);  // 75 = 15 / (15 + 5), less what catch trials take back
+        EXPECT_GT(at.catch_trials.mean, 50);
+        const auto fits = fit_adaptation(curve);
+        ASSERT_TRUE(fits);
+        EXPECT_NEAR(fits->single_rate.rate.retention, 0.95, 0.02);
+        EXPECT_NEAR(fits->single_rate.rate.learning, 0.15, 0.04);
+        EXPECT_LT(fits->single_rate.learning.low, 0.15);
+        EXPECT_GT(fits->single_rate.learning.high, 0.15);
+    }
+    // an error that the perturbation does not change shows nothing, and says so
+    const auto none =
+        error_curves(CsvFile(folder.write("none.csv", errors_of(0, 1))), "deviation_mm");
+    for (const AdaptationCurve& curve : none) {
+        EXPECT_FALSE(curve.errors);
+        EXPECT_EQ(curve.note(),
+                  "not measured under a perturbation that does not show in deviation_mm");
+        EXPECT_FALSE(fit_adaptation(curve));
+        EXPECT_TRUE(std::isnan(curve.windows().late.mean));
+    }
 }
 
 TEST(Report, OfNothingSaysSo) {

@@ -3,8 +3,10 @@
 
 #include "devices/forcedimension/backend.h"
 #include "devices/forcedimension/dhd.h"
+#include "devices/forcedimension/group.h"
 #include "devices/test/making.h"
 #include "fake_dhd.h"
+#include "testing/bounds.h"
 
 namespace dihaptic::devices::forcedimension::forcedimension_test {
 namespace {
@@ -361,6 +363,10 @@ TEST(ForceDimension, SurveysWhatIsThere) {
     EXPECT_TRUE(found.devices.empty());
     expect_in("cannot be loaded; tried libdhd.so.3 (", found.missing);
     expect_in("libdrd.so (", found.missing);
+}
+
+TEST(DhdOptions, HaveBounds) {
+    testing::expect_bounds<Options>();
 }
 
 }  // namespace

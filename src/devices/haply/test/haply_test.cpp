@@ -8,6 +8,7 @@
 #include "devices/haply/test/fake_service.h"
 #include "devices/haply/test/numbered_run.h"
 #include "testing/allocation_guard.h"
+#include "testing/bounds.h"
 
 namespace dihaptic::devices::haply::haply_test {
 namespace {
@@ -450,6 +451,10 @@ TEST_F(Haply, CanBeStoppedWhileItWaits) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, milliseconds(900));
     EXPECT_EQ(readings[0].status, kNotAnswering);
     stopper.join();
+}
+
+TEST(HaplyOptions, HaveBounds) {
+    testing::expect_bounds<Options>();
 }
 
 }  // namespace

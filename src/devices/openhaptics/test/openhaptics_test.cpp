@@ -2,9 +2,11 @@
 #include <thread>
 
 #include "devices/openhaptics/backend.h"
+#include "devices/openhaptics/group.h"
 #include "devices/openhaptics/hd.h"
 #include "devices/test/making.h"
 #include "fake_hd.h"
+#include "testing/bounds.h"
 
 namespace dihaptic::devices::openhaptics::openhaptics_test {
 namespace {
@@ -441,6 +443,10 @@ TEST(FakeHd, RefusesFramesThatAreMixedUp) {
     hd.disable_device(device);
     hd.begin_frame(device);
     EXPECT_EQ(hd.get_error().code, unsigned{kHdBadHandle});
+}
+
+TEST(HdOptions, HaveBounds) {
+    testing::expect_bounds<Options>();
 }
 
 }  // namespace

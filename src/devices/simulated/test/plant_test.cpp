@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "devices/device_group.h"
+#include "testing/bounds.h"
 
 namespace dihaptic::devices::simulated::plant_test {
 namespace {
@@ -239,6 +240,10 @@ TEST(SimulatedGroup, ReadsOrientationAndWritesTorqueInTheDevicesFrame) {
     }
     // against 1 N*m/rad
     EXPECT_LT((X_WD.R * rotation_vector(readings[0].R_DH) - t_W).norm(), 1e-6);
+}
+
+TEST(SimulatedOptions, HaveBounds) {
+    testing::expect_bounds<Options>();
 }
 
 }  // namespace

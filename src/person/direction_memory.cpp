@@ -1,4 +1,4 @@
-#include "person/rotation_memory.h"
+#include "person/direction_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,23 +14,21 @@ double angle_between(const Vec3& a, const Vec3& b) noexcept {
 
 }  // namespace
 
-Vec3 RotationMemory::expected(const Vec3& d) const noexcept {
-    Vec3 out = fast_;
+Vec3 DirectionMemory::added_to(Vec3 sum, const Vec3& d) const noexcept {
     for (size_t i = 0; i < count_; ++i) {
-        double a = angle_between(d, taught_[i].d) / width_;
+        const double angle = angle_between(d, taught_[i].d);
         // the same target, whose direction is judged with noise
-        if (a * width_ < kSameDirection) a = 0;
-        out += std::exp(-a * a / 2) * taught_[i].slow;
+        const double a = angle < kSameDirection ? 0 : angle / width_;
+        sum += std::exp(-a * a / 2) * taught_[i].x;
     }
-    return out;
+    return sum;
 }
 
-void RotationMemory::learn(const Vec3& d, const Vec3& error) noexcept {
-    fast_ = rates_.fast.retention * fast_ + rates_.fast.learning * error;
+void DirectionMemory::learn(const Vec3& d, const Vec3& error) noexcept {
     size_t nearest = count_;
     double least = 4;
     for (size_t i = 0; i < count_; ++i) {
-        taught_[i].slow *= rates_.slow.retention;
+        taught_[i].x *= rate_.retention;
         const double a = angle_between(d, taught_[i].d);
         if (a < least) {
             least = a;
@@ -41,7 +39,7 @@ void RotationMemory::learn(const Vec3& d, const Vec3& error) noexcept {
         nearest = count_++;
         taught_[nearest] = {d, Vec3::Zero()};
     }
-    taught_[nearest].slow += rates_.slow.learning * error;
+    taught_[nearest].x += rate_.learning * error;
 }
 
 }  // namespace dihaptic::person

@@ -1,0 +1,52 @@
+#include "page_view.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace dihaptic::gui {
+
+PageView::PageView(QWidget* parent)
+    : QWidget(parent), picture_(new QLabel(this)), words_(new QLabel(this)) {
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_StyledBackground);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(40, 40, 40, 40);
+    layout->addStretch();
+    for (QLabel* label : {picture_, words_}) {
+        label->setAlignment(Qt::AlignCenter);
+        layout->addWidget(label);
+    }
+    layout->addStretch();
+    words_->setTextFormat(Qt::MarkdownText);
+    words_->setWordWrap(true);
+    hide();
+}
+
+void PageView::set_page(const QString& text, const QString& picture) {
+    if (text == text_ && picture == file_) return;
+    text_ = text;
+    if (picture != file_) whole_ = picture.isEmpty() ? QPixmap() : QPixmap(picture);
+    file_ = picture;
+    words_->setText(text_);
+    words_->setVisible(!text_.isEmpty());
+    setVisible(!text_.isEmpty() || !file_.isEmpty());
+    fit();
+}
+
+void PageView::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    fit();
+}
+
+/// Fits letters, which must be legible from a chair's distance, and the picture to the page.
+void PageView::fit() {
+    setStyleSheet(QString("background: #14181e; color: white; font-size: %1px;")
+                      .arg(std::max(20, height() / 30)));
+    picture_->setVisible(!whole_.isNull());
+    if (whole_.isNull()) return;
+    const QSize most(std::max(1, width() - 80), std::max(1, height() * 6 / 10));
+    picture_->setPixmap(whole_.scaled(whole_.size().boundedTo(most), Qt::KeepAspectRatio,
+                                      Qt::SmoothTransformation));
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,140 @@
+#include "analysis/measures/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/perturbations.h"
+#include "base/figure.h"
+#include "base/unmeasured.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+/// A column's value in its unit.
+double in_unit(const task::MeasureColumn& column, double value) {
+    return value * figure_form(column.name, column.unit).scale;
+}
+
+size_t place_of(const Table& table, const char* name) {
+    const auto named = [&](const Table::Column& c) { return c.name == name; };
+    return static_cast<size_t>(std::find_if(table.columns.begin(), table.columns.end(), named) -
+                               table.columns.begin());
+}
+
+}  // namespace
+
+std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& folder,
+                                               const recording::LogHead& head,
+                                               const std::vector<std::string>& phases) try {
+    const std::optional<task::Task> task = read_frozen_task(folder.file("task.yaml"));
+    MeasureFinder out;
+    for (const std::string& name : task ? task->measures : std::vector<std::string>{}) {
+        if (const task::MeasureRow* row = task::measure_row(name)) out.measures_.push_back(row);
+    }
+    if (out.measures_.empty()) return std::nullopt;
+    out.options_ = movement_of(*task, head.fingers.empty() ? "" : head.fingers.front());
+    const std::vector<std::string>& during = out.options_.during;
+    for (const std::string& name : during) out.phases_.during.push_back(index_of(phases, name));
+    const std::string go = !out.options_.go.empty() ? out.options_.go
+                           : during.empty()         ? ""
+                                                    : during.front();
+    out.phases_.go = index_of(phases, go);
+    out.phases_.step = index_of(phases, out.options_.step);
+    out.plans_ = task::read_movements(folder.file("trial-list.csv"));
+    out.finger_ = index_of(head.fingers, out.options_.of);
+    if (out.finger_ < 0) out.body_ = index_of(head.bodies, out.options_.of);
+    out.tick_ = head.tick;
+    return out;
+} catch (const Error&) {
+    return std::nullopt;
+}
+
+MotionSample MeasureFinder::sample(const servo::Frame& frame) const {
+    MotionSample out{seconds(frame.time), frame.phase,      Vec3::Zero(), Vec3::Zero(),
+                     Vec3::Zero(),        frame.grip_force, true};
+    out.continues = frame.sequence == sequence_ + 1 && (frame.status & servo::kResumed) == 0;
+    if (body_ >= 0) {
+        const servo::BodyFrame& body = frame.bodies[static_cast<size_t>(body_)];
+        out.p_W = body.X_WB.p;
+        out.v_W = body.v_WB;
+        for (const servo::LoadFrame& load : frame.task.loads) {
+            if (load.body == body_) out.f_W -= load.force_W;
+        }
+        return out;
+    }
+    const auto count = static_cast<double>(frame.fingers.size());
+    for (size_t i = 0; i < frame.fingers.size(); ++i) {
+        if (finger_ >= 0 && i != static_cast<size_t>(finger_)) continue;
+        const double share = finger_ >= 0 ? 1 : 1 / count;
+        out.p_W += share * frame.fingers[i].p_WH;
+        out.v_W += share * frame.fingers[i].v_WH;
+        out.f_W -= frame.fingers[i].f_sent_W;
+    }
+    return out;
+}
+
+void MeasureFinder::add(const servo::Frame& frame) {
+    if (frame.trial >= 1 && frame.phase != 0) {
+        trial_ = frame.trial;
+        number_ = frame.task.attempt;
+        attempt_.share = std::fmax(attempt_.share, frame.task.share);
+        attempt_.samples.push_back(sample(frame));
+    }
+    sequence_ = frame.sequence;
+}
+
+void MeasureFinder::end_attempt(const Lift* lift) {
+    if (attempt_.samples.empty()) return;
+    const auto i = static_cast<size_t>(trial_ - 1);
+    attempt_.plan = i < plans_.size() ? plans_[i] : task::MovementPlan{};
+    attempt_.lift = lift;
+    const AttemptMeasures found(attempt_, options_, phases_, tick_);
+    Row& row = rows_.emplace_back();
+    row.trial = trial_;
+    row.number = number_;
+    std::string missing;
+    for (const task::MeasureRow* measure : measures_) {
+        const MeasuredValues of = found.measure(*measure);
+        for (size_t k = 0; k < of.values.size(); ++k)
+            row.cells.emplace_back(in_unit(measure->columns[k], of.values[k]));
+        if (!of.why.empty())
+            missing += (missing.empty() ? "" : "; ") + std::string(measure->name) + ": " + of.why;
+    }
+    row.cells.emplace_back(missing);
+    attempt_.samples.clear();
+    attempt_.share = 0;
+}
+
+void MeasureFinder::add_to(Table& trials) const {
+    const size_t trial = place_of(trials, "trial_num");
+    const size_t number = place_of(trials, "attempt");
+    for (const task::MeasureRow* measure : measures_) {
+        for (Table::Column& column : task::columns_of_measure(*measure))
+            trials.columns.push_back(std::move(column));
+    }
+    trials.columns.push_back(task::not_measured_column());
+    std::map<std::pair<double, double>, const Row*> rows;
+    for (const Row& row : rows_) rows[{row.trial, row.number}] = &row;
+    for (std::vector<Table::Cell>& cells : trials.rows) {
+        const auto of = [&](size_t column) {
+            const double* value = std::get_if<double>(&cells[column]);
+            return value != nullptr ? *value : -1;
+        };
+        const auto found = rows.find({of(trial), of(number)});
+        if (found != rows.end()) {
+            const std::vector<Table::Cell>& own = found->second->cells;
+            cells.insert(cells.end(), own.begin(), own.end());
+        } else {
+            cells.resize(trials.columns.size() - 1, kUnmeasured);
+            cells.emplace_back("not recorded");
+        }
+    }
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,52 @@
+// Takes a task's measures (task/measures.h) of each attempt at a trial, while the frames go by.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/measures/movement.h"
+#include "base/table.h"
+#include "recording/raw_log.h"
+#include "recording/session.h"
+
+namespace dihaptic::analysis {
+
+class MeasureFinder {
+  public:
+    /// Nullopt if the session's task lists no measures, or its files cannot be read.
+    static std::optional<MeasureFinder> of(const recording::SessionFolder& folder,
+                                           const recording::LogHead& head,
+                                           const std::vector<std::string>& phases);
+
+    void add(const servo::Frame& frame);
+    /// Ends the attempt whose frames came last; does nothing between trials. `lift`: null if there
+    /// is none.
+    void end_attempt(const Lift* lift);
+    /// Adds the measures' columns to a table with the columns `trial_num` and `attempt`.
+    void add_to(Table& trials) const;
+
+  private:
+    MeasureFinder() = default;
+    MotionSample sample(const servo::Frame& frame) const;
+
+    std::vector<const task::MeasureRow*> measures_;
+    task::Movement options_;
+    MeasurePhases phases_;
+    std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure needs a movement
+    int finger_ = -1;                        // that moves; -1: the body, or all fingers
+    int body_ = -1;
+    double tick_ = 1e-3;
+
+    struct Row {
+        int trial = 0;
+        int number = 0;  // of the attempt at the trial
+        std::vector<Table::Cell> cells;
+    };
+    std::vector<Row> rows_;
+    Attempt attempt_;
+    int trial_ = 0;
+    int number_ = 0;
+    int64_t sequence_ = -1;  // of the last frame
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,275 @@
+#include "analysis/measures/movement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <numeric>
+
+#include "analysis/trials.h"
+#include "base/unmeasured.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kLeastPeak = 0.05;        // slower is tremor and noise [m/s]
+constexpr double kGripBefore = 0.2;        // time before a load step from which grip is known [s]
+constexpr double kLeastGripBefore = 0.05;  // [s]
+constexpr double kLasts = 0.01;            // time for which grip stays above the threshold [s]
+constexpr double kGripSpreads = 3;         // threshold in standard deviations
+constexpr double kLeastRise = 0.05;        // least threshold, as grip without noise has no SD [N]
+constexpr double kToMm2 = 1e6;
+
+using Values = std::vector<double>;
+
+/// Largest by size, with its sign.
+double largest_by_size(std::span<const double> x) {
+    return *std::max_element(x.begin(), x.end(),
+                             [](double a, double b) { return std::abs(a) < std::abs(b); });
+}
+
+double time_of_phase(const std::vector<MotionSample>& samples, int phase) {
+    const auto in = [&](const MotionSample& s) { return s.phase == phase; };
+    const auto found = std::find_if(samples.begin(), samples.end(), in);
+    return found == samples.end() ? kUnmeasured : found->time;
+}
+
+/// y over x by least squares.
+struct Regression {
+    Regression(std::span<const double> x, std::span<const double> y) {
+        const auto n = static_cast<double>(x.size());
+        const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
+        const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;
+        double x2 = 0, raw_xy = 0, xx = 0, xy = 0, yy = 0;
+        for (size_t i = 0; i < x.size(); ++i) {
+            x2 += x[i] * x[i];
+            raw_xy += x[i] * y[i];
+            xx += (x[i] - mean_x) * (x[i] - mean_x);
+            xy += (x[i] - mean_x) * (y[i] - mean_y);
+            yy += (y[i] - mean_y) * (y[i] - mean_y);
+        }
+        through_zero = x2 > 0 ? raw_xy / x2 : kUnmeasured;
+        slope = xx > 0 ? xy / xx : kUnmeasured;
+        offset = mean_y - slope * mean_x;
+        r2 = xx > 0 && yy > 0 ? xy * xy / (xx * yy) : kUnmeasured;
+    }
+    double through_zero, slope, offset, r2;
+};
+
+size_t columns_in(const task::MeasureRow& row) {
+    return static_cast<size_t>(
+        std::count_if(row.columns.begin(), row.columns.end(),
+                      [](const task::MeasureColumn& c) { return c.name != nullptr; }));
+}
+
+}  // namespace
+
+AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& options,
+                                 const MeasurePhases& phases, double tick)
+    : attempt_(attempt),
+      options_(options),
+      tick_(tick),
+      go_(phases.go >= 0            ? time_of_phase(attempt.samples, phases.go)
+          : attempt.samples.empty() ? kUnmeasured
+                                    : attempt.samples.front().time),
+      step_(time_of_phase(attempt.samples, phases.step)) {
+    no_onset_ = find_movement(phases);
+    if (!no_onset_.empty()) no_end_ = no_onset_;
+    find_lines();
+}
+
+std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
+    const auto moves = [&](const MotionSample& s) {
+        return std::find(phases.during.begin(), phases.during.end(), s.phase) !=
+               phases.during.end();
+    };
+    const auto first = std::find_if(attempt_.samples.begin(), attempt_.samples.end(), moves);
+    run_ = {first, std::find_if_not(first, attempt_.samples.end(), moves)};
+    if (run_.empty()) return "its states were not reached";
+    for (const MotionSample& s : run_) {
+        if (!s.continues && &s != &run_.front()) return "ticks are missing, or it was paused";
+        speed_.push_back(s.v_W.norm());
+    }
+    peak_ = static_cast<size_t>(std::max_element(speed_.begin(), speed_.end()) - speed_.begin());
+    const double peak = speed_[peak_];
+    const double threshold = options_.onset_speed.value_or(options_.onset_share * peak);
+    if (!(peak >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
+    onset_ = peak_;
+    while (onset_ > 0 && speed_[onset_ - 1] >= threshold) --onset_;
+    end_ = peak_;
+    while (end_ < run_.size() && speed_[end_] >= threshold) ++end_;
+    if (onset_ == 0) return "it moved before its states began";
+    if (end_ == run_.size()) no_end_ = "not over when its states ended";
+    return "";
+}
+
+void AttemptMeasures::find_lines() {
+    along_W_ = attempt_.plan.along_W();
+    left_W_ = attempt_.plan.left_W();
+    for (const MotionSample& s : run_) {
+        left_.push_back((s.p_W - attempt_.plan.from_W).dot(left_W_));
+        force_.push_back(s.f_W.dot(left_W_));
+        // the hand has to push against the field
+        ideal_.push_back(-left_W_.dot(attempt_.plan.ideal * s.v_W));
+    }
+}
+
+std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
+    using task::MeasureRow;
+    if ((row.needs & MeasureRow::channel) && (!attempt_.plan.channel || attempt_.share == 0))
+        return "no channel";
+    if (row.needs & MeasureRow::movement)
+        return row.needs & MeasureRow::begun ? no_onset_ : no_end_;
+    if (row.needs & MeasureRow::step) return std::isnan(step_) ? "no load step" : "";
+    return attempt_.lift == nullptr ? "no lift" : "";
+}
+
+MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
+    using A = AttemptMeasures;
+    struct Rule {
+        const char* name;
+        Values (*compute)(const A&);
+        const char* otherwise;  // why the first value is missing, if it is; null: the lift's mark
+    };
+    static constexpr const char* kNever = "not to be computed";
+    static constexpr const char* kAxis = "the axis lies along the line";
+    static const Rule kRules[] = {
+        {"reaction_time", [](const A& a) { return Values{a.time(a.onset_) - a.go_}; },
+         "no go signal"},
+        {"movement_time", [](const A& a) { return Values{a.time(a.end_) - a.time(a.onset_)}; },
+         kNever},
+        {"peak_speed", [](const A& a) { return Values{a.speed_[a.peak_]}; }, kNever},
+        {"time_of_peak_speed",
+         [](const A& a) { return Values{a.time(a.peak_) - a.time(a.onset_)}; }, kNever},
+        {"path_length", [](const A& a) { return Values{a.path_length()}; }, kNever},
+        {"lateral_deviation", [](const A& a) { return a.lateral_deviation(); }, kAxis},
+        {"end_point_error", [](const A& a) { return a.end_point_error(); }, kNever},
+        {"initial_direction", [](const A& a) { return a.initial_direction(); },
+         "over too soon after onset"},
+        {"spectral_arc_length",
+         [](const A& a) { return Values{spectral_arc_length(a.whole(a.speed_), a.tick_)}; },
+         kNever},
+        {"channel_force", [](const A& a) { return a.channel_force(); }, kAxis},
+        {"adaptation_index", [](const A& a) { return a.adaptation_index(); }, "no ideal force"},
+        {"grip_onset", [](const A& a) { return Values{a.lift().touch - a.go_}; }, nullptr},
+        {"load_onset", [](const A& a) { return Values{a.lift().load_onset - a.go_}; }, nullptr},
+        {"peak_grip",
+         [](const A& a) {
+             return Values{a.lift().peak_grip, a.lift().peak_grip_rate, a.lift().peak_load_rate};
+         },
+         nullptr},
+        {"grip_load_r", [](const A& a) { return Values{a.lift().grip_load_r}; }, nullptr},
+        {"grip_load_lag", [](const A& a) { return Values{a.lift().grip_load_lag}; }, nullptr},
+        {"safety_margin", [](const A& a) { return Values{a.lift().safety_margin}; }, nullptr},
+        {"grip_latency", [](const A& a) { return a.grip_latency(); }, "grip did not answer"}};
+    static_assert(std::size(kRules) == std::size(task::kMeasureTable));
+
+    MeasuredValues out{Values(columns_in(row), kUnmeasured), why_missing(row)};
+    if (out.why.empty()) {
+        const auto named = [&](const Rule& rule) { return std::string(rule.name) == row.name; };
+        const Rule& rule = *std::find_if(std::begin(kRules), std::end(kRules), named);
+        out.values = rule.compute(*this);
+        if (std::isnan(out.values.front()))
+            out.why = rule.otherwise != nullptr ? rule.otherwise : "lift: " + lift().mark;
+    }
+    // known whether or not something moved
+    if (row.needs & task::MeasureRow::ideal)
+        out.values.back() = attempt_.plan.field_share * attempt_.share;
+    return out;
+}
+
+double AttemptMeasures::path_length() const {
+    double sum = 0;
+    for (size_t i = onset_; i < end_; ++i) sum += (run_[i + 1].p_W - run_[i].p_W).norm();
+    return sum;
+}
+
+Values AttemptMeasures::lateral_deviation() const {
+    double area = 0;  // by the trapezoidal rule, along the line
+    for (size_t i = onset_; i < end_; ++i)
+        area += (left_[i] + left_[i + 1]) / 2 * (run_[i + 1].p_W - run_[i].p_W).dot(along_W_);
+    return {largest_by_size(whole(left_)), left_[peak_], area * kToMm2};
+}
+
+Values AttemptMeasures::end_point_error() const {
+    const Vec3 error = run_[end_].p_W - attempt_.plan.to_W;
+    return {error.norm(), error.dot(along_W_), error.dot(left_W_)};
+}
+
+Values AttemptMeasures::initial_direction() const {
+    const auto after = static_cast<size_t>(std::round(options_.direction_after / tick_));
+    const size_t at = onset_ + after;
+    if (at >= run_.size()) return {kUnmeasured};
+    return {angle_about(attempt_.plan.axis_W, along_W_, run_[at].p_W - run_[onset_].p_W)};
+}
+
+Values AttemptMeasures::channel_force() const {
+    double impulse = 0;
+    for (size_t i = onset_; i < end_; ++i)
+        impulse += (force_[i] + force_[i + 1]) / 2 * (time(i + 1) - time(i));
+    return {largest_by_size(whole(force_)), force_[peak_], impulse};
+}
+
+Values AttemptMeasures::adaptation_index() const {
+    const Regression of(whole(ideal_), whole(force_));
+    return {of.through_zero, of.slope, of.offset, of.r2, kUnmeasured};
+}
+
+Values AttemptMeasures::grip_latency() const {
+    const std::vector<MotionSample>& all = attempt_.samples;
+    const auto at = [&](double from) {
+        const auto found = std::find_if(all.begin(), all.end(), [&](const MotionSample& s) {
+            return s.time >= from - tick_ / 2;
+        });
+        return static_cast<size_t>(found - all.begin());
+    };
+    const size_t step = at(step_);
+    const size_t before = at(step_ - kGripBefore);
+    if (static_cast<double>(step - before) * tick_ < kLeastGripBefore) return {kUnmeasured};
+    const auto count = static_cast<double>(step - before);
+    double mean = 0;
+    double square = 0;
+    for (size_t i = before; i < step; ++i) mean += all[i].grip / count;
+    for (size_t i = before; i < step; ++i) square += std::pow(all[i].grip - mean, 2) / count;
+    const double threshold = mean + std::max(kGripSpreads * std::sqrt(square), kLeastRise);
+    const auto lasts = static_cast<size_t>(std::round(kLasts / tick_));
+    size_t above = 0;
+    for (size_t i = step; i < all.size(); ++i) {
+        above = all[i].grip > threshold ? above + 1 : 0;
+        if (above > lasts) return {all[i - lasts].time - step_};
+    }
+    return {kUnmeasured};
+}
+
+double spectral_arc_length(std::span<const double> speed, double tick) {
+    constexpr double kHighest = 10;  // [Hz]
+    constexpr double kLeastShare = 0.05;
+    constexpr int kPadding = 4;  // powers of two
+    if (speed.size() < 2) return kUnmeasured;
+    const auto powers =
+        static_cast<int>(std::ceil(std::log2(static_cast<double>(speed.size())))) + kPadding;
+    const double step = 1 / (tick * std::ldexp(1.0, powers));  // between frequencies [Hz]
+    // a speed is nowhere negative, so that its largest amplitude is that at 0
+    const double most = std::accumulate(speed.begin(), speed.end(), 0.0);
+    if (!(most > 0)) return kUnmeasured;
+    Values amplitude;
+    size_t last = 0;
+    for (size_t k = 0; static_cast<double>(k) * step <= kHighest; ++k) {
+        const double turn = 2 * std::numbers::pi * static_cast<double>(k) / std::ldexp(1.0, powers);
+        double cosine = 0;
+        double sine = 0;
+        for (size_t i = 0; i < speed.size(); ++i) {
+            cosine += speed[i] * std::cos(turn * static_cast<double>(i));
+            sine += speed[i] * std::sin(turn * static_cast<double>(i));
+        }
+        amplitude.push_back(std::hypot(cosine, sine) / most);
+        if (amplitude.back() >= kLeastShare) last = k;
+    }
+    if (last == 0) return kUnmeasured;
+    double length = 0;
+    for (size_t k = 0; k < last; ++k)
+        length += std::hypot(1 / static_cast<double>(last), amplitude[k + 1] - amplitude[k]);
+    return -length;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,93 @@
+// Computes the measures of a movement (task/measures.h) from the trace of one attempt at a trial.
+// docs/measures-of-behaviour.md has the rules and equations.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/lifts.h"
+#include "task/measures.h"
+
+namespace dihaptic::analysis {
+
+/// What is kept of a tick.
+struct MotionSample {
+    double time;  ///< [s]
+    int phase;
+    Vec3 p_W;
+    Vec3 v_W;
+    Vec3 f_W;        ///< force of the hand on what pushes it, a channel [N]
+    double grip;     ///< [N]
+    bool continues;  ///< no tick is missing before it, and no pause
+};
+
+/// An attempt at a trial.
+struct Attempt {
+    std::vector<MotionSample> samples;  ///< from its first tick to its last
+    task::MovementPlan plan;
+    const Lift* lift = nullptr;  ///< null: no object, or one finger
+    double share = 0;            ///< of the perturbation that acted
+};
+
+/// Phases of the states that measures are taken in; -1: none.
+struct MeasurePhases {
+    std::vector<int> during;
+    int go = -1;
+    int step = -1;
+};
+
+/// Values of a measure's columns, in SI units unless a column's name says otherwise; NaN where
+/// there is none.
+struct MeasuredValues {
+    std::vector<double> values;
+    std::string why;  ///< why one is missing; empty if none is
+};
+
+/// Computes the measures of one attempt.
+class AttemptMeasures {
+  public:
+    AttemptMeasures(const Attempt& attempt, const task::Movement& options,
+                    const MeasurePhases& phases, double tick);
+
+    MeasuredValues measure(const task::MeasureRow& row) const;
+
+  private:
+    using Values = std::vector<double>;
+    /// Why a movement, or a whole one, was not found; empty if it was.
+    std::string find_movement(const MeasurePhases& phases);
+    void find_lines();
+    std::string why_missing(const task::MeasureRow& row) const;
+
+    Values lateral_deviation() const;
+    Values end_point_error() const;
+    Values initial_direction() const;
+    Values channel_force() const;
+    Values adaptation_index() const;
+    Values grip_latency() const;
+    double path_length() const;
+    double time(size_t i) const { return run_[i].time; }
+    const Lift& lift() const { return *attempt_.lift; }
+    /// From onset to end.
+    std::span<const double> whole(const Values& of_run) const {
+        return std::span(of_run).subspan(onset_, end_ - onset_ + 1);
+    }
+
+    const Attempt& attempt_;
+    const task::Movement& options_;
+    double tick_;
+    double go_;                          // time of the go signal [s]
+    double step_;                        // time of the load step [s]
+    std::span<const MotionSample> run_;  // the samples in the movement's states
+    std::string no_onset_;               // why it has no onset; empty if it has one
+    std::string no_end_;
+    size_t onset_ = 0, peak_ = 0, end_ = 0;
+    Vec3 along_W_, left_W_;
+    std::vector<double> speed_, left_, force_, ideal_;  // in the run
+};
+
+/// Spectral arc length of a speed profile (Balasubramanian et al. 2015): frequencies up to 10 Hz
+/// whose amplitude is 5 % of the largest at least, from zero padding by a factor of 16.
+double spectral_arc_length(std::span<const double> speed, double tick);
+
+}  // namespace dihaptic::analysis

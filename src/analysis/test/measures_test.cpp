@@ -1,0 +1,259 @@
+// Tests the measures of behaviour against closed forms, and their page against their table.
+#include "analysis/measures/measures.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+
+#include "testing/files.h"
+
+namespace dihaptic::analysis::measures_test {
+namespace {
+
+constexpr double kTick = 1e-3;
+constexpr const char* kPage = "docs/measures-of-behaviour.md";
+
+/// A reach along x by minimum jerk, 0.1 m in 0.5 s, which begins 0.3 s after the go signal: still
+/// for a second before, in phase 1, and until the end of phase 2.
+struct Reach {
+    Attempt attempt;
+    task::Movement options;
+    MeasurePhases phases{{2}, 2, -1};
+    double bow = 0;  ///< lateral, as a share of the way [m]
+
+    explicit Reach(double lateral = 0, double last = 1.2) : bow(lateral) {
+        attempt.plan.to_W = {0.1, 0, 0};
+        attempt.plan.ideal << 0, -15, 0, 15, 0, 0, 0, 0, 0;
+        attempt.share = 1;
+        options.onset_speed = 0.05;
+        for (int i = 0; i * kTick < 1 + last; ++i) {
+            const double t = i * kTick - 1.3;
+            MotionSample s{
+                i * kTick, i < 1000 ? 1 : 2, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 2.0, true};
+            const double u = std::clamp(t / 0.5, 0.0, 1.0);
+            const double way = 0.1 * (10 * u * u * u - 15 * std::pow(u, 4) + 6 * std::pow(u, 5));
+            const double speed = 0.2 * 30 * u * u * (1 - u) * (1 - u);
+            s.p_W = {way, bow * way / 0.1, 0};
+            s.v_W = {speed, bow * speed / 0.1, 0};
+            s.f_W = {0, -0.6 * 15 * speed + 0.2, 0};
+            attempt.samples.push_back(s);
+        }
+    }
+    MeasuredValues take(const char* name) const {
+        return AttemptMeasures(attempt, options, phases, kTick).measure(*task::measure_row(name));
+    }
+    double value(const char* name, size_t column = 0) const { return take(name).values[column]; }
+};
+
+/// Time after its beginning at which the minimum-jerk speed rises through 5 cm/s.
+double rise() {
+    double low = 0;
+    double high = 0.25;
+    for (int i = 0; i < 100; ++i) {
+        const double u = (low + high) / 2 / 0.5;
+        (0.2 * 30 * u * u * (1 - u) * (1 - u) < 0.05 ? low : high) = (low + high) / 2;
+    }
+    return low;
+}
+
+TEST(Measures, OfAMinimumJerkReachAreItsClosedForms) {
+    const Reach reach;
+    EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
+    EXPECT_NEAR(reach.value("movement_time"), 0.5 - 2 * rise(), 2 * kTick);
+    EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
+    EXPECT_NEAR(reach.value("time_of_peak_speed"), 0.25 - rise(), kTick);
+    const double u = rise() / 0.5;
+    const double before = 0.1 * (10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5));
+    EXPECT_NEAR(reach.value("path_length"), 0.1 - 2 * before, 2 * kTick * 0.05);
+    EXPECT_NEAR(reach.value("lateral_deviation"), 0, 1e-15);
+    EXPECT_LT(reach.value("end_point_error", 1), 0);  // the last slow part is missing
+    EXPECT_NEAR(reach.value("end_point_error"), -reach.value("end_point_error", 1), 1e-15);
+    EXPECT_NEAR(reach.value("initial_direction"), 0, 1e-12);
+    EXPECT_TRUE(reach.take("movement_time").why.empty());
+}
+
+TEST(Measures, OfAnObliqueReachHaveTheirSign) {
+    const Reach reach(0.02);  // to the left of the line
+    EXPECT_NEAR(reach.value("initial_direction"), std::atan(0.2), 1e-9);
+    EXPECT_NEAR(reach.value("lateral_deviation"), 0.02, 1e-3);
+    EXPECT_NEAR(reach.value("lateral_deviation", 1), 0.01, 1e-5);
+    EXPECT_NEAR(reach.value("lateral_deviation", 2), 0.1 * 0.02 / 2 * 1e6,
+                30);  // a triangle [mm^2]
+    EXPECT_NEAR(reach.value("end_point_error", 2), 0.02, 1e-3);
+    EXPECT_LT(Reach(-0.02).value("lateral_deviation"), -0.019);
+}
+
+TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
+    Reach reach;
+    EXPECT_EQ(reach.take("channel_force").why, "no channel");
+    EXPECT_TRUE(std::isnan(reach.value("adaptation_index")));
+    reach.attempt.plan.field_share = -1;
+    EXPECT_EQ(reach.value("adaptation_index", 4), -1);  // without a channel, a field acted
+    reach.attempt.plan.channel = true;
+    reach.attempt.plan.field_share = kUnmeasured;
+    // the field pushes with 15 v to the left; the hand presses 0.6 of that to the right, and leans
+    EXPECT_NEAR(reach.value("adaptation_index", 1), 0.6, 1e-12);
+    EXPECT_NEAR(reach.value("adaptation_index", 2), 0.2, 1e-12);
+    EXPECT_NEAR(reach.value("adaptation_index", 3), 1, 1e-12);
+    EXPECT_LT(reach.value("adaptation_index"), 0.6);
+    EXPECT_NEAR(reach.value("channel_force", 1), -0.6 * 15 * 0.375 + 0.2, 1e-9);
+    EXPECT_NEAR(reach.value("channel_force"), -0.6 * 15 * 0.375 + 0.2, 1e-9);
+    EXPECT_NEAR(reach.value("channel_force", 2),
+                -0.6 * 15 * reach.value("path_length") + 0.2 * reach.value("movement_time"), 1e-4);
+    reach.attempt.share = 0;  // it did not act
+    EXPECT_EQ(reach.take("adaptation_index").why, "no channel");
+}
+
+TEST(Measures, SayWhyTheyAreMissing) {
+    Reach slow;
+    for (MotionSample& s : slow.attempt.samples) s.v_W *= 0.1;
+    EXPECT_EQ(slow.take("reaction_time").why, "no movement");
+    EXPECT_TRUE(std::isnan(slow.value("path_length")));
+    const Reach cut(0, 0.55);  // its states end at the peak
+    EXPECT_EQ(cut.take("movement_time").why, "not over when its states ended");
+    EXPECT_NEAR(cut.value("reaction_time"), 0.3 + rise(), kTick);
+    EXPECT_EQ(cut.take("initial_direction").why, "");
+    Reach early;
+    early.phases.during = {3};
+    EXPECT_EQ(early.take("peak_speed").why, "its states were not reached");
+    Reach moving;
+    for (MotionSample& s : moving.attempt.samples) s.phase = s.time < 1.5 ? 1 : 2;
+    EXPECT_EQ(moving.take("peak_speed").why, "it moved before its states began");
+    Reach gap;
+    gap.attempt.samples[1500].continues = false;
+    EXPECT_EQ(gap.take("peak_speed").why, "ticks are missing, or it was paused");
+    EXPECT_EQ(gap.take("grip_onset").why, "no lift");
+    Lift lift;
+    lift.mark = "not lifted";
+    gap.attempt.lift = &lift;
+    EXPECT_EQ(gap.take("safety_margin").why, "lift: not lifted");
+    EXPECT_EQ(gap.take("grip_latency").why, "no load step");
+}
+
+TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
+    Reach held;
+    held.phases.step = 2;
+    EXPECT_EQ(held.take("grip_latency").why, "grip did not answer");
+    for (size_t i = 0; i < held.attempt.samples.size(); ++i) {
+        MotionSample& s = held.attempt.samples[i];
+        if (i < 1000) s.grip += i % 2 == 0 ? 0.01 : -0.01;
+        if (i >= 1030 && i < 1035) s.grip = 3;  // too short for an answer
+        if (i >= 1080) s.grip = 2.005 + 0.01 * static_cast<double>(i - 1080);
+    }
+    // 0.05 N above the mean after five ticks
+    EXPECT_NEAR(held.value("grip_latency"), 0.085, kTick / 2);
+}
+
+TEST(Measures, SpectralArcLengthIsThatOfItsAuthors) {
+    // by their Python code (siva82kb/SPARC): a bell, and two of them, of one second each
+    std::vector<double> bell, two;
+    for (int i = 0; i < 1000; ++i) {
+        const double t = i * kTick;
+        bell.push_back(std::exp(-5 * std::pow(2 * t - 1, 2)));
+        two.push_back(std::exp(-40 * std::pow(t - 0.3, 2)) + std::exp(-40 * std::pow(t - 0.7, 2)));
+    }
+    EXPECT_NEAR(spectral_arc_length(bell, kTick), -1.413979710383478, 1e-9);
+    EXPECT_NEAR(spectral_arc_length(two, kTick), -1.9192306295354775, 1e-9);
+    EXPECT_TRUE(std::isnan(spectral_arc_length({}, kTick)));
+}
+
+/// A session's folder whose task takes measures of a reach.
+struct Session {
+    testing::TemporaryFolder folder;
+    recording::LogHead head;
+
+    explicit Session(const std::string& measures) {
+        folder.write("session.yaml", "");
+        folder.write("task.yaml", "measures: [" + measures +
+                                      "]\n"
+                                      "movement: { of: index, from: a, to: b, during: [reach] }\n");
+        folder.write("trial-list.csv",
+                     "trial_num,movement_from_x_mm,movement_from_y_mm,movement_from_z_mm,"
+                     "movement_to_x_mm,movement_to_y_mm,movement_to_z_mm,movement_axis_x,"
+                     "movement_axis_y,movement_axis_z\n1,0,0,0,100,0,0,0,0,1\n");
+        head.fingers = {"thumb", "index"};
+        head.tick = kTick;
+    }
+    std::optional<MeasureFinder> finder() const {
+        return MeasureFinder::of(recording::SessionFolder::open_tables(folder.path()), head,
+                                 {"between trials", "wait", "reach"});
+    }
+};
+
+TEST(Measures, AreTakenFromTheFramesOfEachAttempt) {
+    const Session session("peak_speed, path_length, channel_force");
+    std::optional<MeasureFinder> finder = session.finder();
+    ASSERT_TRUE(finder);
+    const Reach reach;
+    servo::Frame frame;
+    frame.fingers.resize(2);
+    for (const MotionSample& s : reach.attempt.samples) {
+        frame.time = Time(std::llround(s.time * 1e9));
+        frame.trial = 1;
+        frame.task.attempt = 2;
+        frame.phase = s.phase;
+        frame.fingers[1].p_WH = s.p_W;
+        frame.fingers[1].v_WH = s.v_W;
+        finder->add(frame);
+        ++frame.sequence;
+    }
+    finder->end_attempt(nullptr);
+    finder->end_attempt(nullptr);  // between trials
+    Table trials{{{"trial_num", ""}, {"attempt", ""}}, {{1.0, 1.0}, {1.0, 2.0}}};
+    finder->add_to(trials);
+    ASSERT_EQ(trials.columns.size(), 2u + 1 + 1 + 3 + 1);
+    EXPECT_EQ(trials.columns[2].name, "peak_speed_m_s");
+    EXPECT_EQ(trials.columns[3].name, "path_length_mm");
+    EXPECT_EQ(trials.columns[6].name, "channel_force_impulse_Ns");
+    for (const auto& row : trials.rows) ASSERT_EQ(row.size(), trials.columns.size());
+    EXPECT_EQ(std::get<std::string>(trials.rows[0].back()), "not recorded");
+    EXPECT_NEAR(std::get<double>(trials.rows[1][2]), 0.375, 1e-12);
+    EXPECT_NEAR(std::get<double>(trials.rows[1][3]), 100, 1);
+    EXPECT_TRUE(std::isnan(std::get<double>(trials.rows[1][4])));
+    EXPECT_EQ(std::get<std::string>(trials.rows[1].back()), "channel_force: no channel");
+}
+
+TEST(Measures, AreNoneWhereTheTaskListsNone) {
+    EXPECT_FALSE(Session("").finder());
+    const Session session("peak_speed");
+    session.folder.write("task.yaml", "measures: [");
+    EXPECT_FALSE(session.finder());
+}
+
+std::string measure_table() {
+    std::string out = "\n| measure | column | unit | meaning | source |\n|---|---|---|---|---|\n";
+    for (const task::MeasureRow& row : task::kMeasureTable) {
+        std::string name = fmt::format("`{}`", row.name);
+        std::string source = row.source;
+        for (const Table::Column& c : task::columns_of_measure(row)) {
+            out += fmt::format("| {} | `{}` | {} | {} | {} |\n", name, c.name, c.unit,
+                               c.description, source);
+            name = source = "";
+        }
+    }
+    return out;
+}
+
+/// What stands before the table is written by hand.
+TEST(Measures, PageHasTheTable) {
+    const std::string page = testing::read_file(kPage);
+    const std::string title = "\n## Table\n";
+    const std::string made = page.substr(0, page.find(title)) + title + measure_table();
+    if (std::getenv("DIHAPTIC_RENEW_TABLES") != nullptr) {
+        std::ofstream(kPage) << made;
+    } else {
+        EXPECT_EQ(page, made) << kPage
+                              << " says something else than the code. Renew it in the same commit: "
+                                 "DIHAPTIC_RENEW_TABLES=1 build/release/src/analysis/analysis_test "
+                                 "--gtest_filter='Measures.*'";
+    }
+    for (const task::MeasureRow& row : task::kMeasureTable)
+        EXPECT_NE(page.find(row.name), std::string::npos) << row.name;
+}
+
+}  // namespace
+}  // namespace dihaptic::analysis::measures_test

@@ -1,0 +1,41 @@
+// What one process of adaptation (model/adaptation.h) has learned by the direction of movement, in
+// space: a vector for each direction, which generalises by a Gaussian of the angle between
+// directions. It is stored as a sum over the directions d_m in which it was taught,
+//
+//     x(d) = sum over m of x_m g(angle(d, d_m)),    g(a) = exp(-a^2 / (2 w^2))
+//
+// and a movement along d with the error e does x_m <- A x_m for all m, then x <- x + B e at d. This
+// equals a state x <- A x + B g e for every direction.
+#pragma once
+
+#include <array>
+
+#include "base/geometry.h"
+#include "model/adaptation.h"
+
+namespace dihaptic::person {
+
+class DirectionMemory {
+  public:
+    /// `width`: w [rad].
+    DirectionMemory(const model::SingleRate& rate, double width) : rate_(rate), width_(width) {}
+
+    /// `sum` plus x(d), d a unit vector.
+    Vec3 added_to(Vec3 sum, const Vec3& d) const noexcept;
+    void learn(const Vec3& d, const Vec3& error) noexcept;
+    bool empty() const noexcept { return count_ == 0; }
+
+  private:
+    struct Taught {
+        Vec3 d = Vec3::UnitX();
+        Vec3 x = Vec3::Zero();
+    };
+    // most directions: once they are used up, the nearest is taught
+    static constexpr size_t kMost = 64;
+    model::SingleRate rate_;
+    double width_;
+    std::array<Taught, kMost> taught_;
+    size_t count_ = 0;
+};
+
+}  // namespace dihaptic::person

@@ -1,0 +1,34 @@
+// The texts that a Frame shows over the scene. A text of the session's list may have places for
+// numbers, {score} or {time_s:.1f}; the Frame has the numbers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "servo/task_frame.h"
+
+namespace dihaptic::servo {
+
+/// A place for a number in a text.
+struct Placeholder {
+    size_t begin = 0;   ///< index of its opening brace
+    size_t end = 0;     ///< index behind its closing brace
+    std::string name;   ///< empty: it is malformed
+    int decimals = -1;  ///< -1: as many as the number has, four digits in all
+};
+
+/// The placeholders of a text, in order. Doubled braces stand for braces, not for placeholders.
+std::vector<Placeholder> placeholders(std::string_view text);
+
+/// The text with numbers in its placeholders; where a number is NaN, with a dash. Placeholders for
+/// which there is no number stay as they are. `numbers` loses those that were used.
+std::string filled(std::string_view text, std::span<const NumberFrame>& numbers);
+
+/// The texts that are shown: the message, if there is one, then the lines below it. `messages`: the
+/// session's list; a text that is not in it is its index.
+std::vector<std::string> shown_texts(const TaskFrame& task,
+                                     const std::vector<std::string>& messages);
+
+}  // namespace dihaptic::servo

@@ -1,0 +1,166 @@
+#include "session/load_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/grasp.h"
+
+namespace dihaptic::session {
+namespace {
+
+constexpr double kFastReach = 0.5;  // speed that hands reach at [m/s]
+
+/// Checks the loads of all conditions; what is said of one of them is said once.
+class LoadChecks {
+  public:
+    LoadChecks(const Plan& plan, Diagnostics& diagnostics)
+        : plan_(plan), diagnostics_(diagnostics) {}
+
+    void check() {
+        for (const task::TaskPlan::Cell& cell : plan_.task->cells) {
+            for (const task::Perturbation& perturbation : cell.perturbations) {
+                for (const task::Load& load : perturbation.loads()) check(load);
+            }
+        }
+    }
+
+  private:
+    using Demand = task::Load::Demand;
+
+    void check(const task::Load& load) {
+        const Demand demand = load.demand();
+        const auto bodies = static_cast<int>(plan_.scene.bodies.size());
+        for (const int thing : load.on()) {
+            if (thing < bodies) {
+                check_body(load, demand, plan_.scene.bodies[static_cast<size_t>(thing)]);
+                continue;
+            }
+            const auto finger = static_cast<size_t>(thing - bodies);
+            const devices::DeviceInfo& info = plan_.devices[finger];
+            check_loop(load, demand, info);
+            check_force(load, demand, info);
+            check_torque(load, demand, info, plan_.scene.fingers[finger].name);
+        }
+    }
+
+    void warn(const task::Load& load, const std::string& key, const std::string& what,
+              const std::string& remedy) {
+        say({Severity::warning, load.spec().place, key, what, remedy});
+    }
+
+    void say(const Problem& problem) {
+        if (said_.insert(problem.text()).second) diagnostics_.add({problem});
+    }
+
+    static std::string a(const task::Load& load) {
+        return fmt::format("a {} load", enum_name(load.spec().kind));
+    }
+
+    /// By the limits of a coupling's stiffness and damping.
+    void check_loop(const task::Load& load, const Demand& demand, const devices::DeviceInfo& info) {
+        const double period = plan_.settings.tick() + 2 * (info.delay + load.spec().delay);
+        const double stiffest = model::passive_stiffness(info.damping, period);
+        if (info.damping > 0 && demand.stiffness > stiffest) {
+            warn(load, "stiffness",
+                 fmt::format("{} of {:.4g} N/m is above {:.0f} N/m (2 b / T), up to which the "
+                             "hand's damping of {:g} N*s/m surely keeps {} calm",
+                             a(load), demand.stiffness, stiffest, info.damping, info.model),
+                 "Lower it, or look whether the handle shakes; where a load fades, raise fade_mm.");
+        }
+        const double most_damped = 2 * info.mass / period;
+        if (info.mass > 0 && demand.damping > most_damped) {
+            warn(load, "damping",
+                 fmt::format("{} of {:.4g} N*s/m is more than a handle of {:g} g can bear: about "
+                             "{:.0f} N*s/m (2 m / T)",
+                             a(load), demand.damping, info.mass * 1e3, most_damped),
+                 "Lower it.");
+        }
+        if (info.damping > 0 && demand.driving > info.damping) {
+            warn(load, "damping",
+                 fmt::format("{} drives the hand on by {:.4g} N*s/m, more than the {:g} N*s/m that "
+                             "the hand's own damping takes: it runs away",
+                             a(load), demand.driving, info.damping),
+                 "Make it weaker.");
+        }
+    }
+
+    /// Against the largest force that reaches the hand.
+    void check_force(const task::Load& load, const Demand& demand,
+                     const devices::DeviceInfo& info) {
+        const double most = plan_.settings.safety.largest_force(info.peak_force, info.scale);
+        const task::LoadSpec& spec = load.spec();
+        // what keeps a hand where it is may be as hard as the device can
+        const bool wall = spec.kind == task::LoadKind::channel || spec.one_sided;
+        if (std::isfinite(demand.force) && demand.force > most && !wall) {
+            warn(load, "force",
+                 fmt::format("{} reaches {:.3g} N, more than the {:.3g} N that {} may give: it is "
+                             "cut off there",
+                             a(load), demand.force, most, info.model),
+                 "Make it weaker, or use a rig with a stronger device.");
+        }
+        if (std::isinf(demand.force) && info.workspace && !wall) {
+            const double reach = info.workspace->norm() / 2;
+            if (demand.stiffness * reach > most)
+                warn(load, "force",
+                     fmt::format("{} of {:.4g} N/m reaches the {:.3g} N that {} may give at {:.0f} "
+                                 "mm, and is cut off beyond: the workspace goes to {:.0f} mm",
+                                 a(load), demand.stiffness, most, info.model,
+                                 most / demand.stiffness * 1e3, reach * 1e3),
+                     "Lower its stiffness, or give it a zone by safe_within_mm.");
+        }
+        const bool springs = wall || spec.kind == task::LoadKind::spring;
+        if (springs || demand.damping * kFastReach <= most) return;
+        warn(load, "damping",
+             fmt::format("{} of {:.4g} N*s/m reaches the {:.3g} N that {} may give at {:.2g} m/s, "
+                         "and is cut off beyond: fast reaches move at {:g} m/s",
+                         a(load), demand.damping, most, info.model, most / demand.damping,
+                         kFastReach),
+             "Lower it, or use a rig with a stronger device.");
+    }
+
+    void check_torque(const task::Load& load, const Demand& demand, const devices::DeviceInfo& info,
+                      const std::string& finger) {
+        if (demand.torque == 0) return;
+        if (info.peak_torque <= 0) {
+            say({Severity::error, load.spec().place, "torque",
+                 fmt::format("{} of {} renders no torque", info.model, finger),
+                 "Leave it out, let it act on a body, or use a rig with torque."});
+            return;
+        }
+        const double most = plan_.settings.safety.largest_torque(info.peak_torque);
+        if (demand.torque > most) {
+            warn(load, "torque",
+                 fmt::format("{} reaches {:.3g} N*m, more than the {:.3g} N*m that {} may give",
+                             a(load), demand.torque, most, info.model),
+                 "Make it weaker.");
+        }
+    }
+
+    /// A load on a body is explicit: with k and b it is calm while k h^2 + 2 b h < 4 m.
+    void check_body(const task::Load& load, const Demand& demand, const scene::Body& body) {
+        const double h = plan_.settings.step();
+        const double mass = scene::mass(body);
+        if (demand.stiffness * h * h + 2 * demand.damping * h < 4 * mass) return;
+        warn(load, demand.stiffness > 0 ? "stiffness" : "damping",
+             fmt::format(
+                 "{} of {:.4g} N/m and {:.4g} N*s/m throws about a body of {:.4g} g in steps "
+                 "of {:g} ms (k h^2 + 2 b h is not below 4 m)",
+                 a(load), demand.stiffness, demand.damping, mass * 1e3, h * 1e3),
+             "Lower it, or make the body heavier.");
+    }
+
+    const Plan& plan_;
+    Diagnostics& diagnostics_;
+    std::set<std::string> said_;
+};
+
+}  // namespace
+
+void check_loads(const Plan& plan, Diagnostics& diagnostics) {
+    if (plan.task) LoadChecks(plan, diagnostics).check();
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,32 @@
+// The words, numbers and signs of an expression's text.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dihaptic::task {
+
+/// What is wrong with the text, and where; thrown while it is compiled.
+struct Fault {
+    size_t column;  // from 1
+    std::string what;
+    std::string remedy;
+};
+
+struct Token {
+    enum class Kind { number, name, quoted, symbol, end };
+    Kind kind = Kind::end;
+    std::string text;
+    double value = 0;
+    size_t column = 1;
+
+    bool is(std::string_view symbol) const {
+        return (kind == Kind::symbol || kind == Kind::name) && text == symbol;
+    }
+};
+
+/// The text's tokens, with one at its end. Throws Fault.
+std::vector<Token> tokens_of(std::string_view text);
+
+}  // namespace dihaptic::task

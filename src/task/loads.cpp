@@ -1,0 +1,257 @@
+#include "task/loads.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "task/lookup.h"
+#include "task/perturbation.h"
+
+namespace dihaptic::task {
+namespace {
+
+constexpr double kRoundingShare = 1e-9;  // of a matrix, for its eigenvalues
+
+/// Largest eigenvalue of the symmetric part, which alone gives or takes energy.
+double most_driving(const Mat3& matrix) {
+    const Mat3 symmetric = (matrix + matrix.transpose()) / 2;
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric, Eigen::EigenvaluesOnly);
+    const double most = solver.eigenvalues().maxCoeff();
+    return most > kRoundingShare * matrix.norm() ? most : 0;
+}
+
+}  // namespace
+
+Load::Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
+           Diagnostics& diagnostics)
+    : spec_(spec) {
+    look_up_things(scene, diagnostics);
+    switch (spec.kind) {
+        case LoadKind::constant:
+            if (spec.force.isZero(0) && spec.torque.isZero(0)) {
+                diagnostics.error(spec.place, "force", "is missing: the load would do nothing",
+                                  "Add e.g. force_N: [0, 0, -1], or torque_Nm.");
+            }
+            break;
+        case LoadKind::viscous:
+        case LoadKind::curl:
+            if (spec.damping == 0) {
+                diagnostics.error(spec.place, "damping", "is missing: the field would do nothing",
+                                  "Add e.g. damping_Ns_m: 10.");
+            }
+            if (spec.kind == LoadKind::curl)
+                direction_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
+            break;
+        case LoadKind::general:
+            if (!spec.about.empty())
+                about_ = look_up(names_of(regions), spec.about, spec.place, "about", "no region",
+                                 diagnostics);
+            check_general(diagnostics);
+            break;
+        case LoadKind::spring:
+        case LoadKind::channel:
+            look_up_place(regions, diagnostics);
+            check_spring(diagnostics);
+            break;
+    }
+}
+
+void Load::look_up_things(const scene::Scene& scene, Diagnostics& diagnostics) {
+    std::vector<std::string> things = names_of(scene.bodies);
+    for (const scene::Finger& finger : scene.fingers) things.push_back(finger.name);
+    if (spec_.on.empty()) {
+        diagnostics.error(spec_.place, "on", "names nothing",
+                          "Name fingers and bodies, e.g. on: [thumb, index].");
+    }
+    for (const std::string& name : spec_.on) {
+        const int i = look_up(things, name, spec_.place, "on", "no finger or body", diagnostics);
+        if (i < 0) continue;
+        const auto body = static_cast<size_t>(i);
+        if (body < scene.bodies.size() && !scene.bodies[body].moves_at_all()) {
+            diagnostics.error(spec_.place, "on", "'" + name + "' cannot move",
+                              "Name a body that can, or a finger.");
+        }
+        if (std::find(on_.begin(), on_.end(), i) != on_.end()) {
+            diagnostics.error(spec_.place, "on", "'" + name + "' is named twice",
+                              "Name it once, and make the load stronger if it should be.");
+        }
+        on_.push_back(i);
+    }
+}
+
+void Load::look_up_place(const std::vector<Region>& regions, Diagnostics& diagnostics) {
+    const auto region = [&](const std::string& name, const char* key) {
+        return look_up(names_of(regions), name, spec_.place, key, "no region", diagnostics);
+    };
+    const auto useless = [&](const char* key, bool given, const char* remedy) {
+        if (given) diagnostics.error(spec_.place, key, "has no use here", remedy);
+    };
+    const bool channel = spec_.kind == LoadKind::channel;
+    if (spec_.about.empty()) {
+        between_ = true;
+        about_ = region(spec_.from, "from");
+        to_ = region(spec_.to, "to");
+        shape_ = spec_.free ? Shape::plane : Shape::line;
+        if (spec_.free) direction_ = axis_of(spec_.free, spec_.place, "free", diagnostics);
+        const char* const remedy = "Leave it out, or give about in place of from and to.";
+        useless("normal", spec_.normal.has_value(), remedy);
+        useless("axis", spec_.axis.has_value() && !channel, remedy);
+        return;
+    }
+    about_ = region(spec_.about, "about");
+    const char* const remedy = "Leave it out: about is the region that the place goes through.";
+    useless("from", !spec_.from.empty(), remedy);
+    useless("to", !spec_.to.empty(), remedy);
+    useless("free", spec_.free.has_value(), remedy);
+    if (spec_.normal && spec_.axis) {
+        diagnostics.error(spec_.place, "normal", "is a plane's, and axis a line's",
+                          "Keep one of the two.");
+    } else if (spec_.normal) {
+        shape_ = Shape::plane;
+        direction_ = axis_of(spec_.normal, spec_.place, "normal", diagnostics);
+    } else if (spec_.axis) {
+        shape_ = Shape::line;
+        direction_ = axis_of(spec_.axis, spec_.place, "axis", diagnostics);
+    } else if (channel) {
+        diagnostics.error(spec_.place, "normal", "is missing: a channel is about a line or plane",
+                          "Add e.g. normal: [0, 0, 1], or name from and to instead of about.");
+    }
+}
+
+void Load::check_spring(Diagnostics& diagnostics) const {
+    const bool channel = spec_.kind == LoadKind::channel;
+    if (channel ? spec_.stiffness <= 0 : spec_.stiffness == 0) {
+        diagnostics.error(
+            spec_.place, "stiffness", channel ? "a channel needs one" : "a spring needs one",
+            channel ? "Add e.g. stiffness_N_m: 1000." : "Add e.g. stiffness_N_m: 50.");
+    }
+    if (spec_.stiffness < 0 && !spec_.zone) {
+        diagnostics.error(spec_.place, "stiffness",
+                          "is negative: the load would grow without end as it drives away",
+                          "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
+    }
+    if (!spec_.one_sided) return;
+    if (shape_ != Shape::plane || between_) {
+        diagnostics.error(spec_.place, "one_sided", "only a plane with a normal has two sides",
+                          "Add e.g. normal: [0, 0, 1], to which side it pushes, or leave it out.");
+    }
+    if (spec_.stiffness < 0) {
+        diagnostics.error(spec_.place, "one_sided", "a wall cannot have a negative stiffness",
+                          "Make the stiffness positive, or leave out one_sided.");
+    }
+}
+
+void Load::check_general(Diagnostics& diagnostics) {
+    if (spec_.A.isZero(0) && spec_.B.isZero(0) && spec_.force.isZero(0)) {
+        diagnostics.error(spec_.place, "A", "is missing, and so are B and force",
+                          "Add e.g. B_Ns_m: [[0, -13, 0], [13, 0, 0], [0, 0, 0]].");
+    }
+    if (spec_.about.empty() && (!spec_.A.isZero(0) || spec_.zone)) {
+        diagnostics.error(spec_.place, "about", "is missing: positions are from a region's centre",
+                          "Name a region, e.g. about: start.");
+    }
+    if (const double driving = most_driving(spec_.A); driving > 0 && !spec_.zone) {
+        diagnostics.error(
+            spec_.place, "A",
+            fmt::format("drives away, like a spring of {:.3g} N/m: the load would grow without end",
+                        -driving),
+            "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
+    }
+}
+
+std::optional<Vec3> Load::axis() const {
+    if (spec_.kind != LoadKind::curl) return {};
+    return direction_;
+}
+
+Load::Demand Load::demand() const {
+    Demand out;
+    out.force = spec_.force.norm();
+    out.torque = spec_.torque.norm();
+    if (spec_.kind == LoadKind::general) {
+        out.stiffness = spec_.A.operatorNorm();
+        out.damping = spec_.B.operatorNorm();
+        out.driving = most_driving(spec_.B);
+    } else {
+        out.stiffness = std::abs(spec_.stiffness);
+        out.damping = std::abs(spec_.damping);
+        if (spec_.kind != LoadKind::curl) out.driving = std::max(0.0, -spec_.damping);
+    }
+    if (out.stiffness == 0) return out;
+    if (!spec_.zone) {
+        out.force = std::numeric_limits<double>::infinity();
+        return out;
+    }
+    out.force += out.stiffness * *spec_.zone;
+    // where a load that draws back fades, it drives away, and the other way round
+    out.stiffness = std::max(out.stiffness, out.force / spec_.fade);
+    return out;
+}
+
+Wrench Load::act(double share, std::span<const Vec3> regions_W,
+                 const Motion& motion) const noexcept {
+    switch (spec_.kind) {
+        case LoadKind::constant:
+            return {share * spec_.force, share * spec_.torque};
+        case LoadKind::viscous:
+            return {-share * spec_.damping * motion.v_W, Vec3::Zero()};
+        case LoadKind::curl:
+            return {share * spec_.damping * direction_.cross(motion.v_W), Vec3::Zero()};
+        case LoadKind::general: {
+            const Vec3 arm = about_ < 0 ? Vec3::Zero()
+                                        : Vec3(motion.p_W - regions_W[static_cast<size_t>(about_)]);
+            return {
+                share * left_at(arm.norm()) * (spec_.force + spec_.A * arm + spec_.B * motion.v_W),
+                Vec3::Zero()};
+        }
+        case LoadKind::spring:
+        case LoadKind::channel:
+            return {pull(share, regions_W, motion), Vec3::Zero()};
+    }
+    return {};
+}
+
+Mat3 Load::velocity_gain() const {
+    Mat3 gain = Mat3::Zero();
+    if (spec_.kind == LoadKind::general) return spec_.B;
+    if (spec_.kind != LoadKind::viscous && spec_.kind != LoadKind::curl) return gain;
+    for (int k = 0; k < 3; ++k) gain.col(k) = act(1, {}, {Vec3::Zero(), Vec3::Unit(k)}).force;
+    return gain;
+}
+
+/// Force of a spring or channel.
+Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
+                const Motion& motion) const noexcept {
+    const Vec3& centre = regions_W[static_cast<size_t>(about_)];
+    const Vec3 arm = motion.p_W - centre;
+    Vec3 direction = direction_;
+    if (between_) {
+        const Vec3 way = regions_W[static_cast<size_t>(to_)] - centre;
+        const double length = way.norm();
+        if (length <= 0) return Vec3::Zero();
+        direction = way / length;
+        if (shape_ == Shape::plane) direction = direction.cross(direction_).stableNormalized();
+    }
+    Vec3 off = arm;
+    Vec3 across = motion.v_W;
+    if (shape_ == Shape::line) {
+        off = arm - arm.dot(direction) * direction;
+        across = motion.v_W - motion.v_W.dot(direction) * direction;
+    } else if (shape_ == Shape::plane) {
+        off = arm.dot(direction) * direction;
+        across = motion.v_W.dot(direction) * direction;
+    }
+    if (spec_.one_sided && off.dot(direction) >= 0) return Vec3::Zero();
+    const Vec3 force = -share * (spec_.stiffness * off + spec_.damping * across);
+    if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not hold
+    return spec_.zone ? Vec3(left_at(off.norm()) * force) : force;
+}
+
+/// Share of the load that is left at a distance from its place.
+double Load::left_at(double distance) const noexcept {
+    if (!spec_.zone) return 1;
+    return std::clamp(1 - (distance - *spec_.zone) / spec_.fade, 0.0, 1.0);
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,169 @@
+// Loads: forces and torques on handles and bodies that depend on where these are and how they move.
+//
+//     constant   f = f0,  t = t0
+//     viscous    f = -b v
+//     curl       f = b e x v
+//     general    f = f0 + A (p - p0) + B v
+//     spring     f = -k d - b v_d
+//     channel    the same, with k > 0
+//
+// p and v belong to the handle, or to the body; d leads to p from the nearest place of a point,
+// line or plane, and v_d is the part of v that changes it. Beyond a zone around p0, or around the
+// point, line or plane, a load fades to zero: its factor falls linearly with the distance.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "base/geometry.h"
+#include "scene/scene.h"
+#include "task/motions.h"
+
+namespace dihaptic::task {
+
+struct Region;
+
+enum class LoadKind { constant, viscous, curl, general, spring, channel };
+constexpr auto enum_names(LoadKind) {
+    return std::array{"constant", "viscous", "curl", "general", "spring", "channel"};
+}
+
+/// A load as an experiment file describes it. A key that its kind has no use for is unknown.
+struct LoadSpec {
+    LoadKind kind = LoadKind::viscous;
+    Texts on;                    ///< handles of fingers, and bodies
+    Vec3 force = Vec3::Zero();   ///< f0 [N]
+    Vec3 torque = Vec3::Zero();  ///< t0 [N*m]
+    double damping = 0;          ///< b [N*s/m]
+    double stiffness = 0;        ///< k; a negative one drives away [N/m]
+    Mat3 A = Mat3::Zero();       ///< [N/m]
+    Mat3 B = Mat3::Zero();       ///< [N*s/m]
+    std::string about;           ///< region: p0, or a point of the line or plane
+    std::optional<Vec3> axis;    ///< e of a curl; direction of a spring's line
+    std::optional<Vec3> normal;  ///< of a plane
+    std::string from;            ///< region on the line
+    std::string to;              ///< region on the line
+    std::optional<Vec3> free;    ///< direction that, with the line, spans a plane
+    bool one_sided = false;      ///< a plane acts only behind it, where its normal points from
+    std::optional<double> zone;  ///< distance at which the load begins to fade [m]
+    double fade = 0.01;          ///< distance within which it fades [m]
+    double delay = 0;            ///< age of the p and v that feed the load [s]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("kind", kind, Field::text().required());
+        v("on", on, Field::text().required());
+        switch (kind) {
+            case LoadKind::constant:
+                visit_force(v);
+                v("torque", torque, Field::of(Quantity::torque).within(-10, 10));
+                break;
+            case LoadKind::viscous:
+                visit_damping(v);
+                break;
+            case LoadKind::curl:
+                visit_damping(v);
+                v("axis", axis, direction());
+                break;
+            case LoadKind::general:
+                v("A", A, Field::of(Quantity::stiffness).within(-1e5, 1e5));
+                v("B", B, Field::of(Quantity::damping).within(-1000, 1000));
+                visit_force(v);
+                v("about", about);
+                visit_zone(v, "safe_within");
+                break;
+            case LoadKind::spring:
+                v("stiffness", stiffness, Field::of(Quantity::stiffness).within(-1e5, 1e5));
+                visit_place(v);
+                v("axis", axis, direction());
+                v("one_sided", one_sided);
+                visit_zone(v, "safe_within");
+                break;
+            case LoadKind::channel:
+                v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5));
+                visit_place(v);
+                visit_zone(v, "break_out");
+                break;
+        }
+        if (kind != LoadKind::constant) v("delay", delay, Field::of(Quantity::time).within(0, 2));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+  private:
+    static constexpr Field direction() { return Field::number().within(-1000, 1000); }
+    template <class Visitor>
+    void visit_force(Visitor& v) {
+        v("force", force, Field::of(Quantity::force).within(-1000, 1000));
+    }
+    template <class Visitor>
+    void visit_damping(Visitor& v) {
+        v("damping", damping, Field::of(Quantity::damping).within(-1000, 1000));
+    }
+    template <class Visitor>
+    void visit_place(Visitor& v) {
+        visit_damping(v);
+        v("about", about);
+        v("normal", normal, direction());
+        v("from", from);
+        v("to", to);
+        v("free", free, direction());
+    }
+    template <class Visitor>
+    void visit_zone(Visitor& v, const char* name) {
+        v(name, zone, Field::length().positive().at_most(10));
+        v("fade", fade, Field::length().within(1e-4, 10));
+    }
+};
+
+/// A load with its names looked up. In the tick it neither allocates nor throws.
+class Load {
+  public:
+    /// Problems with the spec go to `diagnostics`.
+    Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
+         Diagnostics& diagnostics);
+
+    const LoadSpec& spec() const { return spec_; }
+    /// What it acts on: indices of bodies; fingers come after the scene's bodies.
+    std::span<const int> on() const { return on_; }
+    /// What it does to a thing with this motion. `regions_W`: centres of the regions [m].
+    Wrench act(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
+    /// Its force over velocity, at share 1 [N*s/m]; of channels and springs zero.
+    Mat3 velocity_gain() const;
+    /// Axis of a curl field; otherwise unset.
+    std::optional<Vec3> axis() const;
+
+    /// The most that it may ask of a loop: norms of the matrices by which its force follows
+    /// position and velocity, and the force and torque that it reaches.
+    struct Demand {
+        double stiffness = 0;  ///< including that of its fading [N/m]
+        double damping = 0;    ///< [N*s/m]
+        double driving = 0;    ///< largest damping with which it drives motion on [N*s/m]
+        double force = 0;      ///< at rest; infinite where it grows with the distance [N]
+        double torque = 0;     ///< [N*m]
+    };
+    Demand demand() const;
+
+  private:
+    enum class Shape { point, line, plane };
+    void look_up_things(const scene::Scene& scene, Diagnostics& diagnostics);
+    void look_up_place(const std::vector<Region>& regions, Diagnostics& diagnostics);
+    void check_spring(Diagnostics& diagnostics) const;
+    void check_general(Diagnostics& diagnostics);
+    Vec3 pull(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
+    double left_at(double distance) const noexcept;
+
+    LoadSpec spec_;
+    std::vector<int> on_;
+    Shape shape_ = Shape::point;
+    Vec3 direction_ = Vec3::UnitZ();  // of e, of a line about a region, or a plane's normal
+    bool between_ = false;            // the line leads from one region to another
+    int about_ = -1;                  // region; with between_, where the line begins
+    int to_ = -1;                     // region
+};
+
+}  // namespace dihaptic::task

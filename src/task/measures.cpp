@@ -1,0 +1,345 @@
+#include "task/measures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/figure.h"
+#include "base/unmeasured.h"
+#include "task/lookup.h"
+#include "task/reach_plan.h"
+#include "task/task_plan.h"
+#include "task/trial_numbers.h"
+
+namespace dihaptic::task {
+namespace {
+
+template <class T>
+size_t place_of(const std::vector<T>& list, const std::string& name) {
+    const auto named = [&](const T& item) { return item.name == name; };
+    return static_cast<size_t>(std::find_if(list.begin(), list.end(), named) - list.begin());
+}
+
+unsigned needs_of(const Task& task) {
+    unsigned needs = 0;
+    for (const std::string& name : task.measures) {
+        if (const MeasureRow* row = measure_row(name)) needs |= row->needs;
+    }
+    return needs;
+}
+
+bool pushes_by_velocity(const PerturbationSpec& spec) {
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return std::any_of(loads.begin(), loads.end(), [](const LoadSpec& load) {
+        return load.kind == LoadKind::viscous || load.kind == LoadKind::curl ||
+               (load.kind == LoadKind::general && !load.B.isZero(0));
+    });
+}
+
+/// Whether a load of the perturbation acts on what the measures are taken of.
+bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
+    if (movement.of == kHand) return true;
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return std::any_of(loads.begin(), loads.end(), [&](const LoadSpec& load) {
+        return std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
+    });
+}
+
+/// The perturbation whose field is the ideal force; null if there is none.
+const PerturbationSpec* ideal_of(const Task& task, const Movement& movement) {
+    for (const PerturbationSpec& spec : task.perturbations) {
+        if (movement.ideal.empty() ? pushes_by_velocity(spec) : spec.name == movement.ideal)
+            return &spec;
+    }
+    return nullptr;
+}
+
+class MeasureChecker {
+  public:
+    MeasureChecker(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics)
+        : task_(task),
+          scene_(scene),
+          diagnostics_(diagnostics),
+          movement_(movement_of(task, scene.fingers.empty() ? "" : scene.fingers.front().name)),
+          place_(task.movement ? task.movement->place : task.place) {}
+
+    void check() {
+        check_list();
+        const unsigned needs = needs_of(task_);
+        if (task_.movement && task_.measures.empty())
+            diagnostics_.warning(place_, "movement", "nothing is measured of it",
+                                 "Add e.g. measures: [reaction_time, peak_speed].");
+        for (const auto& [key, name] : {std::pair{"go", &movement_.go}, {"step", &movement_.step}})
+            if (!name->empty()) state(*name, key);
+        if (needs & MeasureRow::movement) check_movement();
+        if (needs & MeasureRow::channel) check_channel();
+        if (needs & MeasureRow::ideal) check_ideal();
+        if (needs & MeasureRow::grip) check_grip();
+        if (!movement_.error.empty()) check_error();
+        if ((needs & MeasureRow::step) && movement_.step.empty())
+            error("step", "is missing, and grip_latency counts from a load step",
+                  "Add movement: { step: the state that begins with it }.");
+    }
+
+  private:
+    void error(const char* key, const std::string& what, const std::string& remedy) {
+        diagnostics_.error(place_, key, what, remedy);
+    }
+    void state(const std::string& name, const char* key) {
+        look_up(names_of(task_.states), name, place_, key, "no state", diagnostics_);
+    }
+
+    void check_list() {
+        std::vector<std::string> names;
+        for (const MeasureRow& row : kMeasureTable) names.emplace_back(row.name);
+        for (size_t i = 0; i < task_.measures.size(); ++i) {
+            const std::string& name = task_.measures[i];
+            look_up(names, name, task_.place, "measures", "no measure", diagnostics_);
+            const auto end = task_.measures.begin() + static_cast<std::ptrdiff_t>(i);
+            if (std::find(task_.measures.begin(), end, name) != end)
+                diagnostics_.error(task_.place, "measures",
+                                   fmt::format("'{}' is there twice", name), "Leave one out.");
+        }
+    }
+
+    void check_movement() {
+        if (!task_.movement && !task_.reach) {
+            error("movement", "is missing, and measures of movement are asked for",
+                  "Add e.g. movement: { from: start, to: target, during: [reach] }, with a region, "
+                  "a region and states.");
+            return;
+        }
+        const std::vector<std::string> regions = names_of(task_.regions);
+        for (const auto& [key, name] : {std::pair{"from", &movement_.from}, {"to", &movement_.to}})
+            look_up(regions, *name, place_, key, "no region", diagnostics_);
+        if (movement_.from == movement_.to && !movement_.to.empty())
+            error("to", "is where the movement begins", "Name two regions.");
+        if (movement_.during.empty())
+            error("during", "is missing", "Name the states of the movement, e.g. during: [reach].");
+        for (const std::string& name : movement_.during) state(name, "during");
+        if (movement_.axis && movement_.axis->norm() <= 0)
+            error("axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
+        check_what_moves();
+    }
+
+    void check_what_moves() {
+        std::vector<std::string> things = scene::finger_names(scene_);
+        for (const scene::Body& body : scene_.bodies) {
+            if (body.moves_at_all()) things.push_back(body.name);
+        }
+        things.emplace_back(kHand);
+        look_up(things, movement_.of, place_, "of", "nothing that moves", diagnostics_);
+    }
+
+    void check_channel() {
+        const bool any = std::any_of(
+            task_.perturbations.begin(), task_.perturbations.end(),
+            [&](const auto& spec) { return is_channel(spec) && acts_on(spec, movement_); });
+        if (!any)
+            diagnostics_.error(
+                task_.place, "measures",
+                fmt::format("force in a channel is asked for, and no channel holds '{}'",
+                            movement_.of),
+                "Add a perturbation with field: { kind: channel, ... }, or name in movement's `of` "
+                "what it acts on.");
+    }
+
+    void check_ideal() {
+        const PerturbationSpec* ideal = ideal_of(task_, movement_);
+        if (ideal == nullptr && movement_.ideal.empty()) {
+            error("ideal", "adaptation_index needs a field that is learned, and there is none",
+                  "Add a perturbation whose field is curl or viscous.");
+        } else if (ideal == nullptr) {
+            look_up(names_of(task_.perturbations), movement_.ideal, place_, "ideal",
+                    "no perturbation", diagnostics_);
+        } else if (!pushes_by_velocity(*ideal) || !acts_on(*ideal, movement_)) {
+            error("ideal",
+                  fmt::format("'{}' has no field on '{}' that follows its velocity", ideal->name,
+                              movement_.of),
+                  "Name a perturbation whose field is curl or viscous, on what is measured.");
+        }
+    }
+
+    void check_grip() {
+        if (scene_.object_index() >= 0 && scene_.fingers.size() > 1) return;
+        diagnostics_.error(task_.place, "measures",
+                           "measures of grip need an object that can move and two fingers",
+                           "Leave them out, or take a scene that has both.");
+    }
+
+    void check_error() {
+        if (!error_column(task_.measures, movement_.error).empty()) return;
+        std::vector<std::string> names;
+        for (const std::string& name : task_.measures) {
+            const MeasureRow* row = measure_row(name);
+            for (const MeasureColumn& column : row ? row->columns : decltype(row->columns){}) {
+                if (column.name != nullptr) names.emplace_back(column.name);
+            }
+        }
+        look_up(names, movement_.error, place_, "error", "no figure of the measures listed",
+                diagnostics_);
+    }
+
+    const Task& task_;
+    const scene::Scene& scene_;
+    Diagnostics& diagnostics_;
+    Movement movement_;
+    Place place_;
+};
+
+/// The columns of a movement, each with its cell.
+std::vector<std::pair<Table::Column, Table::Cell>> cells_of(const MovementPlan& movement) {
+    std::vector<std::pair<Table::Column, Table::Cell>> out;
+    const auto add = [&](const std::string& what, const char* unit, const Vec3& v,
+                         const char* description) {
+        for (int k = 0; k < 3; ++k)
+            out.push_back({{what + "xyz"[k] + unit, k == 0 ? description : ""}, v[k]});
+    };
+    add("movement_from_", "_mm", movement.from_W * 1e3, "of which measures are taken");
+    add("movement_to_", "_mm", movement.to_W * 1e3, "");
+    add("movement_axis_", "", movement.axis_W, "left is left of the line, seen from its tip");
+    out.push_back({{"movement_channel", "1: a channel holds it"}, movement.channel ? 1.0 : 0.0});
+    out.push_back({{"movement_field_share", "of the ideal field"}, movement.field_share});
+    for (int k = 0; k < 3; ++k) {
+        const std::string row = std::string("movement_ideal_") + "xyz"[k];
+        add(row, "_Ns_m", movement.ideal.row(k), "ideal field's force over velocity");
+    }
+    return out;
+}
+
+/// How the trial's perturbations compare with the ideal field, and whether one is a channel.
+void compare(MovementPlan& out, const TaskPlan& plan, const Trial& trial,
+             const Movement& movement) {
+    const TaskPlan::Cell& cell = plan.cell(trial);
+    const PerturbationSpec* ideal = ideal_of(plan.task, movement);
+    if (ideal != nullptr)
+        out.ideal = cell.perturbations[place_of(plan.task.perturbations, ideal->name)].field_gain();
+    out.channel = false;
+    out.field_share = 0;
+    Mat3 gain = Mat3::Zero();
+    for (const int p : trial.perturb) {
+        const auto i = static_cast<size_t>(p);
+        const PerturbationSpec& spec = plan.task.perturbations[i];
+        out.channel = out.channel || (is_channel(spec) && acts_on(spec, movement));
+        gain += cell.perturbations[i].field_gain();
+    }
+    if (out.channel) {
+        out.field_share = kUnmeasured;
+    } else if (ideal != nullptr && !gain.isZero(0)) {
+        out.field_share = gain.cwiseProduct(out.ideal).sum() / out.ideal.squaredNorm();
+    }
+}
+
+}  // namespace
+
+const MeasureRow* measure_row(const std::string& name) {
+    const auto named = [&](const MeasureRow& row) { return row.name == name; };
+    const auto found = std::find_if(std::begin(kMeasureTable), std::end(kMeasureTable), named);
+    return found == std::end(kMeasureTable) ? nullptr : found;
+}
+
+std::vector<Table::Column> columns_of_measure(const MeasureRow& row) {
+    FigureLister out;
+    for (const MeasureColumn& column : row.columns) {
+        if (column.name != nullptr) out(column.name, 0.0, column.unit, column.what);
+    }
+    return out.columns;
+}
+
+std::string error_column(const std::vector<std::string>& measures, const std::string& error) {
+    for (const std::string& name : measures) {
+        const MeasureRow* row = measure_row(name);
+        if (row == nullptr) continue;
+        const std::vector<Table::Column> columns = columns_of_measure(*row);
+        for (size_t i = 0; i < columns.size(); ++i) {
+            if (row->columns[i].name == error) return columns[i].name;
+        }
+    }
+    return "";
+}
+
+Table::Column not_measured_column() {
+    return {kNotMeasured, "what of these measures is missing, and why"};
+}
+
+std::vector<Table::Column> measure_columns() {
+    std::vector<Table::Column> out;
+    for (const MeasureRow& row : kMeasureTable) {
+        for (Table::Column& column : columns_of_measure(row)) out.push_back(std::move(column));
+    }
+    out.push_back(not_measured_column());
+    return out;
+}
+
+Vec3 MovementPlan::left_W() const {
+    constexpr double kAlong = 1e-9;
+    const Vec3 left = axis_W.cross(along_W());
+    if (!(left.norm() > kAlong * axis_W.norm())) return Vec3::Constant(kUnmeasured);
+    return left.normalized();
+}
+
+Movement movement_of(const Task& task, const std::string& first_finger) {
+    Movement out = task.movement.value_or(Movement{});
+    const auto fill = [](std::string& own, const std::string& other) {
+        if (own.empty()) own = other;
+    };
+    if (task.reach) {
+        fill(out.of, task.reach->finger);
+        fill(out.from, task.reach->from);
+        fill(out.to, task.reach->to);
+        if (out.during.empty()) out.during = {task.reach->during};
+        if (!out.axis) out.axis = task.reach->axis;
+    }
+    fill(out.of, first_finger);
+    return out;
+}
+
+void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics& diagnostics) {
+    MeasureChecker(plan.task, scene, diagnostics).check();
+}
+
+void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
+    if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
+    for (const auto& [column, unused] : cells_of({})) list.columns.push_back(column);
+    const Movement movement = movement_of(plan.task, scene.fingers.front().name);
+    const size_t from = place_of(plan.task.regions, movement.from);
+    const size_t to = place_of(plan.task.regions, movement.to);
+    TrialNumbers numbers(plan);
+    for (size_t i = 0; i < plan.trials.size(); ++i) {
+        const Trial& trial = plan.trials[i];
+        numbers.begin(static_cast<int>(i), 1, plan.start);
+        const TaskPlan::Cell& cell = numbers.cell();
+        MovementPlan out;
+        out.from_W = cell.p_W[from];
+        out.to_W = cell.p_W[to];
+        out.axis_W = movement.axis ? movement.axis->normalized() : usual_axis(cell);
+        compare(out, plan, trial, movement);
+        for (const auto& [unused, value] : cells_of(out)) list.rows[i].push_back(value);
+    }
+}
+
+std::vector<MovementPlan> read_movements(const std::string& file) {
+    const CsvFile list(file);
+    std::vector<MovementPlan> out;
+    if (!list.has(kFirstMovementColumn)) return out;
+    for (size_t i = 0; i < list.rows(); ++i) {
+        const auto vector = [&](const std::string& what, const char* unit) {
+            Vec3 v;
+            for (int k = 0; k < 3; ++k) v[k] = list.number(i, what + "xyz"[k] + unit);
+            return v;
+        };
+        MovementPlan& movement = out.emplace_back();
+        movement.from_W = vector("movement_from_", "_mm") * 1e-3;
+        movement.to_W = vector("movement_to_", "_mm") * 1e-3;
+        movement.axis_W = vector("movement_axis_", "");
+        movement.channel = list.number(i, "movement_channel") == 1;
+        movement.field_share = list.number(i, "movement_field_share");
+        for (int k = 0; k < 3; ++k)
+            movement.ideal.row(k) = vector(std::string("movement_ideal_") + "xyz"[k], "_Ns_m");
+    }
+    return out;
+}
+
+}  // namespace dihaptic::task

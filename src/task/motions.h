@@ -1,0 +1,68 @@
+// Keeps how bodies and handles moved in the last ticks, for loads that are fed with a delay.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "haptics/coupling.h"
+#include "servo/frame.h"
+
+namespace dihaptic::task {
+
+struct Motion {
+    Vec3 p_W = Vec3::Zero();  ///< position of the handle, or of the body's origin [m]
+    Vec3 v_W = Vec3::Zero();  ///< its velocity [m/s]
+};
+
+/// Things are indexed as bodies are in the Frame: the scene's, and after them the fingers' handles.
+/// Once constructed it allocates nothing.
+class Motions {
+  public:
+    /// `longest`: the longest delay [s].
+    Motions(size_t bodies, size_t fingers, double longest, double tick)
+        : bodies_(bodies),
+          tick_(tick),
+          rows_(static_cast<size_t>(ticks(longest)) + 1, std::vector<Motion>(bodies + fingers)),
+          known_(bodies + fingers, 0) {}
+
+    /// Begins a tick: handles are those of this tick, bodies those at the end of the last.
+    void add(const servo::Frame& last, std::span<const haptics::Handle> handles) noexcept {
+        now_ = (now_ + 1) % rows_.size();
+        for (size_t i = 0; i < bodies_ && last.sequence >= 0; ++i)
+            set(i, {last.bodies[i].X_WB.p, last.bodies[i].v_WB});
+        for (size_t i = 0; i < handles.size(); ++i)
+            set(bodies_ + i, {handles[i].p_WH, handles[i].v_WH});
+    }
+    /// The body is put at rest at p_W in this tick: where it was before does not count any more.
+    void put(int body, const Vec3& p_W) noexcept {
+        known_[static_cast<size_t>(body)] = 0;
+        set(static_cast<size_t>(body), {p_W, Vec3::Zero()});
+    }
+    void forget() noexcept { std::fill(known_.begin(), known_.end(), 0); }
+
+    /// How the thing moved `delay` ago [s], or the first that is known of it; null where nothing
+    /// is.
+    const Motion* of(int thing, double delay) const noexcept {
+        const auto i = static_cast<size_t>(thing);
+        if (known_[i] == 0) return nullptr;
+        const size_t back = std::min(static_cast<size_t>(ticks(delay)), known_[i] - 1);
+        return &rows_[(now_ + rows_.size() - back) % rows_.size()][i];
+    }
+
+  private:
+    long ticks(double time) const noexcept { return std::lround(time / tick_); }
+    void set(size_t thing, const Motion& motion) noexcept {
+        rows_[now_][thing] = motion;
+        known_[thing] = std::min(known_[thing] + 1, rows_.size());
+    }
+
+    size_t bodies_;
+    double tick_;
+    std::vector<std::vector<Motion>> rows_;  // a ring
+    std::vector<size_t> known_;              // by thing: rows that count
+    size_t now_ = 0;                         // row of this tick
+};
+
+}  // namespace dihaptic::task

@@ -1,0 +1,292 @@
+#include "task/plan_formulas.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/text_file.h"
+#include "task/factors.h"
+#include "task/lookup.h"
+
+namespace dihaptic::task {
+namespace {
+
+bool is_identifier(std::string_view text) {
+    const auto letter = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
+    return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
+           std::all_of(text.begin(), text.end(), letter);
+}
+
+/// Defines what a task names itself, and reports names that cannot be used.
+class Definer {
+  public:
+    Definer(TaskPlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
+
+    void define() {
+        const Task& task = plan_.task;
+        for (const DrawSpec& draw : task.draws) define(draw);
+        for (const Factor& factor : factors_of(task)) define(factor);
+        if (task.variables.size() > servo::TaskFrame::kMostVariables) {
+            diagnostics_.error(task.variables.back().place, "variables",
+                               fmt::format("there are {}, where {} are the most",
+                                           task.variables.size(), servo::TaskFrame::kMostVariables),
+                               "Leave some out.");
+        }
+        for (const Variable& variable : task.variables) define(variable);
+    }
+
+  private:
+    /// Whether the name can stand in a formula, and in a table beside the others.
+    bool check_name(const std::string& name, const Place& place, const char* key) {
+        const std::string plain(split_unit(name).name);
+        Diagnostics ignored;
+        Quantities own;
+        own.define(plain, {}, Kind::draw);
+        Expression::compile(plain, own, place, key, ignored);
+        const auto in_table = [&](const Table::Column& c) { return c.name == name; };
+        const auto& columns = kTrialListColumns;
+        std::string what;
+        if (!is_identifier(plain) || ignored.has_errors()) {
+            what = "cannot be named in a formula";
+        } else if (plain == "outcome" || plan_.quantities.find(plain) ||
+                   std::any_of(columns.begin(), columns.end(), in_table)) {
+            what = "is the name of something else";
+        } else {
+            return true;
+        }
+        diagnostics_.error(place, key, fmt::format("'{}' {}", name, what),
+                           "Use another name, of letters, digits and _, e.g. wait_s.");
+        return false;
+    }
+
+    Symbol number(const std::string& name, Kind kind) {
+        const NameInUnit unit = split_unit(name);
+        return plan_.quantities.define(std::string(unit.name), dimension(unit.quantity), kind);
+    }
+
+    std::vector<double> codes(const std::vector<std::string>& texts) {
+        std::vector<double> out;
+        for (const std::string& text : texts) out.push_back(plan_.quantities.text(text));
+        return out;
+    }
+
+    void define(const DrawSpec& draw) {
+        check(draw, diagnostics_);
+        if (!check_name(draw.name, draw.place, "name")) return;
+        const NameInUnit unit = split_unit(draw.name);
+        if (are_texts(draw.values())) {
+            const Symbol symbol =
+                plan_.quantities.define_text(std::string(unit.name), draw.values(), Kind::draw);
+            plan_.symbols.draws.push_back({symbol.slot, 1, codes(draw.values())});
+        } else {
+            const Symbol symbol = number(draw.name, Kind::draw);
+            plan_.symbols.draws.push_back({symbol.slot, unit.si, {}});
+        }
+    }
+
+    void define(const Factor& factor) {
+        if (!check_name(factor.factor, factor.place, "factor") || !all_have(factor)) return;
+        const NameInUnit unit = split_unit(factor.factor);
+        const bool texts = are_texts(factor.levels);
+        const Symbol symbol = texts ? plan_.quantities.define_text(std::string(unit.name),
+                                                                   factor.levels, Kind::factor)
+                                    : number(factor.factor, Kind::factor);
+        std::vector<double> levels;
+        for (const Condition& condition : plan_.task.conditions) {
+            const std::string level = level_of(condition, factor.factor);
+            levels.push_back(texts ? plan_.quantities.text(level)
+                                   : unit.si * *finite_number(level));
+        }
+        plan_.symbols.factors.push_back({symbol.slot, levels});
+    }
+
+    bool all_have(const Factor& factor) {
+        for (const Condition& condition : plan_.task.conditions) {
+            if (!level_of(condition, factor.factor).empty()) continue;
+            diagnostics_.error(
+                condition.place, "factors",
+                fmt::format("'{}' has no level of {}", condition.name, factor.factor),
+                fmt::format("Add e.g. factors: {{ {}: {} }}.", factor.factor,
+                            factor.levels.front()));
+            return false;
+        }
+        return true;
+    }
+
+    void define(const Variable& variable) {
+        const double start = variable.start * split_unit(variable.name).si;
+        plan_.start.push_back({start});
+        if (!check_name(variable.name, variable.place, "name")) {
+            plan_.symbols.variables.push_back({});
+            return;
+        }
+        const Symbol symbol = number(variable.name, Kind::variable);
+        const NameInUnit unit = split_unit(variable.name);
+        const Symbol between =
+            plan_.between.define(std::string(unit.name), symbol.dimension, Kind::variable);
+        plan_.symbols.variables.push_back({symbol.slot, between.slot});
+    }
+
+    TaskPlan& plan_;
+    Diagnostics& diagnostics_;
+};
+
+/// Whether the text names an angle: the value is then in radians, and otherwise in the key's unit.
+bool names_angle(const TaskPlan& plan, std::string_view text) {
+    const auto is_angle = [&](std::string_view name) {
+        const auto named = [&](std::string_view key) {
+            const NameInUnit unit = split_unit(key);
+            return unit.name == name && unit.quantity == Quantity::angle;
+        };
+        const Task& task = plan.task;
+        const auto any = [&](const auto& list) {
+            return std::any_of(list.begin(), list.end(),
+                               [&](const auto& item) { return named(item.name); });
+        };
+        const std::vector<Factor> factors = factors_of(task);
+        return name == "deg" || name == "rad" || any(task.draws) || any(task.variables) ||
+               std::any_of(factors.begin(), factors.end(),
+                           [&](const Factor& f) { return named(f.factor); });
+    };
+    size_t begin = 0;
+    for (size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() &&
+            (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_'))
+            continue;
+        if (i > begin && is_angle(text.substr(begin, i - begin))) return true;
+        begin = i + 1;
+    }
+    return false;
+}
+
+class FormulaPlanner {
+  public:
+    FormulaPlanner(TaskPlan& plan, Diagnostics& diagnostics)
+        : plan_(plan), diagnostics_(diagnostics) {}
+
+    /// Nullopt, with the problem in the diagnostics, if the text gives no number of this kind.
+    std::optional<CompiledFormula> compile(const Formula& formula) {
+        CompiledFormula out;
+        Diagnostics found;
+        out.expression =
+            Expression::compile(formula.text, plan_.quantities, formula.place, formula.key, found);
+        out.formula = formula;
+        for (Problem problem : found.problems()) {
+            if (problem.severity == Severity::error)
+                problem.what = "must be a number or a formula: " + problem.what;
+            diagnostics_.add({problem});
+        }
+        if (found.has_errors()) return {};
+        const Quantity wanted = formula.field.quantity;
+        const Dimension given = out.expression.dimension();
+        if (out.expression.type() != Expression::Type::number) {
+            error(formula, "must be a number or a formula of one",
+                  "A condition becomes a number by if, e.g. 10 if side > 0 else 20.");
+        } else if (given == Dimension{}) {
+            const bool angle = wanted == Quantity::angle && names_angle(plan_, formula.text);
+            out.scale = angle ? 1 : formula.to_si;
+            return out;
+        } else if (given == dimension(wanted)) {
+            return out;
+        } else {
+            error(formula,
+                  fmt::format("is in {}, and must be a {}", si_symbol(given), name(wanted)),
+                  "Divide by a unit, e.g. wait / 1 s, or name something else.");
+        }
+        return {};
+    }
+
+    void compile_all() {
+        // a failure is reported once: what is left of the formula is a number
+        each_formula(plan_.task, [this](Formula& formula) {
+            if (!formula.computed() || finite_number(formula.text)) return;
+            std::optional<CompiledFormula> compiled = compile(formula);
+            if (compiled && compiled->expression.follows_tick()) {
+                error(formula, "names what changes within a trial, and is set when a trial begins",
+                      "Name draws, factors, variables and regions; or use a condition: when.");
+                return;
+            }
+            if (!compiled) return;
+            formula.index = static_cast<int>(plan_.formulas.size());
+            compiled->formula.index = formula.index;
+            plan_.formulas.push_back(std::move(*compiled));
+        });
+        for (State& state : plan_.task.states) {
+            each_formula(state, [this](const Formula& formula) {
+                if (formula.index >= 0) plan_.in_states.push_back(formula.index);
+            });
+        }
+    }
+
+  private:
+    void error(const Formula& formula, const std::string& what, const std::string& remedy) {
+        diagnostics_.error(formula.place, formula.key, fmt::format("{}: '{}'", what, formula.text),
+                           remedy);
+    }
+
+    TaskPlan& plan_;
+    Diagnostics& diagnostics_;
+};
+
+/// A condition between or after trials; empty if the text is none.
+std::optional<Expression> condition(const std::string& text, Quantities& quantities,
+                                    const Place& place, const char* key, Diagnostics& diagnostics) {
+    if (text.empty()) return {};
+    Diagnostics found;
+    Expression out = Expression::compile(text, quantities, place, key, found);
+    diagnostics.add(found.problems());
+    if (found.has_errors()) return {};
+    if (out.type() != Expression::Type::truth) {
+        diagnostics.error(place, key, fmt::format("'{}' is no condition", text),
+                          "Compare something, e.g. score > 10.");
+    }
+    return out;
+}
+
+}  // namespace
+
+void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
+    for (const Condition& round : plan.task.rounds) {
+        if (round.factors.kind != Node::Kind::null)
+            diagnostics.error(round.place, "factors", "belong to conditions, and this is a round",
+                              "Leave them out, or cross the factor with the others: cross.");
+    }
+    Definer(plan, diagnostics).define();
+    if (!diagnostics.has_errors()) FormulaPlanner(plan, diagnostics).compile_all();
+}
+
+void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
+    std::vector<std::string> outcomes;
+    for (const TaskPlan::Outcome& outcome : plan.outcomes) outcomes.push_back(outcome.name);
+    plan.symbols.outcome = plan.quantities.define_text("outcome", outcomes, Kind::figure).slot;
+    for (const std::string& outcome : outcomes)
+        plan.symbols.outcomes.push_back(plan.quantities.text(outcome));
+    for (const Rule& rule : plan.task.after_trial) {
+        TaskPlan::Change change;
+        change.when = condition(rule.when, plan.quantities, rule.place, "when", diagnostics);
+        const int variable = look_up(names_of(plan.task.variables), rule.set, rule.place, "set",
+                                     "no variable", diagnostics);
+        if (variable < 0) continue;
+        change.variable = static_cast<size_t>(variable);
+        const NameInUnit unit = split_unit(rule.set);
+        Formula to;
+        to.text = rule.to;
+        to.to_si = unit.si;
+        to.key = "to";
+        to.place = rule.place;
+        to.field = Field::of(unit.quantity);
+        if (auto compiled = FormulaPlanner(plan, diagnostics).compile(to)) {
+            change.to = std::move(*compiled);
+            plan.changes.push_back(std::move(change));
+        }
+    }
+    for (const Block& block : plan.task.blocks)
+        plan.until.push_back(
+            condition(block.until, plan.between, block.place, "until", diagnostics));
+}
+
+}  // namespace dihaptic::task

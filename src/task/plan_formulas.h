@@ -1,0 +1,15 @@
+// What the formulas of a task may name, and their compiling, for its plan.
+#pragma once
+
+#include "task/task_plan.h"
+
+namespace dihaptic::task {
+
+/// Defines the task's draws, factors and variables in plan.quantities, compiles the formulas of
+/// plan.task, and says in them which they are.
+void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics);
+
+/// Compiles the rules after trials and the ends of blocks. The plan must have its outcomes.
+void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::task

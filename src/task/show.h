@@ -1,0 +1,89 @@
+// What an experiment file says of what a person sees: what a state hides, how things look, and the
+// pages before a block (docs/files.md).
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+
+namespace dihaptic::task {
+
+/// The fingers' proxies. `held`: they are shown where they were when the state began.
+enum class Cursor { yes, no, held };
+constexpr auto enum_names(Cursor) {
+    return std::array{"yes", "no", "held"};
+}
+
+/// What is shown while a state lasts; in the file a mapping, or the list of targets alone.
+struct Show {
+    std::vector<std::string> targets;  ///< regions
+    Cursor cursor = Cursor::yes;
+    bool object = true;  ///< the scene's
+    Node bodies;         ///< name: yes or no
+    Node fingers;        ///< name: yes or no; in place of what `cursor` says
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("targets", targets);
+        v("cursor", cursor);
+        v("object", object);
+        v("bodies", bodies);
+        v("fingers", fingers);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+    /// As visit(), for the one key of a struct that has it.
+    template <class Visitor>
+    void visit_in(Visitor& v) {
+        bool is_list = cursor == Cursor::yes && object && bodies.kind == Node::Kind::null &&
+                       fingers.kind == Node::Kind::null;
+        if constexpr (requires { v.is_list("show"); }) is_list = v.is_list("show");
+        if (is_list) {
+            v("show", targets);
+        } else {
+            v("show", *this);
+        }
+    }
+};
+
+/// How one thing looks: a body, a finger's proxy, or a target.
+struct LookSpec {
+    std::string body;
+    std::string finger;
+    std::string target;  ///< region
+    std::string colour;  ///< "#rrggbb"; empty: as it is
+    double scale = 1;    ///< factor on the displayed size
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("body", body);
+        v("finger", finger);
+        v("target", target);
+        v("colour", colour);
+        v("scale", scale, Field::number().within(0.05, 20));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A page that is shown in place of the scene until a key is pressed, or for a time.
+struct PageSpec {
+    std::string text;     ///< Markdown
+    std::string picture;  ///< PNG file, relative to the experiment file
+    std::string key;      ///< one letter or digit; empty: any
+    double lasts = 0;     ///< longest time for which it is shown; 0: until the key [s]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("text", text);
+        v("picture", picture);
+        v("key", key);
+        v("for", lasts, Field::of(Quantity::time).within(0, 3600));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+}  // namespace dihaptic::task

@@ -1,0 +1,126 @@
+// Tests bodies that states put somewhere, hold, let go, remove and exchange.
+#include <gtest/gtest.h>
+
+#include "recording/raw_log.h"
+#include "session/replay.h"
+#include "session/test/reaches.h"
+
+namespace dihaptic::task::placing_test {
+namespace {
+
+using session::Mistake;
+
+constexpr double kTick = 1e-3;
+constexpr double kGravity = 9.81;
+
+/// A state of 0.1 s that leads to another, or out of the trial.
+std::string state(const std::string& name, const std::string& next, const std::string& more) {
+    return "    - { name: " + name + ", exits: [{ when: time, hold_s: 0.1, " + next + " }]" + more +
+           " }\n";
+}
+
+/// Frames of the first trial of an experiment with these states, but the session's first, in which
+/// no state puts anything yet.
+std::vector<servo::Frame> frames_of(session::Files& files, const std::string& states) {
+    files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
+                       states + "  blocks: [{ name: all, repeats: 2 }]\n";
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    EXPECT_FALSE(result.interrupted) << result.fault;
+    EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
+    std::vector<servo::Frame> out;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    while (const servo::Frame* frame = log.next()) {
+        if (frame->trial == 1 && frame->sequence > 0 && frame->task.outcome < 0)
+            out.push_back(*frame);
+    }
+    return out;
+}
+
+TEST(Placing, HoldsABodyAndLetsItGo) {
+    session::Files files;
+    const auto frames =
+        frames_of(files, state("hold", "to: drop",
+                               ", place: [{ body: block, position_mm: [100, 0, 300], held: yes }], "
+                               "hand: [{ duration_s: 0.1 }]") +
+                             state("drop", "outcome: done", ""));
+    double t = 0;
+    for (const servo::Frame& frame : frames) {
+        const double z = frame.bodies[1].X_WB.p.z();
+        EXPECT_NEAR(frame.bodies[1].X_WB.p.x(), 0.1, 1e-9);
+        EXPECT_EQ(frame.task.placements.size(), frame.phase == 1 ? 1u : 0u);
+        t += frame.phase == 2 ? kTick : 0;
+        EXPECT_NEAR(z, 0.3 - kGravity * t * t / 2, frame.phase == 1 ? 1.1e-5 : 2e-3) << t;
+    }
+    EXPECT_NEAR(t, 0.1, 2e-3);
+}
+
+TEST(Placing, RemovesAndExchangesBodies) {
+    session::Files files;
+    files.scene.insert(files.scene.find("fingers:"),
+                       "  - { name: ball, shape: sphere, radius_mm: 20, mass_g: 100, position_mm: "
+                       "[200, 0, 20] }\n");
+    const auto frames = frames_of(
+        files,
+        state("one", "to: other",
+              ", place: [{ body: ball, removed: yes }], "
+              "hand: [{ duration_s: 0.1 }]") +
+            state("other", "outcome: done",
+                  ", place: [{ body: block, removed: yes }, { body: ball, position_mm: [0, 0, "
+                  "20] }]"));
+    ASSERT_GT(frames.size(), 150u);
+    for (const servo::Frame& frame : frames) {
+        const servo::BodyFrame& here = frame.bodies[frame.phase == 1 ? 1 : 2];
+        const servo::BodyFrame& away = frame.bodies[frame.phase == 1 ? 2 : 1];
+        EXPECT_LT((here.X_WB.p - Vec3(0, 0, 0.02)).norm(), 1e-4) << frame.phase;
+        EXPECT_GT(away.X_WB.p.z(), 900);
+    }
+}
+
+TEST(Placing, WaitsForAFingerThatIsInTheWay) {
+    session::Files files;
+    const auto frames =
+        frames_of(files,
+                  "    - name: in the way\n"
+                  "      place: [{ body: block, position_mm: [0, 0, 220], held: yes }]\n"
+                  "      exits: [{ when: time, hold_s: 0.8, to: away }]\n"
+                  "      hand: [{ duration_s: 0.1 }, { duration_s: 0.5, move_mm: [0, 0, 150] }]\n" +
+                      state("away", "outcome: done", ""));
+    ASSERT_GT(frames.size(), 850u);
+    size_t put = 0;
+    for (const servo::Frame& frame : frames) {
+        EXPECT_EQ(frame.fingers[0].f_contact_W, Vec3::Zero());
+        if (frame.task.placements.empty()) continue;
+        EXPECT_EQ(frame.phase, 1);
+        if (put++ == 0) {
+            EXPECT_GT(frame.fingers[0].p_WP.z(), 0.25);
+        }
+    }
+    EXPECT_GT(put, 200u);
+    EXPECT_LT(put, 600u);
+}
+
+class BrokenPlace : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BrokenPlace, IsRefusedWithFileLineAndRemedy) {
+    session::Files files;
+    session::expect_refused(files, GetParam());
+}
+
+constexpr const char* kMarker = "      marker: 7\n";
+INSTANTIATE_TEST_SUITE_P(
+    Placing, BrokenPlace,
+    ::testing::Values(
+        Mistake{kMarker, "      place: [{ position_mm: [0, 0, 90] }]\n", "body: is missing"},
+        Mistake{kMarker, "      place: [{ body: blok, held: yes }]\n", "Did you mean block?"},
+        Mistake{kMarker, "      place: [{ body: table, held: yes }]\n", "'table' cannot move"},
+        Mistake{kMarker, "      place: [{ body: block }]\n", "what becomes of the body"},
+        Mistake{kMarker, "      place: [{ body: block, position: [0, 0, 9] }]\n", "needs its unit"},
+        Mistake{kMarker, "      place: [{ body: block, removed: yes, held: yes }]\n",
+                "nowhere else"},
+        Mistake{kMarker,
+                "      place: [{ body: block, held: yes }, { body: block, removed: yes }]\n",
+                "is put twice"},
+        Mistake{kMarker, "      place: { body: block, held: yes }\n", "must be a list"}));
+
+}  // namespace
+}  // namespace dihaptic::task::placing_test

@@ -1,0 +1,98 @@
+// Tests the error message for every mistake in what a file says of what a person sees.
+#include <gtest/gtest.h>
+
+#include "session/test/reaches.h"
+
+namespace dihaptic::task::seen_mistakes_test {
+namespace {
+
+using session::Mistake;
+
+class BrokenSight : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BrokenSight, IsRefusedWithFileLineAndRemedy) {
+    session::Files files;
+    session::expect_refused(files, GetParam());
+}
+
+const char* const kShow = "show: [target]";
+const char* const kMessage = "message: Go home";
+const char* const kRotation =
+    "visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 }";
+const char* const kBlock = "{ name: before, kind: baseline, repeats: 1 }";
+
+INSTANTIATE_TEST_SUITE_P(
+    Show, BrokenSight,
+    ::testing::Values(
+        Mistake{kShow, "show: { targets: [tarket] }", "Did you mean target?"},
+        Mistake{kShow, "show: { target: [target] }", "Did you mean targets?"},
+        Mistake{kShow, "show: target", "must have keys of its own"},
+        Mistake{kShow, "show: { cursor: maybe }", "'maybe' is not known"},
+        Mistake{kShow, "show: { object: perhaps }", "must be yes or no"},
+        Mistake{kShow, "show: { bodies: [block] }", "must have a key for each that is hidden"},
+        Mistake{kShow, "show: { bodies: { blok: no } }", "Did you mean block?"},
+        Mistake{kShow, "show: { bodies: { block: maybe } }", "must be yes or no"},
+        Mistake{kShow, "show: { bodies: { block: } }", "must be yes or no"},
+        Mistake{kShow, "show: { fingers: { thumb: no } }", "none of the scene's fingers"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Look, BrokenSight,
+    ::testing::Values(
+        Mistake{kShow, "look: [{ body: block }]", "changes nothing"},
+        Mistake{kShow, "look: [{ scale: 2 }]", "does not say of what"},
+        Mistake{kShow, "look: [{ body: block, target: target, scale: 2 }]", "is of one thing only"},
+        Mistake{kShow, "look: [{ body: blok, scale: 2 }]", "Did you mean block?"},
+        Mistake{kShow, "look: [{ finger: thumb, scale: 2 }]", "none of the scene's fingers"},
+        Mistake{kShow, "look: [{ target: tarket, scale: 2 }]", "Did you mean target?"},
+        Mistake{kShow, "look: [{ target: target, colour: red }]", "'red' is no colour"},
+        Mistake{kShow, "look: [{ target: target, colour: \"#12345g\" }]", "is no colour"},
+        Mistake{kShow, "look: [{ target: target, color: red }]", "Did you mean colour?"},
+        Mistake{kShow, "look: [{ target: target, scale: 0 }]", "scale"},
+        Mistake{"- name: right\n", "- { name: right, look: [{ body: blok, scale: 2 }] }\n",
+                "Did you mean block?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Texts, BrokenSight,
+    ::testing::Values(
+        Mistake{kMessage, "message: \"Trial {trail_num}\"", "Did you mean trial_num?"},
+        Mistake{kMessage, "message: \"Trial {trial_num\"", "is no place for a number"},
+        Mistake{kMessage, "message: \"Trial {trial_num:d}\"", "is no place for a number"},
+        Mistake{kMessage, "message: \"{trial_num} {trials} {block_num} {blocks} {trials_left}\"",
+                "where 4 are the most"},
+        Mistake{kMessage, "lines: [one, two, three]", "where 2 are the most"},
+        Mistake{kMessage, "lines: [\"{scoer}\"]", "no number that a text may have"},
+        Mistake{kMessage, "countdown: 5", "must be yes or no"},
+        Mistake{"- { when: time, hold_s: 5, outcome: lost, redo: yes }",
+                "- { when: key, key: l, outcome: lost, redo: yes }\n      countdown: yes",
+                "no exit by time ends this state"},
+        Mistake{"feedback: Good", "feedback: \"{target}\"", "no number that a text may have"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Delay, BrokenSight,
+    ::testing::Values(
+        Mistake{kRotation, "visual: { moves: [proxies], delay_ms: 9000 }", "delay_ms"},
+        Mistake{kRotation, "visual: { moves: [proxies], delay: 100 }", "needs its unit"},
+        Mistake{kRotation, "visual: { moves: [target], delay_ms: 100 }", "which are not moved"},
+        Mistake{kRotation, "visual: { moves: [target], noise_mm: [1, 1, 1] }",
+                "which are not moved"},
+        Mistake{kRotation, "visual: { moves: [proxies], noise_mm: 3 }", "must be three numbers"},
+        Mistake{kRotation, "visual: { moves: [proxies], delay_ms: 100, scale: [2, 1, 1] }",
+                "about"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Pages, BrokenSight,
+    ::testing::Values(
+        Mistake{kBlock, "{ name: before, pages: [{ key: y }] }", "this page shows nothing"},
+        Mistake{kBlock, "{ name: before, pages: [{ text: Hello, key: enter }] }",
+                "'enter' is no key"},
+        Mistake{kBlock, "{ name: before, pages: [{ text: Hello, for_s: -1 }] }", "for_s"},
+        Mistake{kBlock, "{ name: before, pages: [{ text: Hello, for: 1 }] }", "needs its unit"},
+        Mistake{kBlock, "{ name: before, pages: [{ picture: nowhere.png }] }", "there is no file"},
+        Mistake{kBlock, "{ name: before, pages: [{ picture: scene.yaml }] }", "is no PNG file"},
+        Mistake{kBlock, "{ name: before, pages: [{ text: \"{scoer}\" }] }",
+                "no number that a text may have"},
+        Mistake{kBlock, "{ name: before, rest: 30 }", "needs its unit"},
+        Mistake{kBlock, "{ name: before, rest_s: -3 }", "rest_s"}));
+
+}  // namespace
+}  // namespace dihaptic::task::seen_mistakes_test

@@ -1,0 +1,60 @@
+// The numbers of a trial that the file has as formulas (docs/files.md): resolved once, at the
+// trial's start, from its draws, its condition's factors and the variables. Whoever takes part in
+// the trials has its own: the director, and the hand that sees the Frames.
+#pragma once
+
+#include "servo/frame.h"
+#include "task/task_plan.h"
+
+namespace dihaptic::task {
+
+/// Allocates nothing once it is constructed.
+class TrialNumbers {
+  public:
+    /// `plan` must outlive it.
+    explicit TrialNumbers(const TaskPlan& plan);
+
+    /// `trial`: index among the plan's. `variables`: their values [SI].
+    void begin(int trial, int attempt, std::span<const servo::VariableFrame> variables) noexcept;
+    /// Begins the attempt if it is another one, and one of a trial. `trial`: from 1, as in frames.
+    void follow(int trial, int attempt, std::span<const servo::VariableFrame> variables) noexcept;
+    /// Forgets which attempt was begun.
+    void restart() noexcept { trial_ = 0; }
+
+    const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
+    double of(const Formula& formula) const noexcept { return Number(formula).in(resolved_); }
+    /// What a formula gave before its bounds.
+    double unbounded(size_t index) const noexcept { return given_[index]; }
+    /// Whether the trial's block ends before it. `trial`: index among the plan's.
+    bool ends_before(int trial) noexcept;
+    Quantities& quantities() noexcept { return quantities_; }
+    std::span<const double> values() const noexcept { return quantities_.values(); }
+    /// Sets the variables for the expressions that name them.
+    void set(std::span<const servo::VariableFrame> variables) noexcept;
+    /// How often a formula gave what its bounds do not allow, and which was the last; -1: none.
+    int bounded() const noexcept { return bounded_; }
+    int last_bounded() const noexcept { return last_bounded_; }
+
+  private:
+    double resolve(const Number& number) noexcept;
+    double resolve(int index) noexcept;
+
+    const TaskPlan& plan_;
+    Quantities quantities_;
+    Quantities between_;
+    std::vector<TaskPlan::Cell> cells_;
+    std::vector<double> given_;     // by formula
+    std::vector<double> resolved_;  // by formula, within its bounds
+    size_t cell_ = 0;
+    int trial_ = 0;  // from 1; 0: none yet
+    int attempt_ = 0;
+    int bounded_ = 0;
+    int last_bounded_ = -1;
+};
+
+/// Resolves the formulas of all trials with the variables as they start: notes their largest values
+/// in the plan, and reports values that their bounds do not allow: as errors, or as warnings where
+/// variables may change them. Variables' values are then kept within the bounds.
+void resolve_all(TaskPlan& plan, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::task

@@ -1,0 +1,47 @@
+"""docs/conventions.md names files and parts of the code: all of them are there, and pages link only to what is.
+
+Usage: conventions_test.py, from the project's folder.
+"""
+import pathlib
+import re
+import unittest
+
+PAGE = pathlib.Path("docs/conventions.md").read_text()
+PATHS = [path for top in ("*", "app/**/*", "cmake/*", "docs/**/*", "experiments/*", "meshes/*", "src/**/*", "test/**/*")
+         for path in pathlib.Path(".").glob(top)]
+CODE = "".join(path.read_text() for path in PATHS if path.suffix in (".h", ".cpp", ".cmake", ".py")
+               or path.name == "CMakeLists.txt")
+
+
+def named():
+    """What stands in backquotes on the page, but for placeholders (NAME), commands and examples of notation."""
+    for text in re.findall(r"`([^`\n]+)`", PAGE[PAGE.index("## Code"):]):
+        if not re.search(r"[A-Z]{4}|[\s*]|^\./|^Upper|_case$|^trailing_$|^kName$", text):
+            yield text
+
+
+class Conventions(unittest.TestCase):
+    def test_files_are_there(self):
+        paths = [text for text in named() if "/" in text or re.search(r"\.(h|cpp|md|py|txt|json|yaml)$", text)]
+        self.assertGreater(len(paths), 20)
+        for path in paths:
+            with self.subTest(path):
+                there = any(("/" + str(found)).endswith("/" + path.rstrip("/")) for found in PATHS)
+                self.assertTrue(there or f'"{path}"' in CODE)  # of a session's files the code has the name
+
+    def test_names_are_in_the_code(self):
+        names = [text for text in named() if re.fullmatch(r"[A-Za-z_]\w*(::\w+)*(\(\))?", text)]
+        self.assertGreater(len(names), 15)
+        for name in names:
+            with self.subTest(name):
+                self.assertRegex(CODE, r"\b" + re.sub(r".*::|\(\)", "", name) + r"\b")
+
+    def test_pages_link_to_what_is_there(self):
+        for page in [path for path in PATHS if path.suffix == ".md"]:
+            for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
+                with self.subTest(page=str(page), link=link):
+                    self.assertTrue((page.parent / link).exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
