@@ -82,6 +82,16 @@ def hook():
     return prism(outline, triangles, 6)
 
 
+def bowl():
+    """A trough along y, open upward, whose inside is tangent to a circle of 110 mm about the origin: 60 faces of 2 degrees
+    each, up to 60 degrees on either side."""
+    step = math.radians(2)
+    ends = [step * (k - 30) for k in range(61)]
+    outside = [(114 * math.sin(a), -114 * math.cos(a)) for a in ends]
+    inside = [(110 / math.cos(step / 2) * math.sin(a), -110 / math.cos(step / 2) * math.cos(a)) for a in ends]
+    return prism(outside + inside[::-1], strip(len(ends)), 40)
+
+
 def stone():
     """Nothing that hands know, yet convex: a turned shape, stretched and sheared. It lies on z = 0."""
     vertices, faces = lathe([(16, 0), (24, 14), (20, 30), (8, 40)], 7)
@@ -99,6 +109,7 @@ MESHES = {
                      [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)], 30),
     "cup": lathe([(32, 0), (32, 80), (28, 80), (28, 4)], 12),
     "hook": hook(),
+    "bowl": bowl(),
 }
 
 

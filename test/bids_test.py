@@ -37,14 +37,14 @@ task:
     - name: home
       show: [start]
       perturbed: no
-      exits: [{ when: inside, region: start, hold_s: 0.1, to: reach }, { when: time, hold_s: 6, outcome: lost, redo: yes }]
-      hand: [{ duration_s: 0.2, reach: start }]
+      exits: [{ when: inside, region: start, hold_s: 0.1, to: reach }, { when: time, after_s: 6, outcome: lost, redo: yes }]
+      simulated_hand: [{ duration_s: 0.2, reach: start }]
     - name: reach
       show: [target]
       exits:
         - { when: inside, region: target, outcome: reached }
-        - { when: time, hold_s: 3, outcome: too slow }
-      hand: [{ duration_s: 0.2, reach: target }]
+        - { when: time, after_s: 3, outcome: too slow }
+      simulated_hand: [{ duration_s: 0.2, reach: target }]
   reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
   conditions: [{ name: near }, { name: far, regions: [{ name: target, position_mm: [60, 0, 120], radius_mm: 6 }] }]
   blocks:

@@ -42,6 +42,10 @@ class Conventions(unittest.TestCase):
                 with self.subTest(page=str(page), link=link):
                     self.assertTrue((page.parent / link).exists())
 
+    def test_each_experiment_is_listed(self):
+        listed = set(re.findall(r"`([\w-]+\.yaml)`", pathlib.Path("docs/experiments.md").read_text()))
+        self.assertEqual(listed, {path.name for path in pathlib.Path("experiments").glob("*.yaml")})
+
 
 if __name__ == "__main__":
     unittest.main()

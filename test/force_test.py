@@ -38,6 +38,10 @@ RIGS = {
 SETTINGS = "settings: {safety: {hand_damping_Ns_m: 100}}\n"
 
 
+class NoForce(AssertionError):
+    """The devices were never made to push."""
+
+
 class Program(unittest.TestCase):
     """The program with two fingers pressed on the table, until something happens to it."""
 
@@ -64,6 +68,16 @@ class Program(unittest.TestCase):
         return service.stdout.readline().strip()
 
     def start(self, backend, more="", scene="scenes/block-on-table.yaml", fails=""):
+        """A session whose devices push, in the program; what they feel. A machine that is busy with something else for
+        40 ms ends force as it should: then it is begun anew."""
+        for last in [False] * (TRIES - 1) + [True]:
+            try:
+                return self.begin(backend, more, scene, fails)
+            except NoForce:
+                if last:
+                    raise
+
+    def begin(self, backend, more, scene, fails):
         felt = Felt(self.folder.name + "/felt")
         rig = self.rig(backend, more)
         self.out = tempfile.mkdtemp(dir=self.folder.name)
@@ -80,7 +94,7 @@ class Program(unittest.TestCase):
             forces = felt.wait_for_force()
         except AssertionError:
             process.kill()
-            raise AssertionError(process.communicate())
+            raise NoForce(process.communicate())
         for force in forces:
             self.assertLess(force, 3.7)
         if RIGS[backend][0]:  # a library: its devices are opened by the keeper alone, and once

@@ -44,13 +44,13 @@ task:
   states:
     - name: home
       perturbed: no
-      exits: [{ when: time, hold_s: 0.8, to: reach }]
-      hand: [{ duration_s: 0.4, reach: start }]
+      exits: [{ when: time, after_s: 0.8, to: reach }]
+      simulated_hand: [{ duration_s: 0.4, reach: start }]
     - name: reach
-      exits: [{ when: time, hold_s: 0.3, to: stay }]
-      hand: [{ duration_s: 0.5, reach: target }]
+      exits: [{ when: time, after_s: 0.3, to: stay }]
+      simulated_hand: [{ duration_s: 0.5, reach: target }]
     - name: stay
-      exits: [{ when: time, hold_s: 0.7, outcome: reached }]
+      exits: [{ when: time, after_s: 0.7, outcome: reached }]
   measures: [reaction_time, movement_time, peak_speed, time_of_peak_speed, path_length, lateral_deviation,
              end_point_error, initial_direction, spectral_arc_length, channel_force, adaptation_index]
   movement: { of: index, from: start, to: target, during: [reach, stay], go: reach, onset_speed_mm_s: 30, ideal: field }

@@ -11,6 +11,7 @@
 #include "bench/jitter.h"
 #include "bench/scale.h"
 #include "bench/solvers.h"
+#include "bench/task.h"
 #include "bench/view.h"
 #include "common/console.h"
 #include "common/steady_output.h"
@@ -244,6 +245,25 @@ void add_jitter(CLI::App& app) {
     command->callback([options] { run_jitter(*options); });
 }
 
+void add_task(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "task",
+        "What a task of 20 states and 10 loads adds to a tick, and what 20 conditions cost");
+    auto options = std::make_shared<BenchOptions>();
+    auto pairs = std::make_shared<int>(5);
+    command->add_option("--pairs", *pairs, "runs with the task, and without it")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    add_settings(*command, *options);
+    command->footer("\nExample:\n  dihaptic-bench task");
+    command->callback([options, pairs] {
+        const auto figures = with_progress("bench task", [&](const measure::Progress& progress) {
+            return bench::bench_task(options->setup, *pairs, progress);
+        });
+        fmt::print("{}", options->json ? json_of(figures) : figure_text(figures));
+    });
+}
+
 void add_view(CLI::App& app) {
     auto* command = app.add_subcommand(
         "view", "What a picture costs, beside the same one with a plain shadow map");
@@ -277,6 +297,7 @@ int main(int argc, char** argv) {
     cli::add_contact(app);
     cli::add_solvers(app);
     cli::add_jitter(app);
+    cli::add_task(app);
     cli::add_view(app);
     return cli::run_program(app, argc, argv);
 }

@@ -12,6 +12,8 @@ namespace dihaptic::gui {
 char task_key(const QKeyEvent& event) {
     const QString text = event.text();
     if (event.isAutoRepeat() || text.size() != 1 || text[0].unicode() > 127) return 0;
+    // numbers are typed with these
+    if (QStringLiteral(".-\r\b").contains(text[0])) return text[0].toLatin1();
     return text[0].isLetterOrNumber() ? text[0].toLatin1() : '\0';
 }
 

@@ -5,7 +5,8 @@
 
 namespace dihaptic::gui {
 
-/// The letter or digit of a key event, for a task; 0 for any other key.
+/// The letter or digit of a key event, for a task, or what a number is typed with besides: point,
+/// minus, enter and back; 0 for any other key.
 char task_key(const QKeyEvent& event);
 
 class SubjectWindow : public QWidget {

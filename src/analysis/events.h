@@ -35,6 +35,11 @@ class EventFinder {
     /// `object`: index of the body whose lift-off counts; -1 if none. `phases`: their names.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
+    /// From the next frame on it is this body whose lift-off counts; it stands at first.
+    void follow(int object) noexcept {
+        supported_ = true;
+        object_ = object;
+    }
     void add(const servo::Frame& frame);
     const std::vector<Event>& events() const { return events_; }
 

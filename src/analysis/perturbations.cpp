@@ -40,7 +40,8 @@ void say_kinds(const task::VisualSpec& visual, std::vector<std::string>& out) {
                                   in_words(visual.axis.value_or(Vec3::Zero()))));
     if (visual.scale != kOnes) out.push_back("visual gain " + in_words(visual.scale));
     add_factor(out, "displayed size", visual.size);
-    if (visual.delay > 0) out.push_back(fmt::format("shown {:.6g} ms late", visual.delay * 1e3));
+    if (visual.delay != 0)
+        out.push_back(fmt::format("shown {} ms late", in_words(visual.delay, 1e-3)));
     if (!visual.noise.isZero(0))
         out.push_back("shaken by " + in_words(Vec3(visual.noise * 1e3)) + " mm (SD)");
 }
@@ -56,16 +57,18 @@ std::string kind_and_size(const task::LoadSpec& load) {
     switch (load.kind) {
         case task::LoadKind::constant:
             return fmt::format("constant force {} N", in_words(load.force)) +
-                   (load.torque.isZero(0) ? "" : fmt::format(", {} N*m", in_words(load.torque)));
+                   (load.torque == FormulaVec3{} ? ""
+                                                 : fmt::format(", {} N*m", in_words(load.torque)));
         case task::LoadKind::viscous:
         case task::LoadKind::curl:
-            return fmt::format("{} field of {:.6g} N*s/m", enum_name(load.kind), load.damping);
+            return fmt::format("{} field of {} N*s/m", enum_name(load.kind),
+                               in_words(load.damping));
         case task::LoadKind::general:
             return "general field";
         case task::LoadKind::spring:
-            return fmt::format("spring of {:.6g} N/m", load.stiffness);
+            return fmt::format("spring of {} N/m", in_words(load.stiffness));
         case task::LoadKind::channel:
-            return fmt::format("force channel of {:.6g} N/m", load.stiffness);
+            return fmt::format("force channel of {} N/m", in_words(load.stiffness));
     }
     return "";
 }

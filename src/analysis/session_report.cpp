@@ -15,6 +15,7 @@
 #include "analysis/grasp_trace.h"
 #include "analysis/lifts.h"
 #include "analysis/measures/measures.h"
+#include "analysis/perturbations.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/plural.h"
@@ -97,6 +98,31 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
     }
 }
 
+/// Names of the trials' objects: those of their conditions, of their rounds, or `usual`. Empty if
+/// no condition has one.
+std::vector<std::string> objects_of_trials(const recording::SessionFolder& folder,
+                                           const std::string& usual) {
+    const std::optional<task::Task> task = read_frozen_task(folder.file("task.yaml"));
+    std::map<std::string, std::string> by_round, by_condition;
+    for (const task::Condition& c : task ? task->rounds : std::vector<task::Condition>{}) {
+        if (!c.object.empty()) by_round[c.name] = c.object;
+    }
+    for (const task::Condition& c : task ? task->conditions : std::vector<task::Condition>{}) {
+        if (!c.object.empty()) by_condition[c.name] = c.object;
+    }
+    std::vector<std::string> out;
+    if (by_round.empty() && by_condition.empty()) return out;
+    const CsvFile list(folder.file("trial-list.csv"));
+    for (size_t i = 0; i < list.rows(); ++i) {
+        const auto condition = by_condition.find(list.text(i, "condition"));
+        const auto round = by_round.find(list.text(i, "round"));
+        out.push_back(condition != by_condition.end() ? condition->second
+                      : round != by_round.end()       ? round->second
+                                                      : usual);
+    }
+    return out;
+}
+
 }  // namespace
 
 /// Working data and results of one pass over the frames.
@@ -105,7 +131,7 @@ struct SessionReader::Pass {
          const recording::LogHead& head)
         : names(names_of(info)),
           fingers(head.fingers),
-          object(object_of(info, head)),
+          object(object_of(info.object, head)),
           tick(head.tick),
           facts(facts_of(info.object, folder, head, reading.why_no_facts)),
           events(head, object, names),
@@ -116,6 +142,12 @@ struct SessionReader::Pass {
         if (has_trials(folder)) {
             reading.trials.emplace(folder, head.fingers);
             reading.measures = MeasureFinder::of(folder, head, names);
+            for (const std::string& name : objects_of_trials(folder, info.object)) {
+                objects.push_back(object_of(name, head));
+                if (facts_by_object.count(objects.back()) == 0)
+                    facts_by_object[objects.back()] =
+                        facts_of(name, folder, head, reading.why_no_facts);
+            }
         }
     }
 
@@ -124,9 +156,19 @@ struct SessionReader::Pass {
         for (const recording::PhaseInfo& phase : info.phases) out.push_back(phase.name);
         return out;
     }
-    static int object_of(const recording::SessionInfo& info, const recording::LogHead& head) {
-        const auto found = std::find(head.bodies.begin(), head.bodies.end(), info.object);
+    static int object_of(const std::string& name, const recording::LogHead& head) {
+        const auto found = std::find(head.bodies.begin(), head.bodies.end(), name);
         return found == head.bodies.end() ? -1 : static_cast<int>(found - head.bodies.begin());
+    }
+
+    /// Takes the object of the trial that begins.
+    void begin_trial() {
+        const auto i = static_cast<size_t>(trial - 1);
+        if (trial < 1 || i >= objects.size() || objects[i] == object) return;
+        object = objects[i];
+        facts = facts_by_object[object];
+        trace = GraspTrace(object, tick);
+        events.follow(object);
     }
 
     void end_trial() {
@@ -172,6 +214,7 @@ struct SessionReader::Pass {
             phase = frame.phase;
             attempt = frame.task.attempt;
             trial = frame.trial;
+            if (next_trial) begin_trial();
             first = trace.samples().size();
         }
         trace.add(frame);
@@ -200,6 +243,8 @@ struct SessionReader::Pass {
     double tick;
     Reading reading;
     ObjectFacts facts;
+    std::vector<int> objects;  // by trial; empty: always the scene's
+    std::map<int, ObjectFacts> facts_by_object;
     EventFinder events;
     GraspTrace trace;
     FaultRecord fault;

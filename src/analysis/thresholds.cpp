@@ -28,6 +28,10 @@ double ThresholdTrack::share(double level) const {
     return logarithmic ? std::pow(10, level) : level;
 }
 
+std::string ThresholdTrack::what() const {
+    return number.empty() ? "share of " + perturbation : number;
+}
+
 std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures) {
     std::vector<ThresholdTrack> out;
     for (size_t p = 0; p < procedures.rows(); ++p) {
@@ -35,6 +39,7 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
         track.procedure = procedures.text(p, "procedure");
         track.kind = procedures.text(p, "kind");
         track.perturbation = procedures.text(p, "perturbation");
+        track.number = procedures.text(p, "level");
         track.logarithmic = procedures.text(p, "logarithmic") == "yes";
         track.model.sigmoid = sigmoid_of(procedures.text(p, "sigmoid"));
         track.model.guess = procedures.number(p, "guess");
@@ -44,7 +49,7 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
         for (size_t i = 0; i < trials.rows(); ++i) {
             if (trials.text(i, "procedure") != track.procedure) continue;
             const std::string outcome = trials.text(i, "outcome");
-            const double share = trials.number(i, "share");
+            const double share = trials.number(i, track.number.empty() ? "share" : track.number);
             const double level = track.logarithmic ? std::log10(share) : share;
             if ((outcome != yes && outcome != no) || !std::isfinite(level)) continue;
             track.answers.push_back({level, outcome == yes});

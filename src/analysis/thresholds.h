@@ -1,4 +1,4 @@
-// Computes thresholds from a session's trials.csv and procedures.csv: for each adaptive procedure
+// Computes thresholds from a session's trials.csv and procedures.csv: for each procedure
 // the levels and answers, and the psychometric function that makes the answers most likely.
 #pragma once
 
@@ -13,14 +13,17 @@ namespace dihaptic::analysis {
 
 struct ThresholdTrack {
     std::string procedure;
-    std::string kind;  ///< staircase, quest, quest_plus
+    std::string kind;  ///< staircase, quest, quest_plus, constant
     std::string perturbation;
-    bool logarithmic = false;       ///< levels are log10 of shares
+    std::string number;             ///< name of what it chooses; empty: the perturbation's share
+    bool logarithmic = false;       ///< levels are log10 of shares, or of the number
     std::vector<Answer> answers;    ///< in their order
     std::vector<int> trials;        ///< trial number of each answer in the session
     PsychometricFitSettings model;  ///< model that is fitted
 
-    double share(double level) const;  ///< share of the perturbation at a level
+    /// The share, or the number in the unit of its name, at a level.
+    double share(double level) const;
+    std::string what() const;  ///< what it chooses, in words
 };
 
 /// One track per procedure. Answers that are neither yes nor no, and trials without a procedure,

@@ -42,6 +42,43 @@ Table::Cell cell(const std::string& text) {
     return !text.empty() && *end == '\0' ? Table::Cell(value) : Table::Cell(text);
 }
 
+/// Columns of the task's variables, levels of procedures and answers.
+std::vector<Table::Column> columns_of_numbers(const recording::SessionInfo& info) {
+    std::vector<Table::Column> out;
+    for (const std::string& name : info.variables) {
+        out.push_back({name, "variable, in the trial"});
+        out.push_back({task::next_column(name), "the same, after the trial"});
+    }
+    for (const std::string& name : info.levels) out.push_back({name, "chosen by a procedure"});
+    for (const std::string& name : info.answers) out.push_back({name, "answered"});
+    return out;
+}
+
+/// Their values in the trial's first tick, and in its last one.
+std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
+                                          const std::vector<servo::VariableFrame>& first,
+                                          const std::vector<servo::VariableFrame>& last) {
+    std::vector<Table::Cell> out;
+    size_t i = 0;
+    const auto add = [&](const std::string& name, const auto& values) {
+        out.emplace_back(i < values.size() ? values[i].value / split_unit(name).si : kUnmeasured);
+    };
+    for (const std::string& name : info.variables) {
+        add(name, first);
+        add(name, last);
+        ++i;
+    }
+    for (const std::string& name : info.levels) {
+        add(name, first);
+        ++i;
+    }
+    for (const std::string& name : info.answers) {
+        add(name, last);
+        ++i;
+    }
+    return out;
+}
+
 }  // namespace
 
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
@@ -139,10 +176,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
-    for (const std::string& name : info.variables) {
-        table.columns.push_back({name, "variable, in the trial"});
-        table.columns.push_back({task::next_column(name), "the same, after the trial"});
-    }
+    append(table.columns, columns_of_numbers(info));
     append(table.columns, list_figures(TrialMeasures{}).columns);
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row =
@@ -157,11 +191,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
                 row.push_back(cell(known ? list_[i][k] : ""));
             }
         }
-        for (size_t k = 0; k < info.variables.size(); ++k) {
-            const double si = split_unit(info.variables[k]).si;
-            for (const auto* values : {&r.variables, &r.next})
-                row.emplace_back(k < values->size() ? (*values)[k].value / si : kUnmeasured);
-        }
+        append(row, cells_of_numbers(info, r.variables, r.next));
         const auto outcome = static_cast<size_t>(r.outcome);
         TrialMeasures measures = r.measures;
         measures.outcome = r.outcome >= 0 && outcome < info.outcomes.size() ? info.outcomes[outcome]

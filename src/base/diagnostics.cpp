@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/unit.h"
+
 namespace dihaptic {
 
 namespace {
@@ -36,6 +38,27 @@ std::string Problem::text() const {
 
 namespace {
 
+/// Where the key stands, with or without its unit, if the place is that of a mapping with it.
+Place place_of(const Place& place, const std::string& key) {
+    Place out{place.file, place.line};
+    if (!place.keys || key.empty()) return out;
+    for (auto at = place.keys->lower_bound(key); at != place.keys->end(); ++at) {
+        if (!at->first.starts_with(key)) break;
+        const std::string_view rest = std::string_view(at->first).substr(key.size());
+        if (!rest.empty() && (rest.front() != '_' || find_unit(rest.substr(1)) == nullptr))
+            continue;
+        out.line = at->second;
+        break;
+    }
+    return out;
+}
+
+Problem problem(Severity severity, const Place& place, std::string key, std::string what,
+                std::string remedy) {
+    Place at = place_of(place, key);
+    return {severity, std::move(at), std::move(key), std::move(what), std::move(remedy)};
+}
+
 std::string join(const std::vector<Problem>& problems) {
     std::string out;
     for (const Problem& problem : problems) {
@@ -50,26 +73,27 @@ std::string join(const std::vector<Problem>& problems) {
 Error::Error(std::vector<Problem> problems)
     : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
 
-Error::Error(Place place, std::string key, std::string what, std::string remedy)
-    : Error({{Severity::error, std::move(place), std::move(key), std::move(what),
-              std::move(remedy)}}) {}
-
-void Diagnostics::error(Place place, std::string key, std::string what, std::string remedy) {
-    problems_.push_back(
-        {Severity::error, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+Error::Error(const Place& place, std::string key, std::string what, std::string remedy)
+    : Error({problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy))}) {
 }
 
-void Diagnostics::warning(Place place, std::string key, std::string what, std::string remedy) {
+void Diagnostics::error(const Place& place, std::string key, std::string what, std::string remedy) {
     problems_.push_back(
-        {Severity::warning, std::move(place), std::move(key), std::move(what), std::move(remedy)});
+        problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy)));
 }
 
-void Diagnostics::unknown_key(Place place, std::string key, std::string remedy) {
+void Diagnostics::warning(const Place& place, std::string key, std::string what,
+                          std::string remedy) {
+    problems_.push_back(
+        problem(Severity::warning, place, std::move(key), std::move(what), std::move(remedy)));
+}
+
+void Diagnostics::unknown_key(const Place& place, std::string key, std::string remedy) {
     if (unknown_ == UnknownKeys::are_errors) {
-        error(std::move(place), std::move(key), "is not known here", std::move(remedy));
+        error(place, std::move(key), "is not known here", std::move(remedy));
     } else {
-        warning(std::move(place), std::move(key),
-                "is not known to this version of Dihaptic, and is left out", "");
+        warning(place, std::move(key), "is not known to this version of Dihaptic, and is left out",
+                "");
     }
 }
 

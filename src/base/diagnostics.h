@@ -2,6 +2,8 @@
 // wrong, and the remedy. Readers collect every problem of a file before they give up.
 #pragma once
 
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,6 +16,8 @@ enum class Severity { warning, error };
 struct Place {
     std::string file;
     int line = 0;  ///< from 1; 0: the file as a whole
+    /// Of a mapping, the lines of its keys: a problem with one of them is there.
+    std::shared_ptr<const std::map<std::string, int>> keys = nullptr;
 };
 
 struct Problem {
@@ -31,7 +35,7 @@ struct Problem {
 class Error : public std::runtime_error {
   public:
     explicit Error(std::vector<Problem> problems);
-    Error(Place place, std::string key, std::string what, std::string remedy);
+    Error(const Place& place, std::string key, std::string what, std::string remedy);
     Error(std::string what, std::string remedy)
         : Error(Place{}, "", std::move(what), std::move(remedy)) {}
 
@@ -50,9 +54,10 @@ class Diagnostics {
   public:
     explicit Diagnostics(UnknownKeys unknown = UnknownKeys::are_errors) : unknown_(unknown) {}
 
-    void error(Place place, std::string key, std::string what, std::string remedy);
-    void warning(Place place, std::string key, std::string what, std::string remedy);
-    void unknown_key(Place place, std::string key, std::string remedy);
+    void error(const Place& place, std::string key, std::string what, std::string remedy);
+    void warning(const Place& place, std::string key, std::string what, std::string remedy);
+    UnknownKeys unknown_keys() const { return unknown_; }
+    void unknown_key(const Place& place, std::string key, std::string remedy);
     void add(const std::vector<Problem>& problems);
 
     const std::vector<Problem>& problems() const { return problems_; }

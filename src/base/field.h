@@ -6,7 +6,7 @@
 //
 //         template <class Visitor>
 //         void visit(Visitor& v) {
-//             v("radius", radius, Field::length().positive());
+//             v("radius", radius, Field::length().positive().says("Radius of the ball."));
 //             v("friction", friction, Field::number().at_least(0));
 //         }
 //     };
@@ -41,6 +41,8 @@ struct Field {
     bool above_min = false;  ///< the minimum itself is not allowed
     bool is_required = false;
     Tighter tighter = Tighter::none;
+    const char* old_name = nullptr;  ///< as older files have it
+    std::string_view what = {};      ///< a sentence for docs/reference.md
 
     static constexpr Field number() { return {}; }
     static constexpr Field text() { return {}; }
@@ -71,12 +73,29 @@ struct Field {
         f.tighter = way;
         return f;
     }
+    /// The name is a new one. A file that has the old one gets an error that says so; an input that
+    /// an earlier version froze in a session is read.
+    constexpr Field formerly(const char* name) const {
+        Field f = *this;
+        f.old_name = name;
+        return f;
+    }
     constexpr Field required() const {
         Field f = *this;
         f.is_required = true;
         return f;
     }
+    constexpr Field says(std::string_view sentence) const {
+        Field f = *this;
+        f.what = sentence;
+        return f;
+    }
 };
+
+/// A field of which nothing but a sentence is said.
+constexpr Field says(std::string_view sentence) {
+    return Field{}.says(sentence);
+}
 
 /// Texts of a field for which a file gives one text as it is, or a list.
 struct Texts : std::vector<std::string> {

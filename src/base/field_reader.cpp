@@ -55,6 +55,14 @@ FieldReader::FieldReader(const Node& mapping, Diagnostics& diagnostics, Origins*
                          std::string path)
     : mapping_(mapping), diagnostics_(diagnostics), origins_(origins), path_(std::move(path)) {}
 
+Place FieldReader::place() const {
+    std::map<std::string, int> lines;
+    for (const auto& [key, node] : mapping_.entries) lines.emplace(key, node.place.line);
+    Place out = mapping_.place;
+    out.keys = std::make_shared<const std::map<std::string, int>>(std::move(lines));
+    return out;
+}
+
 Place FieldReader::place_of(std::string_view name) const {
     for (const auto& [key, node] : mapping_.entries) {
         if (key == name || key.starts_with(std::string(name) + "_")) return node.place;
@@ -97,6 +105,7 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
         }
         given = {node, keys[i], all.empty() ? 1.0 : all[i].si};
     }
+    if (field.old_name != nullptr) given = take_old(name, field, given);
     // a key with a wrong unit, or with none, does not count as missing: finish() reports it
     const bool misspelt = place_of(name).line != mapping_.place.line;
     if (given.node == nullptr && field.is_required && !misspelt) {
@@ -104,6 +113,22 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
                            fmt::format("Add {}.", alternatives(keys)));
     }
     if (given.node != nullptr) note_origin(name, *given.node);
+    return given;
+}
+
+FieldReader::Given FieldReader::take_old(std::string_view name, const Field& field, Given given) {
+    const auto all = units(field.quantity);
+    const std::vector<std::string> old = keys_of(field.old_name, field.quantity);
+    const std::vector<std::string> now = keys_of(std::string(name), field.quantity);
+    for (size_t i = 0; i < old.size(); ++i) {
+        const Node* node = mapping_.find(old[i]);
+        if (node == nullptr || !used_.insert(old[i]).second) continue;
+        if (diagnostics_.unknown_keys() == UnknownKeys::are_errors) {
+            diagnostics_.error(node->place, old[i], fmt::format("is called {} now", now[i]),
+                               fmt::format("Write {}.", now[i]));
+        }
+        if (given.node == nullptr) given = {node, old[i], all.empty() ? 1.0 : all[i].si};
+    }
     return given;
 }
 
@@ -182,7 +207,8 @@ std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) 
 
 std::optional<std::string> FieldReader::word(const Given& given, const Field& field) {
     if (given.node->kind != Node::Kind::scalar) {
-        diagnostics_.error(given.node->place, given.key, "must be a single word or text", "");
+        diagnostics_.error(given.node->place, given.key, "must be a single word or text",
+                           "Write one, in quotes if it has signs in it.");
         return std::nullopt;
     }
     if (field.is_required && given.node->scalar.empty()) {
@@ -267,7 +293,8 @@ void FieldReader::operator()(std::string_view name, int& value, Field field) {
     if (!read) return;
     if (*read != std::floor(*read) || std::abs(*read) > 1e9) {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be a whole number, is {}", given.node->scalar), "");
+                           fmt::format("must be a whole number, is {}", given.node->scalar),
+                           "Leave out what is behind the point.");
         return;
     }
     value = static_cast<int>(*read);

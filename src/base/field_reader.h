@@ -94,7 +94,7 @@ class FieldReader {
 
     /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
     /// struct's.
-    Place place() const { return mapping_.place; }
+    Place place() const;
     Place place_of(std::string_view name) const;
     /// Whether the mapping gives the field, in whatever unit.
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
@@ -119,6 +119,8 @@ class FieldReader {
     };
 
     Given take(std::string_view name, const Field& field);
+    /// `given`, or what stands under the field's old name.
+    Given take_old(std::string_view name, const Field& field, Given given);
     const Node* take_mapping(std::string_view name, const Field& field);
     const Node* take_list(std::string_view name, const Field& field);
     bool is_mapping(const Node& node, const std::string& key);

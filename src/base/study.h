@@ -17,10 +17,11 @@ struct Study {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("experimenters", experimenters);
-        v("institution", institution);
-        v("lab", lab);
-        v("keywords", keywords);
+        v("experimenters", experimenters,
+          says("Names of who did it, who are also the authors of a BIDS data set."));
+        v("institution", institution, says("Where it was done."));
+        v("lab", lab, says("Laboratory."));
+        v("keywords", keywords, says("What the study is about."));
     }
 };
 

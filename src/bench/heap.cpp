@@ -23,7 +23,7 @@ constexpr double kStirred = 0.5;     // largest force along an axis, over the we
 void add_bowl(scene::Scene& scene) {
     for (int side = 0; side < 4; ++side) {
         scene::Body body =
-            measure::box(fmt::format("side {}", side), {1, 1, 0.1}, {}, kHeapFriction);
+            measure::box(fmt::format("side {}", side), {1, 1, 0.1}, Vec3::Zero(), kHeapFriction);
         body.fixed = true;
         body.rotation = {0, 40 * std::numbers::pi / 180, side * std::numbers::pi / 2};
         body.position = Vec3(kHeapAway, 0, 0) + rotation_xyz(body.rotation) * Vec3(-0.5, 0, -0.05);

@@ -27,17 +27,34 @@ struct Settings {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("solver", solver);
-        v("every", every, Field::number().at_least(1).at_most(100));
-        v("iterations", iterations, Field::number().at_least(1).at_most(100000));
-        v("tolerance", tolerance, Field::of(Quantity::speed).within(0, 1));
+        v("solver", solver, says("Contact solver."));
+        v("every", every,
+          Field::number().at_least(1).at_most(100).says(
+              "Number of ticks for each step of the world."));
+        v("iterations", iterations,
+          Field::number().at_least(1).at_most(100000).says(
+              "Largest number of iterations of a step, for sequential_impulse."));
+        v("tolerance", tolerance,
+          Field::of(Quantity::speed)
+              .within(0, 1)
+              .says("Change of velocity below which sequential_impulse ends."));
         v("friction_directions", friction_directions,
-          Field::number().at_least(4).at_most(contact::kMostDirections));
-        v("friction_frame", friction_frame);
-        v("warm_start", warm_start);
-        v("penetration_recovery", penetration_recovery, Field::number().at_least(0).at_most(1));
-        v("sleeping", sleeping);
-        v("max_contacts", max_contacts, Field::number().within(0, 100000));
+          Field::number()
+              .at_least(4)
+              .at_most(contact::kMostDirections)
+              .says("Directions of the friction polygon of stewart_trinkle."));
+        v("friction_frame", friction_frame,
+          says("Whether the first of them lies along each contact's friction or along its frame."));
+        v("warm_start", warm_start,
+          says("Whether a step starts from the last one's contact impulses."));
+        v("penetration_recovery", penetration_recovery,
+          Field::number().at_least(0).at_most(1).says(
+              "Share of a penetration that one step removes."));
+        v("sleeping", sleeping,
+          says("Whether objects that are at rest and untouched are left out of the step."));
+        v("max_contacts", max_contacts,
+          Field::number().within(0, 100000).says("Number of contact points for which memory is "
+                                                 "reserved; 0 is by the number of bodies."));
     }
 };
 

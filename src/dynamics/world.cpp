@@ -233,8 +233,12 @@ void World::set_mass(BodyIndex body, double mass) noexcept {
 void World::set_properties(BodyIndex body, const BodyProperties& properties) noexcept {
     const auto i = static_cast<size_t>(body.value);
     Impl::Item& item = impl_->items[i];
-    if (item.properties == properties || !item.can_move) return;
+    if (item.properties == properties) return;
     item.properties = properties;
+    if (!item.can_move) {  // what rests on it may slip now
+        for (const size_t k : impl_->can_move) impl_->wake(k, states_);
+        return;
+    }
     item.body->setMassProps(item.mass, to_bullet(properties.turning * item.inertia));
     item.body->updateInertiaTensor();
     impl_->wake(i, states_);

@@ -107,6 +107,7 @@ class World {
     /// Sets the mass of a body in the next steps [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
     /// Sets the properties of a body of the scene from the next step on; it wakes if they change.
+    /// Of a body that is fixed, friction alone counts; all others wake.
     void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
     /// Multiplies every coefficient of friction from the next step on; all bodies wake.
     void set_friction_scale(double scale) noexcept;

@@ -27,13 +27,29 @@ struct Impedance {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("mass", mass, Field::of(Quantity::mass).within(0, 100));
-        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(1e-3, 1e5));
-        v("damping", damping, Field::of(Quantity::damping).within(0, 1e4));
+        v("mass", mass,
+          Field::of(Quantity::mass)
+              .within(0, 100)
+              .says("Mass of the hand at each finger, added to that of the device."));
+        v("stiffness", stiffness,
+          Field::of(Quantity::stiffness)
+              .within(1e-3, 1e5)
+              .says("Stiffness of the spring to each finger's target."));
+        v("damping", damping,
+          Field::of(Quantity::damping).within(0, 1e4).says("Damping of each finger."));
         v("stiffness_per_force", stiffness_per_force,
-          Field::of(Quantity::stiffness_per_force).within(0, 1e5));
-        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).within(1e-4, 1000));
-        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).within(0, 10));
+          Field::of(Quantity::stiffness_per_force)
+              .within(0, 1e5)
+              .says("By how much the stiffness rises with the force that the finger feels, as a "
+                    "share of it."));
+        v("turn_stiffness", turn_stiffness,
+          Field::of(Quantity::turn_stiffness)
+              .within(1e-4, 1000)
+              .says("Stiffness against turning a handle."));
+        v("turn_damping", turn_damping,
+          Field::of(Quantity::turn_damping)
+              .within(0, 10)
+              .says("Damping against turning a handle."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -47,9 +63,18 @@ struct TremorSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("amplitude", amplitude, Field::length().within(0, 0.1));
-        v("low", low, Field::of(Quantity::frequency).positive().at_most(500));
-        v("high", high, Field::of(Quantity::frequency).positive().at_most(500));
+        v("amplitude", amplitude,
+          Field::length().within(0, 0.1).says("Amplitude of the tremor along each axis."));
+        v("low", low,
+          Field::of(Quantity::frequency)
+              .positive()
+              .at_most(500)
+              .says("Least frequency of the tremor."));
+        v("high", high,
+          Field::of(Quantity::frequency)
+              .positive()
+              .at_most(500)
+              .says("Greatest frequency of the tremor."));
     }
 };
 
@@ -64,11 +89,22 @@ struct FingerPlace {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("side", side, Field::number().within(-kFarthest, kFarthest));
-        v("offset", offset, Field::length().within(-kFarthest, kFarthest));
-        v("centre", centre, Field::length().within(-kFarthest, kFarthest));
-        v("aperture", aperture, Field::length().within(0, kFarthest));
+        v("name", name, Field::text().required().says("Finger of the scene."));
+        v("side", side,
+          Field::number()
+              .within(-kFarthest, kFarthest)
+              .says("Direction from the hand's centre in which the finger is; zero is at the "
+                    "centre."));
+        v("offset", offset,
+          Field::length()
+              .within(-kFarthest, kFarthest)
+              .says("Further displacement, which turns with the hand."));
+        v("centre", centre,
+          Field::length()
+              .within(-kFarthest, kFarthest)
+              .says("Centre of another hand at the start, which the finger belongs to."));
+        v("aperture", aperture,
+          Field::length().within(0, kFarthest).says("Aperture of that hand at the start."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -89,15 +125,32 @@ struct ScriptStep {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
+        v("name", name,
+          Field::text().required().says("Name of the step, which is the phase's in recordings."));
         v("duration", duration,
-          Field::of(Quantity::time).positive().at_most(kLongestScript).required());
-        v("aperture", aperture, Field::length().within(0, kFarthest));
-        v("move", move, Field::length().within(-kFarthest, kFarthest));
-        v("steady", steady);
-        v("turn", turn, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
-        v("end_velocity", end_velocity, Field::of(Quantity::speed).within(-kFastest, kFastest));
-        v("fingers", fingers);
+          Field::of(Quantity::time)
+              .positive()
+              .at_most(kLongestScript)
+              .required()
+              .says("How long it lasts."));
+        v("aperture", aperture,
+          Field::length()
+              .within(0, kFarthest)
+              .says("Aperture at its end: twice each finger's distance from the centre; left out, "
+                    "it stays."));
+        v("move", move,
+          Field::length().within(-kFarthest, kFarthest).says("How far the centre goes."));
+        v("steady", steady, says("Whether it goes at constant speed, in place of minimum jerk."));
+        v("turn", turn,
+          Field::of(Quantity::angle)
+              .within(-kMostTurn, kMostTurn)
+              .says("Turn of the hand about its centre, with its handles: a world axis times the "
+                    "angle."));
+        v("end_velocity", end_velocity,
+          Field::of(Quantity::speed)
+              .within(-kFastest, kFastest)
+              .says("Velocity of the centre at the end, with which the next step starts."));
+        v("fingers", fingers, says("Fingers that take part; left out, all."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -113,12 +166,18 @@ struct HandSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("impedance", impedance);
-        v("tremor", tremor);
-        v("centre", centre, Field::length().within(-kFarthest, kFarthest));
-        v("aperture", aperture, Field::length().within(0, kFarthest));
-        v("fingers", fingers);
-        v("script", script);
+        v("impedance", impedance, says("Mechanics of each finger."));
+        v("tremor", tremor, says("Tremor of each finger's target."));
+        v("centre", centre,
+          Field::length().within(-kFarthest, kFarthest).says("Centre of the hand at the start."));
+        v("aperture", aperture,
+          Field::length()
+              .within(0, kFarthest)
+              .says("Twice each finger's distance from the centre at the start."));
+        v("fingers", fingers,
+          says("Where the fingers are in the hand; left out, the thumb is on the "
+               "side of -x and the index on that of +x."));
+        v("script", script, says("Steps that the hand makes, one after the other."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -47,25 +47,53 @@ struct CouplingSettings {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind);
-        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(1, kMostStiffness));
-        v("damping", damping, Field::of(Quantity::damping).within(0, kMostDamping));
-        v("stiffness_share", stiffness_share, Field::number().positive().at_most(1));
-        v("damping_share", damping_share, Field::number().within(0, 1));
+        v("kind", kind, says("Law of the coupling."));
+        v("stiffness", stiffness,
+          Field::of(Quantity::stiffness)
+              .within(1, kMostStiffness)
+              .says("Stiffness k of the coupling."));
+        v("damping", damping,
+          Field::of(Quantity::damping)
+              .within(0, kMostDamping)
+              .says("Damping of the coupling; left out, k h / 2, with h the step of the world."));
+        v("stiffness_share", stiffness_share,
+          Field::number().positive().at_most(1).says(
+              "Stiffness as a share of what the devices render calmly, in place of it."));
+        v("damping_share", damping_share,
+          Field::number().within(0, 1).says(
+              "Damping as a share of what the devices render calmly, in place of it."));
         if constexpr (requires { v.diagnostics(); }) {
             one_of_two(v, "stiffness", Quantity::stiffness, stiffness_share);
             one_of_two(v, "damping", Quantity::damping, damping_share);
         }
-        v("turn_stiffness", turn_stiffness, Field::of(Quantity::turn_stiffness).within(1e-4, 1000));
-        v("turn_damping", turn_damping, Field::of(Quantity::turn_damping).within(0, 10));
-        v("onset", onset, Field::of(Quantity::time).within(0, 1));
-        v("body_mass", body_mass, Field::of(Quantity::mass).within(1e-4, 10));
+        v("turn_stiffness", turn_stiffness,
+          Field::of(Quantity::turn_stiffness)
+              .within(1e-4, 1000)
+              .says("Stiffness k_r for turning, where the device measures orientation."));
+        v("turn_damping", turn_damping,
+          Field::of(Quantity::turn_damping)
+              .within(0, 10)
+              .says("Damping for turning; left out, k_r h / 2."));
+        v("onset", onset,
+          Field::of(Quantity::time)
+              .within(0, 1)
+              .says("Time from first touch to full stiffness; 0 is at once."));
+        v("body_mass", body_mass,
+          Field::of(Quantity::mass).within(1e-4, 10).says("Mass of the proxy in a dual spring."));
         v("body_damping_along", body_damping_along,
-          Field::of(Quantity::damping).within(0, kMostDamping));
+          Field::of(Quantity::damping)
+              .within(0, kMostDamping)
+              .says("Damping of a dual spring along the line from handle to proxy."));
         v("body_damping_across", body_damping_across,
-          Field::of(Quantity::damping).within(0, kMostDamping));
-        v("free_stiffening", free_stiffening, Field::number().within(1, 100));
-        v("smoothing", smoothing, Field::number().within(0.001, 1));
+          Field::of(Quantity::damping)
+              .within(0, kMostDamping)
+              .says("Damping of a dual spring across that line."));
+        v("free_stiffening", free_stiffening,
+          Field::number().within(1, 100).says(
+              "Factor on a dual spring's stiffness to the proxy while it touches nothing."));
+        v("smoothing", smoothing,
+          Field::number().within(0.001, 1).says(
+              "Share of the new force in the force that a dual spring sends; 1 is no smoothing."));
     }
 
   private:
@@ -106,11 +134,19 @@ struct ProxySettings {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind);
-        v("friction", friction);
-        v("sliding_friction", sliding_friction, Field::number().within(0, 1));
-        v("popthrough", popthrough, Field::of(Quantity::force).within(0.01, kMostForce));
-        v("changeable", changeable);
+        v("kind", kind,
+          says("Whether a finger is a rigid body or a point that is kept on "
+               "surfaces, unless the scene says so of the finger."));
+        v("friction", friction,
+          says("Whether a point's friction is solved with the dynamics or apart from them."));
+        v("sliding_friction", sliding_friction,
+          Field::number().within(0, 1).says(
+              "Dynamic friction of a point, as a share of static friction."));
+        v("popthrough", popthrough,
+          Field::of(Quantity::force)
+              .within(0.01, kMostForce)
+              .says("Force beyond which a body yields to a point; left out, none does."));
+        v("changeable", changeable, says("Whether the kind may change while a session runs."));
     }
 
     ProxyKind of(const scene::Finger& finger) const { return finger.proxy.value_or(kind); }
@@ -167,22 +203,49 @@ struct SafetySettings {
                               Tighter way = Tighter::less) {
             return Field::of(quantity).within(low, high).tighter_when(way);
         };
-        v("max_force", max_force, limit(Quantity::force, 0.01, kMostForce));
-        v("max_force_rate", max_force_rate, limit(Quantity::force_rate, kLeastForceRate, 1e6));
-        v("max_torque", max_torque, limit(Quantity::torque, 1e-4, 100));
-        v("max_torque_rate", max_torque_rate, limit(Quantity::torque_rate, kLeastTorqueRate, 1e5));
-        v("max_speed", max_speed, limit(Quantity::speed, 1e-3, 100));
-        v("max_pause", max_pause, limit(Quantity::time, 0.02, 1));
-        v("max_late", max_late, limit(Quantity::time, 1e-4, 1));
-        v("hand_damping", hand_damping, limit(Quantity::damping, 0.1, 100, Tighter::fixed));
-        v("heating_time", heating_time, limit(Quantity::time, 1, 1000));
+        v("max_force", max_force,
+          limit(Quantity::force, 0.01, kMostForce)
+              .says("Largest force; left out, the device's peak."));
+        v("max_force_rate", max_force_rate,
+          limit(Quantity::force_rate, kLeastForceRate, 1e6)
+              .says("Largest rate at which a force changes, unless it falls to zero."));
+        v("max_torque", max_torque,
+          limit(Quantity::torque, 1e-4, 100).says("Largest torque; left out, the device's peak."));
+        v("max_torque_rate", max_torque_rate,
+          limit(Quantity::torque_rate, kLeastTorqueRate, 1e5)
+              .says("Largest rate at which a torque changes, unless it falls to zero."));
+        v("max_speed", max_speed,
+          limit(Quantity::speed, 1e-3, 100)
+              .says("Speed of a handle above which force is switched off."));
+        v("max_pause", max_pause,
+          limit(Quantity::time, 0.02, 1)
+              .says("Time between two ticks above which force is switched off."));
+        v("max_late", max_late,
+          limit(Quantity::time, 1e-4, 1)
+              .says("How late a tick may be before force is switched off; left out, only max_pause "
+                    "counts."));
+        v("hand_damping", hand_damping,
+          limit(Quantity::damping, 0.1, 100, Tighter::fixed)
+              .says("Damping of handle and hand, from which the stiffness follows that a late loop "
+                    "is trusted with; left out, the device's."));
+        v("heating_time", heating_time,
+          limit(Quantity::time, 1, 1000).says("Time constant of the device's motors."));
         v("workspace_stiffness", workspace_stiffness,
-          limit(Quantity::stiffness, 0, 2000, Tighter::more));
-        v("soft_start", soft_start, limit(Quantity::time, 0, 10, Tighter::more));
+          limit(Quantity::stiffness, 0, 2000, Tighter::more)
+              .says("Stiffness of the wall where a device's reach ends; 0 is none."));
+        v("soft_start", soft_start,
+          limit(Quantity::time, 0, 10, Tighter::more)
+              .says("Time in which force rises from zero when it comes on; 0 is none."));
         // a dead-man switch that the rig asks for cannot be changed
-        v("dead_man_finger", dead_man_finger);
-        v("dead_man_button", dead_man_button, Field::number().within(0, 31));
-        v("energy_guard", energy_guard, Field::number().tighter_when(Tighter::more));
+        v("dead_man_finger", dead_man_finger,
+          says("Finger whose device has the dead-man switch; left out, there is none."));
+        v("dead_man_button", dead_man_button,
+          Field::number().within(0, 31).says("Button of that device, counted from 0."));
+        v("energy_guard", energy_guard,
+          Field::number()
+              .tighter_when(Tighter::more)
+              .says("Whether energy that a coupling generates is ignored, recorded, or damped as "
+                    "well."));
     }
 };
 

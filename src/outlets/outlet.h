@@ -26,8 +26,8 @@ struct OutletConfig {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind, Field::text().required());
-        v("options", options);
+        v("kind", kind, Field::text().required().says("Kind of outlet: serial or lsl."));
+        v("options", options, says("Options of that kind."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

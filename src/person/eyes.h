@@ -21,7 +21,9 @@ struct Sight {
 
 class Eyes {
   public:
-    Eyes(double delay, double tick) : delay_(delay), past_(delay, tick) {}
+    /// `fingers`: number of the first fingers, which are the hand. `delay`, `tick` [s].
+    Eyes(double delay, size_t fingers, double tick)
+        : delay_(delay), fingers_(fingers), past_(delay, tick) {}
 
     void restart() noexcept { past_.clear(); }
 
@@ -30,9 +32,8 @@ class Eyes {
         sight.trial = frame.trial;
         sight.attempt = frame.task.attempt;
         sight.phase = frame.phase;
-        for (size_t i = 0; i < frame.fingers.size(); ++i) {
-            sight.hand +=
-                servo::displayed_proxy(frame, i).p / static_cast<double>(frame.fingers.size());
+        for (size_t i = 0; i < fingers_; ++i) {
+            sight.hand += servo::displayed_proxy(frame, i).p / static_cast<double>(fingers_);
             sight.hand_shown |= servo::is_displayed(frame, servo::proxy_of(frame, i));
         }
         for (size_t i = 0; i < frame.task.targets.size(); ++i) {
@@ -47,6 +48,7 @@ class Eyes {
 
   private:
     double delay_;
+    size_t fingers_;
     Past<Sight> past_;
 };
 

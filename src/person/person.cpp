@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "hand/places.h"
@@ -52,6 +53,25 @@ std::vector<double> frictions_of(const scene::Scene& scene) {
     return out;
 }
 
+/// The fingers that the person moves with skill: the scene's first ones, up to those of another
+/// hand. Throws Error if these are not the last.
+std::vector<hand::FingerPlace> own_places(const Situation& situation) {
+    auto out = hand::finger_places(situation.hand, scene::finger_names(situation.scene));
+    const auto of_another = [](const hand::FingerPlace& f) { return f.centre || f.aperture; };
+    const auto other = std::find_if(out.begin(), out.end(), of_another);
+    const auto wrong = std::find_if_not(other, out.end(), of_another);
+    if (other == out.begin() || wrong != out.end()) {
+        throw Error(
+            other->place, other->name,
+            "is of another hand (it has a centre or an aperture of its own), and comes before "
+            "fingers of the hand that a simulated person has",
+            "List the fingers of the scene hand by hand; give those of the first hand no "
+            "centre of their own.");
+    }
+    out.erase(other, out.end());
+    return out;
+}
+
 /// Objects as they look: of uniform, usual density, with about the friction that they have.
 std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
     std::vector<GripMemory> out;
@@ -69,8 +89,9 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits
 
 /// Whether the state waits for a key.
 bool asks(const TaskPlan::Stage& stage) noexcept {
-    return std::any_of(stage.ways.begin(), stage.ways.end(),
-                       [](const TaskPlan::Way& way) { return way.exit.when == When::key; });
+    return std::any_of(stage.ways.begin(), stage.ways.end(), [](const TaskPlan::Way& way) {
+        return way.exit.when == When::key || way.exit.when == When::answered;
+    });
 }
 
 Vec3 rotation_between(const Vec3& from, const Vec3& to) noexcept {
@@ -92,12 +113,12 @@ Person::Person(const Traits& traits, const Situation& situation)
     : traits_(traits),
       plan_(situation.task),
       numbers_(*plan_),
-      places_(hand::finger_places(situation.hand, scene::finger_names(situation.scene))),
+      places_(own_places(situation)),
       impedance_(situation.hand.impedance),
       start_{situation.hand.centre, situation.hand.aperture, 0},
       seed_(situation.seed),
       random_(seed_, fmt::format("person {}", traits.id)),
-      eyes_(traits.visual_delay, situation.tick),
+      eyes_(traits.visual_delay, places_.size(), situation.tick),
       touch_(sides_of(places_), frictions_of(situation.scene), situation.tick),
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
@@ -106,11 +127,19 @@ Person::Person(const Traits& traits, const Situation& situation)
       forces_(plan_->stages.size(), ForceMemory(traits.force(), traits.force_generalisation)),
       grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
+    for (const TaskPlan::Stage& stage : plan_->stages) {
+        std::vector<TaskPlan::Step>& own = steps_.emplace_back(stage.hand);
+        own.erase(std::remove_if(own.begin(), own.end(), [](const auto& s) { return !s.moves(0); }),
+                  own.end());
+    }
+    if (places_.size() < situation.scene.fingers.size())
+        other_.emplace(plan_, situation.hand, scene::finger_names(situation.scene));
     restart();
 }
 
 void Person::restart() {
     random_ = Random(seed_, fmt::format("person {}", traits_.id));
+    if (other_) other_->restart();
     now_ = 0;
     eyes_.restart();
     touch_.restart();
@@ -134,10 +163,11 @@ void Person::restart() {
     reach_ = {};
     answer_at_ = -1;
     key_ = 0;
+    typed_at_ = typed_length_ = 0;
 }
 
 const std::vector<TaskPlan::Step>& Person::steps() const noexcept {
-    return plan_->stages[static_cast<size_t>(acting_ - 1)].hand;
+    return steps_[static_cast<size_t>(acting_ - 1)];
 }
 
 double Person::noisy(double value, double share) noexcept {
@@ -145,6 +175,7 @@ double Person::noisy(double value, double share) noexcept {
 }
 
 hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
+    if (static_cast<size_t>(finger) >= places_.size()) return other_->target(finger, t);
     const hand::FingerPlace& place = places_[static_cast<size_t>(finger)];
     const Aim aim = aim_.at(t);
     const Aim rate = aim_.rate(t);
@@ -187,6 +218,7 @@ void Person::measure(const servo::Frame& frame) noexcept {
 }
 
 void Person::do_see(const servo::Frame& frame) noexcept {
+    if (other_) other_->see(frame);
     eyes_.take(frame);
     measure(frame);
     strains_.add(strain(frame));
@@ -199,7 +231,7 @@ void Person::do_see(const servo::Frame& frame) noexcept {
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
     const Sight& sight = eyes_.sight();
     follow_cues(sight);
-    numbers_.follow(trial_, attempt_, frame.task.variables);
+    numbers_.follow(trial_, attempt_, frame.task.variables, phase_ - 1);
     feel_strain();
     watch_reach(sight);
     go_on(sight);
@@ -245,7 +277,7 @@ void Person::follow_cues(const Sight& sight) noexcept {
     delay_ = 0;
     const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
     answer_at_ = asks(stage) ? begins + kDecision : -1;
-    if (!new_attempt && stage.hand.empty()) return;
+    if (!new_attempt && steps_[static_cast<size_t>(phase_ - 1)].empty()) return;
     end_reach();
     acting_ = phase_;
     step_ = 0;
@@ -469,7 +501,7 @@ Strain Person::strain(const servo::Frame& frame) const noexcept {
     const Aim rate = aim_.rate(now_);
     const auto count = static_cast<double>(places_.size());
     Vec3 v_WH = Vec3::Zero();
-    for (const servo::FingerFrame& finger : frame.fingers) v_WH += finger.v_WH / count;
+    for (size_t i = 0; i < places_.size(); ++i) v_WH += frame.fingers[i].v_WH / count;
     const model::MinimumJerk share = model::minimum_jerk(done);
     const Vec3 off = centre_ - aim.centre + share.share * reach_.strayed;
     const Vec3 drift = v_WH - rate.centre + share.rate / reach_.duration * reach_.strayed;
@@ -566,13 +598,15 @@ bool Person::correct(const Sight& sight) noexcept {
 /// state waits for says yes, the second no.
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
+    const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
+    if (stage.question && stage.question->by_key) return rate(*stage.question);
     const double felt = (centre_ - felt_from_).norm();
     const double shown = (sight.hand - shown_from_).norm();
     const double evidence = felt > 0 && shown > 0 ? std::log(shown / felt) : 0;
     const bool yes = random_.uniform(0, 1) < traits_.answers().probability(evidence);
     char first = 0;
     char second = 0;
-    for (const TaskPlan::Way& way : plan_->stages[static_cast<size_t>(phase_ - 1)].ways) {
+    for (const TaskPlan::Way& way : stage.ways) {
         if (way.exit.when != When::key) continue;
         if (first == 0) {
             first = way.exit.key.front();
@@ -581,6 +615,22 @@ void Person::answer(const Sight& sight) noexcept {
         }
     }
     key_ = yes || second == 0 ? first : second;
+}
+
+/// Types any whole number of the scale, up to a hundred: there is no model of what is rated.
+void Person::rate(const task::Question& question) noexcept {
+    const double most = std::min(question.most, question.least + 100);
+    const double number = std::ceil(random_.uniform(question.least - 1, std::floor(most)));
+    const auto whole = static_cast<long>(std::clamp(number, question.least, most));
+    const auto end = std::to_chars(typed_.data(), typed_.data() + typed_.size() - 1, whole).ptr;
+    *end = task::Rating::kEnter;
+    typed_length_ = static_cast<size_t>(end - typed_.data()) + 1;
+    typed_at_ = 0;
+}
+
+char Person::do_take_key() noexcept {
+    if (typed_at_ < typed_length_) return typed_[typed_at_++];
+    return std::exchange(key_, '\0');
 }
 
 }  // namespace dihaptic::person

@@ -1,9 +1,11 @@
 // A simulated person, who sees what is shown, feels the handles, and moves the simulated hand. The
 // person has been told what each state of the task asks (the file's hand steps), and knows nothing
-// about kinds of trials and perturbations: these are seen and felt, or not.
+// about kinds of trials and perturbations: these are seen and felt, or not. Fingers of a second
+// hand do the steps that name them, as the file has them.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "person/eyes.h"
 #include "person/force_memory.h"
@@ -14,6 +16,7 @@
 #include "person/traits.h"
 #include "scene/scene.h"
 #include "task/seeing_driver.h"
+#include "task/task_hand.h"
 #include "task/trial_numbers.h"
 
 namespace dihaptic::person {
@@ -44,7 +47,7 @@ class Person final : public task::SeeingDriver {
   private:
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
     void do_see(const servo::Frame& frame) noexcept override;
-    char do_take_key() noexcept override { return std::exchange(key_, '\0'); }
+    char do_take_key() noexcept override;
 
     void measure(const servo::Frame& frame) noexcept;
     void follow_cues(const Sight& sight) noexcept;
@@ -70,6 +73,7 @@ class Person final : public task::SeeingDriver {
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
+    void rate(const task::Question& question) noexcept;
     double stiffness() const noexcept;
     double noisy(double value, double share) noexcept;
     const std::vector<task::TaskPlan::Step>& steps() const noexcept;
@@ -77,7 +81,9 @@ class Person final : public task::SeeingDriver {
     Traits traits_;
     std::shared_ptr<const task::TaskPlan> plan_;
     task::TrialNumbers numbers_;
+    std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
     std::vector<hand::FingerPlace> places_;
+    std::optional<task::TaskHand> other_;  // moves the fingers of other hands: it has no senses
     hand::Impedance impedance_;
     Aim start_;
     uint64_t seed_;
@@ -146,6 +152,9 @@ class Person final : public task::SeeingDriver {
     Vec3 felt_from_ = Vec3::Zero();   // ... and as felt [m]
     double answer_at_ = -1;           // [s]; negative: nothing is asked
     char key_ = 0;
+    std::array<char, 12> typed_{};  // of a rating
+    size_t typed_length_ = 0;
+    size_t typed_at_ = 0;
 };
 
 }  // namespace dihaptic::person

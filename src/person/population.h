@@ -41,11 +41,14 @@ struct TraitSpread {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("trait", trait, Field::text().required());
-        v("law", law);
-        v("median", median);
-        v("spread", spread, Field::number().within(0, 10));
-        v("source", source);
+        v("trait", trait,
+          Field::text().required().says(
+              "Name of the trait as in person.yaml, with its unit if it has one."));
+        v("law", law, says("Distribution of the trait over people."));
+        v("median", median, says("Median of the trait, in that unit."));
+        v("spread", spread,
+          Field::number().within(0, 10).says("How much z changes the trait, in the law."));
+        v("source", source, says("Where these numbers are from."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -57,8 +60,8 @@ struct Correlation {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("traits", traits, Field::text().required());
-        v("r", r, Field::number().within(-0.99, 0.99));
+        v("traits", traits, Field::text().required().says("Two traits."));
+        v("r", r, Field::number().within(-0.99, 0.99).says("Correlation of their z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -70,8 +73,8 @@ struct Group {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("traits", traits);
+        v("name", name, Field::text().required().says("Name of the group."));
+        v("traits", traits, says("Traits that differ from the population's."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -87,13 +90,15 @@ struct Population {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("title", title, Field::text().required());
-        v("about", about);
-        v("based_on", based_on);
-        v("objects", objects);
-        v("traits", traits);
-        v("correlations", correlations);
-        v("groups", groups);
+        v("title", title, Field::text().required().says("Title of the population."));
+        v("about", about, says("What it is, for a reader."));
+        v("based_on", based_on,
+          says("Population file that this one changes, relative to this file."));
+        v("objects", objects,
+          says("Whether people feel objects directly or through a haptic device."));
+        v("traits", traits, says("Distribution of each trait."));
+        v("correlations", correlations, says("Correlations between traits."));
+        v("groups", groups, says("Groups that people are assigned to, in turn."));
     }
 
     /// Name of a person's group, by the number that ends `id`; empty without groups.

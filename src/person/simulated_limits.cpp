@@ -1,6 +1,7 @@
 #include "person/simulated_limits.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -46,15 +47,22 @@ void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
 
 void warn_of_thresholds(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (const task::ProcedureSpec& procedure : plan.task.procedures) {
-        const auto named = std::find_if(
+        const auto& names = procedure.perturb;
+        const bool scaled = std::any_of(
             plan.task.perturbations.begin(), plan.task.perturbations.end(),
-            [&](const task::PerturbationSpec& p) { return p.name == procedure.perturb; });
-        if (named == plan.task.perturbations.end() || scales(*named)) continue;
+            [&](const task::PerturbationSpec& p) {
+                return scales(p) && std::find(names.begin(), names.end(), p.name) != names.end();
+            });
+        if (scaled && procedure.level.empty()) continue;
+        const std::string what = procedure.level.empty()
+                                     ? fmt::format("'{}', which scales nothing that is shown",
+                                                   fmt::join(names, task::kBetweenNames))
+                                     : procedure.level;
         out.push_back({Severity::warning, procedure.place, procedure.name,
-                       fmt::format("asks about '{}', which scales nothing that is shown: simulated "
-                                   "people judge only whether a movement was shown longer than "
-                                   "they made it, and their answers and threshold are arbitrary",
-                                   procedure.perturb),
+                       fmt::format("asks about {}: simulated people judge only whether a movement "
+                                   "was shown longer than they made it, and their answers and "
+                                   "threshold are arbitrary",
+                                   what),
                        kRemedy});
     }
 }
@@ -84,6 +92,16 @@ void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
     }
 }
 
+void warn_of_ratings(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    for (const task::State& state : plan.task.states) {
+        if (!state.ask) continue;
+        out.push_back({Severity::warning, state.ask->place, state.ask->name,
+                       "is a rating, of which there is no model: the answers of simulated people "
+                       "are arbitrary",
+                       kRemedy});
+    }
+}
+
 void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (size_t i = 0; i < plan.stages.size(); ++i) {
         for (const task::TaskPlan::Way& way : plan.stages[i].ways) {
@@ -102,6 +120,7 @@ std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     warn_of_fields(plan, out);
     warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);
+    warn_of_ratings(plan, out);
     warn_of_buttons(plan, out);
     return out;
 }

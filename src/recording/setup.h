@@ -68,6 +68,8 @@ struct Setup {
     std::vector<std::string> outcomes;   ///< outcomes of trials, by their index in frames
     std::vector<std::string> messages;   ///< messages to the person, by their index in frames
     std::vector<std::string> variables;  ///< the task's, by their index in frames
+    std::vector<std::string> levels;     ///< numbers that procedures choose; in frames they follow
+    std::vector<std::string> answers;    ///< and after these what states ask for
     std::vector<std::string> pages;      ///< pages' texts or pictures, by their index in frames
     std::vector<InputFile> inputs;
 
@@ -89,6 +91,8 @@ struct Setup {
         v("outcomes", outcomes);
         v("messages", messages);
         v("variables", variables);
+        v("levels", levels);
+        v("answers", answers);
         v("pages", pages);
         v("inputs", inputs);
     }

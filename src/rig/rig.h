@@ -21,12 +21,18 @@ struct Device {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("finger", finger, Field::text().required());
-        v("backend", backend, Field::text().required());
-        v("position", position, Field::length().within(-100, 100));
-        v("rotation", rotation, Field::of(Quantity::angle).within(-100, 100));
-        v("scale", scale, Field::number().within(0.1, 10));
-        v("options", options);
+        v("finger", finger,
+          Field::text().required().says("Finger of the scene that holds the device."));
+        v("backend", backend, Field::text().required().says("Kind of device."));
+        v("position", position, Field::length().within(-100, 100).says("Position of its origin."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-100, 100)
+              .says("Its rotation about the world's axes x, then y, then z."));
+        v("scale", scale,
+          Field::number().within(0.1, 10).says(
+              "Movement in the world over movement of the hand, about that origin."));
+        v("options", options, says("Options of the backend."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -40,8 +46,8 @@ struct JigPoint {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("position", position, Field::length().within(-10, 10).required());
+        v("name", name, Field::text().required().says("Name of the point."));
+        v("position", position, Field::length().within(-10, 10).required().says("Where it is."));
     }
 };
 
@@ -54,8 +60,14 @@ struct Wall {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("centre", centre, Field::length().within(-100, 100).required());
-        v("size", size, Field::length().within(0.001, 100).required());
+        v("centre", centre,
+          Field::length().within(-100, 100).required().says(
+              "Centre of the box that hands are kept in."));
+        v("size", size,
+          Field::length()
+              .within(0.001, 100)
+              .required()
+              .says("Lengths of its edges, along the world's axes."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
@@ -78,14 +90,18 @@ struct Rig {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("title", title);
-        v("origin", origin, Field::length().within(-100, 100));
-        v("devices", devices, Field::text().required());
-        v("wall", wall);
-        v("outlets", outlets);
-        v("calibration", calibration);
-        v("jig", jig);
-        v("settings", settings);
+        v("title", title, says("Title of the rig."));
+        v("origin", origin,
+          Field::length().within(-100, 100).says(
+              "Where the world's origin is, in the frame of all positions of this file."));
+        v("devices", devices, Field::text().required().says("Devices, one for each finger."));
+        v("wall", wall,
+          says("Box that hands are kept in, in place of the reach that each device states."));
+        v("outlets", outlets, says("Connections to what else the laboratory records with."));
+        v("calibration", calibration, says("Calibration file, relative to this file."));
+        v("jig", jig, says("Points that endpoints can touch, for dihaptic calibrate."));
+        v("settings", settings,
+          says("Settings that the rig asks for; those of safety are its limits."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -17,10 +17,14 @@ struct Camera {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("position", position, Field::length().within(-100, 100).required());
-        v("look_at", look_at, Field::length().within(-100, 100));
-        v("field_of_view", field_of_view, Field::of(Quantity::angle).within(0.02, 2.5));
+        v("name", name, Field::text().required().says("Name of the camera."));
+        v("position", position, Field::length().within(-100, 100).required().says("Where it is."));
+        v("look_at", look_at,
+          Field::length().within(-100, 100).says("Point at the centre of the picture."));
+        v("field_of_view", field_of_view,
+          Field::of(Quantity::angle)
+              .within(0.02, 2.5)
+              .says("Angle that the picture covers from bottom to top."));
     }
 };
 

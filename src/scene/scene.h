@@ -49,18 +49,33 @@ struct Body {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
+        v("name", name, Field::text().required().says("Name of the body."));
         shape.visit(v);
-        v("mass", mass, Field::of(Quantity::mass).within(kLightest, kHeaviest));
-        v("density", density, Field::of(Quantity::density).within(0.01, 1e5));
-        v("fixed", fixed);
-        v("position", position, Field::length().within(-kFurthest, kFurthest));
-        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
-        v("friction", friction, Field::number().within(0, kMostFriction));
-        v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
-        v("moves", moves);
-        v("turns", turns);
-        v("colour", colour);
+        v("mass", mass,
+          Field::of(Quantity::mass)
+              .within(kLightest, kHeaviest)
+              .says("Mass; a body that is not fixed has this or its density."));
+        v("density", density,
+          Field::of(Quantity::density).within(0.01, 1e5).says("Density, in place of the mass."));
+        v("fixed", fixed, says("Whether it never moves."));
+        v("position", position,
+          Field::length()
+              .within(-kFurthest, kFurthest)
+              .says("Position of its origin at the start."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-kMostTurn, kMostTurn)
+              .says("Rotation at the start, about the world's axes x, then y, then z."));
+        v("friction", friction,
+          Field::number()
+              .within(0, kMostFriction)
+              .says("Coefficient of friction; of a pair, the geometric mean counts."));
+        v("torsion_radius", torsion_radius,
+          Field::length().within(0, 0.1).says("Radius of its soft contact points: each carries a "
+                                              "moment up to friction x radius x normal force."));
+        v("moves", moves, says("World axes along which it may move."));
+        v("turns", turns, says("World axes about which it may turn: none, one, or xyz."));
+        v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
         if constexpr (requires { v.place(); }) {
             place = v.place();
             weighed = v.mentions("mass") || v.mentions("density");
@@ -92,13 +107,23 @@ struct Finger {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
+        v("name", name, Field::text().required().says("Name of the finger."));
         shape.visit(v);
-        v("mass", mass, Field::of(Quantity::mass).within(kLightest, kHeaviest));
-        v("friction", friction, Field::number().within(0, kMostFriction));
-        v("torsion_radius", torsion_radius, Field::length().within(0, 0.1));
-        v("proxy", proxy);
-        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
+        v("mass", mass,
+          Field::of(Quantity::mass).within(kLightest, kHeaviest).says("Mass of its proxy."));
+        v("friction", friction,
+          Field::number()
+              .within(0, kMostFriction)
+              .says("Coefficient of friction; of a pair, the geometric mean counts."));
+        v("torsion_radius", torsion_radius,
+          Field::length().within(0, 0.1).says("Radius of a soft finger, as of a body."));
+        v("proxy", proxy,
+          says("What stands for the finger in the world, in place of proxy.kind of the settings."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-kMostTurn, kMostTurn)
+              .says("Orientation while its device is in the neutral one, about the world's axes x, "
+                    "then y, then z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -111,8 +136,12 @@ struct PairFriction {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("between", between, Field::text().required());
-        v("friction", friction, Field::number().within(0, kMostFriction).required());
+        v("between", between, Field::text().required().says("Two bodies or fingers."));
+        v("friction", friction,
+          Field::number()
+              .within(0, kMostFriction)
+              .required()
+              .says("Coefficient of friction between them, in place of the mean of their own."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -132,15 +161,20 @@ struct Scene {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("title", title);
-        v("gravity", gravity, Field::of(Quantity::acceleration).within(-1000, 1000));
-        v("bodies", bodies, Field::text().required());
-        v("pairs", pairs);
-        v("fingers", fingers);
-        v("object", object);
-        v("cameras", cameras);
-        v("settings", settings);
-        v("hand", hand);
+        v("title", title, says("Title of the scene."));
+        v("gravity", gravity,
+          Field::of(Quantity::acceleration).within(-1000, 1000).says("Gravity."));
+        v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
+        v("pairs", pairs, says("Pairs with a friction of their own."));
+        v("fingers", fingers,
+          says("Fingers, each with a device of its own in the rig; left out, thumb "
+               "and index with pads for a grip along x."));
+        v("object", object,
+          says("Body that summaries are about; left out, the first that can move."));
+        v("cameras", cameras,
+          says("Cameras besides front, above and side; the first one here is then the default."));
+        v("settings", settings, says("Settings that the scene asks for."));
+        v("hand", hand, says("How the simulated hand tries out the scene."));
         if constexpr (requires { v.place(); }) {
             bodies_place = v.place_of("bodies");
             object_place = v.place_of("object");

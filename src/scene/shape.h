@@ -52,25 +52,41 @@ struct Shape {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("shape", kind, Field::text().required());
+        v("shape", kind,
+          Field::text().required().says(
+              "Shape; capsules and cylinders lie along z, and a plane is z = 0, solid below."));
         switch (kind) {
             case ShapeKind::box:
-                v("size", size, Field::length().within(kSmallest, kLargest).required());
+                v("size", size,
+                  Field::length()
+                      .within(kSmallest, kLargest)
+                      .required()
+                      .says("Lengths of the edges."));
                 break;
             case ShapeKind::sphere:
-                v("radius", radius, Field::length().within(kSmallest, kLargest).required());
+                v("radius", radius,
+                  Field::length().within(kSmallest, kLargest).required().says("Radius."));
                 break;
             case ShapeKind::capsule:
             case ShapeKind::cylinder:
-                v("radius", radius, Field::length().within(kSmallest, kLargest).required());
-                v("length", length, Field::length().within(kSmallest, kLargest).required());
+                v("radius", radius,
+                  Field::length().within(kSmallest, kLargest).required().says("Radius."));
+                v("length", length,
+                  Field::length()
+                      .within(kSmallest, kLargest)
+                      .required()
+                      .says("Height of a cylinder; distance between the centres of a capsule's "
+                            "caps."));
                 break;
             case ShapeKind::plane:
                 break;
             case ShapeKind::mesh:
-                v("file", file, Field::text().required());
-                v("unit", unit, Field::text().required());
-                v("concave", concave);
+                v("file", file,
+                  Field::text().required().says(
+                      "Mesh file (OBJ, STL, PLY or OFF), relative to this file."));
+                v("unit", unit, Field::text().required().says("Unit of the mesh's coordinates."));
+                v("concave", concave,
+                  says("Whether the mesh itself is felt, in place of its convex hull."));
                 if constexpr (requires { v.place(); }) file_place = v.place_of("file");
                 break;
             case ShapeKind::compound:
@@ -97,8 +113,14 @@ struct Part {
     template <class Visitor>
     void visit(Visitor& v) {
         shape.visit(v);
-        v("position", position, Field::length().within(-kLargest, kLargest));
-        v("rotation", rotation, Field::of(Quantity::angle).within(-kMostTurn, kMostTurn));
+        v("position", position,
+          Field::length()
+              .within(-kLargest, kLargest)
+              .says("Position of the part's origin in the body."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-kMostTurn, kMostTurn)
+              .says("Its rotation about the body's axes x, then y, then z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -107,7 +129,9 @@ struct Part {
 
 template <class Visitor>
 void Shape::visit_parts(Visitor& v) {
-    v("parts", parts, Field::text().required());
+    v("parts", parts,
+      Field::text().required().says(
+          "Shapes that it consists of, none of them a plane or a compound."));
 }
 
 /// A convex shape and its pose in the body B that it is a part of.

@@ -18,12 +18,17 @@ struct Settings {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("rate", rate, Field::of(Quantity::frequency).at_least(100).at_most(10000));
-        v("real_time_priority", real_time_priority, Field::number().at_least(1).at_most(95));
-        v("dynamics", dynamics);
-        v("proxy", proxy);
-        v("coupling", coupling);
-        v("safety", safety);
+        v("rate", rate,
+          Field::of(Quantity::frequency).at_least(100).at_most(10000).says("Ticks per second."));
+        v("real_time_priority", real_time_priority,
+          Field::number().at_least(1).at_most(95).says(
+              "Priority of the servo's thread on the real clock (SCHED_FIFO)."));
+        v("dynamics", dynamics, says("How the world is stepped."));
+        v("proxy", proxy, says("What stands for fingers in the world."));
+        v("coupling", coupling, says("How a handle and its proxy pull at each other."));
+        v("safety", safety,
+          says(
+              "Limits on every force, which scene, experiment and command line may only tighten."));
     }
 
     double tick() const { return 1 / rate; }                 ///< [s]

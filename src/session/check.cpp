@@ -56,7 +56,7 @@ std::vector<Problem> endless_states(const task::TaskPlan& task) {
         out.push_back({Severity::warning, state.place, state.name,
                        "waits for ever when what it waits for does not come; a simulated session "
                        "is ended after a minute of it",
-                       "Add an exit by time, e.g. - { when: time, hold_s: 10, outcome: too late, "
+                       "Add an exit by time, e.g. - { when: time, after_s: 10, outcome: too late, "
                        "redo: yes }."});
     }
     return out;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
 #include "model/grasp.h"
+#include "task/trial_numbers.h"
 
 namespace dihaptic::session {
 namespace {
@@ -19,18 +21,31 @@ class LoadChecks {
     LoadChecks(const Plan& plan, Diagnostics& diagnostics)
         : plan_(plan), diagnostics_(diagnostics) {}
 
+    /// The loads of all conditions, and those whose numbers are formulas in every trial.
     void check() {
-        for (const task::TaskPlan::Cell& cell : plan_.task->cells) {
-            for (const task::Perturbation& perturbation : cell.perturbations) {
-                for (const task::Load& load : perturbation.loads()) check(load);
-            }
-        }
+        for (const task::TaskPlan::Cell& cell : plan_.task->cells) check(cell, false);
+        if (plan_.task->formulas.empty()) return;
+        task::each_trial(*plan_.task, [&](size_t, const task::TrialNumbers& numbers) {
+            check(numbers.cell(), true);
+        });
     }
 
   private:
     using Demand = task::Load::Demand;
 
+    void check(const task::TaskPlan::Cell& cell, bool computed) {
+        for (const task::Perturbation& perturbation : cell.perturbations) {
+            for (const task::Load& load : perturbation.loads()) {
+                if (load.is_computed() == computed) check(load);
+            }
+        }
+    }
+
     void check(const task::Load& load) {
+        if (load.is_computed() && load.stiffness() < 0 && !load.spec().zone)
+            say({Severity::error, load.spec().place, "stiffness",
+                 "is negative in a trial: the load would grow without end as it drives away",
+                 "Add e.g. safe_within_mm: 50, beyond which it fades to zero."});
         const Demand demand = load.demand();
         const auto bodies = static_cast<int>(plan_.scene.bodies.size());
         for (const int thing : load.on()) {
@@ -51,8 +66,13 @@ class LoadChecks {
         say({Severity::warning, load.spec().place, key, what, remedy});
     }
 
+    /// What differs by its numbers alone is said once.
     void say(const Problem& problem) {
-        if (said_.insert(problem.text()).second) diagnostics_.add({problem});
+        std::string text = problem.text();
+        std::erase_if(text,
+                      [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+        const std::string at = fmt::format("{}:{}", problem.place.line, text);
+        if (said_.insert(at).second) diagnostics_.add({problem});
     }
 
     static std::string a(const task::Load& load) {
@@ -61,7 +81,7 @@ class LoadChecks {
 
     /// By the limits of a coupling's stiffness and damping.
     void check_loop(const task::Load& load, const Demand& demand, const devices::DeviceInfo& info) {
-        const double period = plan_.settings.tick() + 2 * (info.delay + load.spec().delay);
+        const double period = plan_.settings.tick() + 2 * (info.delay + load.delay());
         const double stiffest = model::passive_stiffness(info.damping, period);
         if (info.damping > 0 && demand.stiffness > stiffest) {
             warn(load, "stiffness",

@@ -12,6 +12,7 @@
 #include "analysis/trials.h"
 #include "model/grasp.h"
 #include "session/load_checks.h"
+#include "task/levels.h"
 #include "task/trial_numbers.h"
 
 namespace dihaptic::session {
@@ -220,10 +221,8 @@ std::vector<Lifting> liftings(const Plan& plan) {
     }
     std::vector<Lifting> out;
     std::set<std::string> known;
-    task::TrialNumbers numbers(*plan.task);
-    for (size_t i = 0; i < plan.task->trials.size(); ++i) {
-        const task::Trial& trial = plan.task->trials[i];
-        numbers.begin(static_cast<int>(i), 1, plan.task->start);
+    task::each_trial(*plan.task, [&](size_t t, const task::TrialNumbers& numbers) {
+        const task::Trial& trial = plan.task->trials[t];
         const task::TaskPlan::Cell& cell = numbers.cell();
         for (const std::string& name : lifted) {
             const int index = plan.scene.find(name);
@@ -235,8 +234,8 @@ std::vector<Lifting> liftings(const Plan& plan) {
                     std::min(friction, scene::pair_friction(plan.scene, body.name, body.friction,
                                                             finger.name, finger.friction));
             }
-            for (const int i : trial.perturb) {
-                const auto& changed = cell.perturbations[static_cast<size_t>(i)].properties();
+            for (const int p : trial.perturb) {
+                const auto& changed = cell.perturbations[static_cast<size_t>(p)].properties();
                 if (changed && changed->body == index) {
                     weight *= changed->weight_scale;
                     friction *= changed->friction_scale;
@@ -247,7 +246,7 @@ std::vector<Lifting> liftings(const Plan& plan) {
                             weight / plan.scene.gravity.norm() * 1e3, friction);
             if (known.insert(what).second) out.push_back({what, weight, friction});
         }
-    }
+    });
     std::sort(out.begin(), out.end(), [](const Lifting& a, const Lifting& b) {
         return std::tie(a.weight, a.friction) < std::tie(b.weight, b.friction);
     });
@@ -306,7 +305,8 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// The names of factors, draws and variables are columns of trials.csv, beside what it always has.
+/// The names of factors, draws, variables and measures are columns of trials.csv, beside what it
+/// always has.
 void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
     const task::Task& task = plan.task->task;
@@ -316,12 +316,16 @@ void check_columns(const Plan& plan, Diagnostics& diagnostics) {
         own.push_back(variable.name);
         own.push_back(task::next_column(variable.name));
     }
+    for (const task::OwnMeasure& measure : task.own_measures) own.push_back(measure.name);
+    for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
+    for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
     std::set<std::string> known;
     for (const Table::Column& column : analysis::trial_columns()) known.insert(column.name);
     for (const std::string& name : own) {
         if (known.insert(name).second) continue;
-        diagnostics.error(task.place, name, "is the name of another column of trials.csv",
-                          "Give the factor, draw or variable another name.");
+        diagnostics.error(
+            task.place, name, "is the name of another column of trials.csv",
+            "Give the factor, draw, variable, level, answer or measure another name.");
     }
 }
 
@@ -360,10 +364,40 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
         remedy);
 }
 
+/// Whether the perturbation does no more than to hold what moves in a plane.
+bool is_plane(const task::PerturbationSpec& spec) {
+    const std::vector<task::LoadSpec> loads = spec.all_loads();
+    return !spec.visual && !spec.body &&
+           std::all_of(loads.begin(), loads.end(), [](const task::LoadSpec& load) {
+               return load.kind == task::LoadKind::channel && load.normal;
+           });
+}
+
+/// Whether the region's place follows from draws, factors or variables in some condition.
+bool is_computed(const task::Task& task, const std::string& name) {
+    const auto computed = [&](const std::vector<task::Region>& regions) {
+        return std::any_of(regions.begin(), regions.end(), [&](const task::Region& region) {
+            return region.name == name &&
+                   std::any_of(region.position.begin(), region.position.end(),
+                               [](const Formula& f) { return f.computed(); });
+        });
+    };
+    const auto in = [&](const task::Condition& condition) { return computed(condition.regions); };
+    return computed(task.regions) ||
+           std::any_of(task.conditions.begin(), task.conditions.end(), in) ||
+           std::any_of(task.rounds.begin(), task.rounds.end(), in);
+}
+
 /// Warns of trials that their measures will not show as they are.
 void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
     for (const task::Block& block : plan.task.blocks) {
-        if (block.kind != task::TrialKind::baseline || block.perturb.empty()) continue;
+        if (block.kind != task::TrialKind::baseline) continue;
+        const auto& all = plan.task.perturbations;
+        const bool perturbed = std::any_of(all.begin(), all.end(), [&](const auto& spec) {
+            return !is_plane(spec) && std::find(block.perturb.begin(), block.perturb.end(),
+                                                spec.name) != block.perturb.end();
+        });
+        if (!perturbed) continue;
         diagnostics.warning(block.place, "kind",
                             "is baseline, and its trials are perturbed: means and fits take them "
                             "for trials without a perturbation",
@@ -371,6 +405,7 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
     }
     if (!plan.task.reach || plan.task.reach->measure != task::Measure::angle) return;
     const task::ReachMeasure& reach = *plan.task.reach;
+    if (is_computed(plan.task, reach.from) || is_computed(plan.task, reach.to)) return;
     const auto& regions = plan.task.regions;
     const auto region = [&](const std::string& name) {
         const auto named = [&](const task::Region& r) { return r.name == name; };

@@ -12,6 +12,7 @@
 #include "base/plural.h"
 #include "session/frozen_inputs.h"
 #include "session/session_director.h"
+#include "task/levels.h"
 
 namespace dihaptic::session {
 namespace {
@@ -220,6 +221,10 @@ void Run::describe_task() {
     info_.messages = plan_.task->messages;
     for (const task::Variable& variable : plan_.task->task.variables)
         info_.variables.push_back(variable.name);
+    for (const task::LevelName& level : task::levels_of(plan_.task->task))
+        info_.levels.push_back(level.name);
+    for (const task::AskSpec& ask : task::questions_of(plan_.task->task))
+        info_.answers.push_back(ask.name);
     for (const task::TaskPlan::Page& page : plan_.task->pages)
         info_.pages.push_back(page.spec.picture.empty()
                                   ? page.spec.text

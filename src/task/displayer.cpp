@@ -15,7 +15,7 @@ size_t rows_of(const TaskPlan& plan, double tick) {
     double longest = 0;
     for (const TaskPlan::Cell& cell : plan.cells) {
         for (const Perturbation& perturbation : cell.perturbations)
-            longest = std::max(longest, perturbation.delay());
+            longest = std::max(longest, perturbation.longest_delay());
     }
     return static_cast<size_t>(std::max(1L, std::lround(longest / tick)));
 }

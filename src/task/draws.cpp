@@ -85,7 +85,9 @@ class Checker {
                           draw_.exponential.has_value() + !draw_.choice.empty() +
                           !draw_.permutation.empty() + draw_.participant;
         if (kinds != 1) {
-            error(draw_.name, kinds == 0 ? "draws nothing" : "is drawn in more than one way",
+            error("name",
+                  fmt::format("'{}' {}", draw_.name,
+                              kinds == 0 ? "draws nothing" : "is drawn in more than one way"),
                   "Give it one of uniform, normal, exponential, choice, permutation and "
                   "participant.");
         }

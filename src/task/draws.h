@@ -28,8 +28,8 @@ struct UniformDraw {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("from", from, kDrawn.required());
-        v("to", to, kDrawn.required());
+        v("from", from, kDrawn.required().says("Least value."));
+        v("to", to, kDrawn.required().says("Greatest value."));
     }
 };
 
@@ -41,10 +41,10 @@ struct NormalDraw {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("mean", mean, kDrawn.required());
-        v("sd", sd, kDrawn.positive().at_most(1e9).required());
-        v("from", from, kDrawn);
-        v("to", to, kDrawn);
+        v("mean", mean, kDrawn.required().says("Mean of the normal distribution."));
+        v("sd", sd, kDrawn.positive().at_most(1e9).required().says("Its standard deviation."));
+        v("from", from, kDrawn.says("Least value: below it, the number is drawn again."));
+        v("to", to, kDrawn.says("Greatest value: above it, the number is drawn again."));
     }
 };
 
@@ -55,9 +55,11 @@ struct ExponentialDraw {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("mean", mean, kDrawn.positive().at_most(1e9).required());
-        v("from", from, kDrawn);
-        v("to", to, kDrawn);
+        v("mean", mean,
+          kDrawn.positive().at_most(1e9).required().says(
+              "Mean of what is above from, if there were no to."));
+        v("from", from, kDrawn.says("Least value."));
+        v("to", to, kDrawn.says("Greatest value; left out, there is none."));
     }
 };
 
@@ -75,14 +77,21 @@ struct DrawSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("uniform", uniform);
-        v("normal", normal);
-        v("exponential", exponential);
-        v("choice", choice);
-        v("weights", weights, Field::number().within(0, 1e9));
-        v("permutation", permutation);
-        v("participant", participant);
+        v("name", name,
+          Field::text().required().says(
+              "Name of the draw, which may end in the unit of its numbers."));
+        v("uniform", uniform, says("Each number between two is as likely."));
+        v("normal", normal, says("A normal distribution, which may be cut."));
+        v("exponential", exponential,
+          says("An exponential distribution, which may be cut: of a foreperiod, the "
+               "hazard is flat."));
+        v("choice", choice, says("One of these numbers or texts."));
+        v("weights", weights,
+          Field::number().within(0, 1e9).says(
+              "Weight of each value of the choice; left out, all are as likely."));
+        v("permutation", permutation,
+          says("These numbers or texts in random order, each equally often within a block."));
+        v("participant", participant, says("The number that ends the participant's identifier."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 

@@ -27,12 +27,23 @@ struct MovementSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("file", file);
-        v("axes", axes, Field::text().required());
-        v("block", block, Field::text().required());
-        v("squeeze", squeeze, Field::length().within(0, 0.1));
-        v("width", width, Field::length().within(1e-3, 1));
-        v("grasp_at", grasp_at, Field::of(Quantity::time).within(0, hand::kLongestScript));
+        v("file", file, says("CSV file of the movement, relative to this file."));
+        v("axes", axes,
+          Field::text().required().says(
+              "Axes of the file: x right, y up, z toward the person, or the world's."));
+        v("block", block,
+          Field::text().required().says(
+              "Box of the scene that is placed where the fingers closed."));
+        v("squeeze", squeeze,
+          Field::length().within(0, 0.1).says(
+              "How far each recorded finger goes beyond the block's face."));
+        v("width", width,
+          Field::length().within(1e-3, 1).says("Width of the block along the grasp; left out, it "
+                                               "follows from the aperture and squeeze."));
+        v("grasp_at", grasp_at,
+          Field::of(Quantity::time)
+              .within(0, hand::kLongestScript)
+              .says("When the fingers closed; left out, it is found from the movement."));
         if constexpr (requires { v.place(); }) place = v.place_of("block");
     }
 };
@@ -50,14 +61,17 @@ struct Experiment {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("title", title);
-        v("scene", scene, Field::text().required());
-        v("rig", rig);
-        v("hand", hand);
-        v("movement", movement);
-        v("task", task);
-        v("study", study);
-        v("settings", settings);
+        v("title", title, says("Title of the experiment."));
+        v("scene", scene, Field::text().required().says("Scene file, relative to this file."));
+        v("rig", rig,
+          says("Rig file, relative to this file; left out, the devices are simulated and ideal."));
+        v("hand", hand, says("The simulated hand, in place of the scene's."));
+        v("movement", movement,
+          says("Recorded movement that pulls the simulated fingers, in place of the "
+               "hand's script."));
+        v("task", task, says("Trials, in place of one script."));
+        v("study", study, says("What archives ask about the study."));
+        v("settings", settings, says("Settings, over those of scene and rig."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -40,8 +40,7 @@ class Compiler : Parts {
                     : value.type == Type::text ? Expression::Type::text
                                                : Expression::Type::number;
         out.dimension_ = value.dimension;
-        out.frozen_ = frozen_;
-        out.follows_tick_ = follows_tick_;
+        out.latest_ = latest_;
         return out;
     }
 
@@ -148,7 +147,7 @@ class Compiler : Parts {
     }
     void check_comparison(Value& a, Value& b, bool equality, size_t column) const {
         if (a.type != b.type || a.type == Type::vector) {
-            throw Fault{column, fmt::format("compares what is {} with {}", what(a), what(b)),
+            throw Fault{column, fmt::format("one side is {}, the other {}", what(a), what(b)),
                         "Compare numbers with numbers, and texts with quoted texts."};
         }
         if (a.type != Type::number && !equality)
@@ -336,10 +335,7 @@ class Compiler : Parts {
         }
         return out;
     }
-    void note(Kind kind) {
-        frozen_ = frozen_ && is_frozen(kind);
-        follows_tick_ = follows_tick_ || kind == Kind::tick;
-    }
+    void note(Kind kind) { latest_ = std::max(latest_, kind); }
     Fault unknown(const Token& name) const {
         if (find_unit_in_si(name.text))
             return {name.column, fmt::format("'{}' is a unit", name.text),
@@ -565,8 +561,7 @@ class Compiler : Parts {
     size_t at_ = 0;
     int depth_ = 0;
     std::string thing_;  // name of the last thing_argument()
-    bool frozen_ = true;
-    bool follows_tick_ = false;
+    Kind latest_ = Kind::draw;
 };
 
 constexpr std::array<Compiler::ShortForm, Compiler::kShortFormCount> Compiler::kShortForms{{
@@ -591,6 +586,12 @@ Expression Expression::compile(std::string_view text, Quantities& quantities, co
                           fmt::format("column {}: {}", fault.column, fault.what), fault.remedy);
         return {};
     }
+}
+
+bool Expression::names(int slot) const {
+    return std::any_of(program_.begin(), program_.end(), [&](const Step& step) {
+        return step.function == nullptr && step.slot == slot;
+    });
 }
 
 double Expression::operator()(std::span<const double> values) const noexcept {

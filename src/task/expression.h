@@ -42,9 +42,13 @@ class Expression {
     Type type() const { return type_; }
     Dimension dimension() const { return dimension_; }
     /// Whether it depends on nothing that changes within a session but with the list of trials.
-    bool frozen() const { return frozen_; }
+    bool frozen() const { return latest_ <= Kind::region; }
+    /// Whether it depends on the list of trials, and on levels of procedures, alone.
+    bool foreseen() const { return latest_ <= Kind::level; }
     /// Whether it depends on what is measured in the tick.
-    bool follows_tick() const { return follows_tick_; }
+    bool follows_tick() const { return latest_ == Kind::tick; }
+    /// Whether the value in the slot stands in it.
+    bool names(int slot) const;
 
     /// `values`: those of the Quantities that it was compiled with, or of a copy.
     double operator()(std::span<const double> values) const noexcept;
@@ -65,8 +69,7 @@ class Expression {
     std::vector<Step> program_;
     Type type_ = Type::number;
     Dimension dimension_;
-    bool frozen_ = true;
-    bool follows_tick_ = false;
+    Kind latest_ = Kind::draw;  // of what it depends on
 };
 
 }  // namespace dihaptic::task

@@ -14,6 +14,14 @@ constexpr size_t kMostConditions = 1000;
 
 bool check_levels(const Factor& factor, Diagnostics& diagnostics) {
     const std::set<std::string> different(factor.levels.begin(), factor.levels.end());
+    const NameInUnit unit = split_unit(factor.factor);
+    if (!factor.levels.empty() && unit.quantity != Quantity::none && are_texts(factor.levels)) {
+        diagnostics.error(
+            factor.place, "levels",
+            fmt::format("are not all numbers, and {} names their unit", factor.factor),
+            fmt::format("Write numbers, or call the factor {}.", unit.name));
+        return false;
+    }
     if (!factor.levels.empty() && different.size() == factor.levels.size()) return true;
     diagnostics.error(factor.place, "levels",
                       factor.levels.empty() ? "there are none" : "has the same level twice",
@@ -31,7 +39,9 @@ std::vector<Condition> crossed(const Task& task) {
                 Condition& next = more.emplace_back(condition);
                 next.name += (next.name.empty() ? "" : " ") + level;
                 next.factors.kind = Node::Kind::mapping;
-                next.factors.set(factor.factor, Node::of(level));
+                Node value = Node::of(level);
+                value.place = factor.place;
+                next.factors.set(factor.factor, value);
                 next.place = factor.place;
             }
         }

@@ -25,11 +25,12 @@ double most_driving(const Mat3& matrix) {
 
 Load::Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
            Diagnostics& diagnostics)
-    : spec_(spec) {
+    : spec_(spec), force_as_given_(numbers(spec.force)), torque_as_given_(numbers(spec.torque)) {
+    resolve({});
     look_up_things(scene, diagnostics);
     switch (spec.kind) {
         case LoadKind::constant:
-            if (spec.force.isZero(0) && spec.torque.isZero(0)) {
+            if (spec.force == FormulaVec3{} && spec.torque == FormulaVec3{}) {
                 diagnostics.error(spec.place, "force", "is missing: the load would do nothing",
                                   "Add e.g. force_N: [0, 0, -1], or torque_Nm.");
             }
@@ -121,12 +122,12 @@ void Load::look_up_place(const std::vector<Region>& regions, Diagnostics& diagno
 
 void Load::check_spring(Diagnostics& diagnostics) const {
     const bool channel = spec_.kind == LoadKind::channel;
-    if (channel ? spec_.stiffness <= 0 : spec_.stiffness == 0) {
+    if (spec_.stiffness == 0 || (channel && now_.stiffness < 0)) {
         diagnostics.error(
             spec_.place, "stiffness", channel ? "a channel needs one" : "a spring needs one",
             channel ? "Add e.g. stiffness_N_m: 1000." : "Add e.g. stiffness_N_m: 50.");
     }
-    if (spec_.stiffness < 0 && !spec_.zone) {
+    if (now_.stiffness < 0 && !spec_.zone) {
         diagnostics.error(spec_.place, "stiffness",
                           "is negative: the load would grow without end as it drives away",
                           "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
@@ -136,14 +137,14 @@ void Load::check_spring(Diagnostics& diagnostics) const {
         diagnostics.error(spec_.place, "one_sided", "only a plane with a normal has two sides",
                           "Add e.g. normal: [0, 0, 1], to which side it pushes, or leave it out.");
     }
-    if (spec_.stiffness < 0) {
+    if (now_.stiffness < 0) {
         diagnostics.error(spec_.place, "one_sided", "a wall cannot have a negative stiffness",
                           "Make the stiffness positive, or leave out one_sided.");
     }
 }
 
 void Load::check_general(Diagnostics& diagnostics) {
-    if (spec_.A.isZero(0) && spec_.B.isZero(0) && spec_.force.isZero(0)) {
+    if (spec_.A.isZero(0) && spec_.B.isZero(0) && spec_.force == FormulaVec3{}) {
         diagnostics.error(spec_.place, "A", "is missing, and so are B and force",
                           "Add e.g. B_Ns_m: [[0, -13, 0], [13, 0, 0], [0, 0, 0]].");
     }
@@ -160,6 +161,28 @@ void Load::check_general(Diagnostics& diagnostics) {
     }
 }
 
+void Load::resolve(std::span<const double> resolved) noexcept {
+    for (size_t i = 0; i < 3; ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        now_.force[k] = force_as_given_[i].in(resolved);
+        now_.torque[k] = torque_as_given_[i].in(resolved);
+    }
+    now_.damping = Number(spec_.damping).in(resolved);
+    now_.stiffness = Number(spec_.stiffness).in(resolved);
+    now_.delay = Number(spec_.delay).in(resolved);
+}
+
+bool Load::is_computed() const {
+    bool out = spec_.damping.computed() || spec_.stiffness.computed() || spec_.delay.computed();
+    for (size_t i = 0; i < 3; ++i)
+        out = out || spec_.force[i].computed() || spec_.torque[i].computed();
+    return out;
+}
+
+double Load::longest_delay() const {
+    return spec_.delay.computed() ? spec_.delay.field.max : spec_.delay.value;
+}
+
 std::optional<Vec3> Load::axis() const {
     if (spec_.kind != LoadKind::curl) return {};
     return direction_;
@@ -167,16 +190,16 @@ std::optional<Vec3> Load::axis() const {
 
 Load::Demand Load::demand() const {
     Demand out;
-    out.force = spec_.force.norm();
-    out.torque = spec_.torque.norm();
+    out.force = now_.force.norm();
+    out.torque = now_.torque.norm();
     if (spec_.kind == LoadKind::general) {
         out.stiffness = spec_.A.operatorNorm();
         out.damping = spec_.B.operatorNorm();
         out.driving = most_driving(spec_.B);
     } else {
-        out.stiffness = std::abs(spec_.stiffness);
-        out.damping = std::abs(spec_.damping);
-        if (spec_.kind != LoadKind::curl) out.driving = std::max(0.0, -spec_.damping);
+        out.stiffness = std::abs(now_.stiffness);
+        out.damping = std::abs(now_.damping);
+        if (spec_.kind != LoadKind::curl) out.driving = std::max(0.0, -now_.damping);
     }
     if (out.stiffness == 0) return out;
     if (!spec_.zone) {
@@ -193,16 +216,16 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
                  const Motion& motion) const noexcept {
     switch (spec_.kind) {
         case LoadKind::constant:
-            return {share * spec_.force, share * spec_.torque};
+            return {share * now_.force, share * now_.torque};
         case LoadKind::viscous:
-            return {-share * spec_.damping * motion.v_W, Vec3::Zero()};
+            return {-share * now_.damping * motion.v_W, Vec3::Zero()};
         case LoadKind::curl:
-            return {share * spec_.damping * direction_.cross(motion.v_W), Vec3::Zero()};
+            return {share * now_.damping * direction_.cross(motion.v_W), Vec3::Zero()};
         case LoadKind::general: {
             const Vec3 arm = about_ < 0 ? Vec3::Zero()
                                         : Vec3(motion.p_W - regions_W[static_cast<size_t>(about_)]);
             return {
-                share * left_at(arm.norm()) * (spec_.force + spec_.A * arm + spec_.B * motion.v_W),
+                share * left_at(arm.norm()) * (now_.force + spec_.A * arm + spec_.B * motion.v_W),
                 Vec3::Zero()};
         }
         case LoadKind::spring:
@@ -243,7 +266,7 @@ Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
         across = motion.v_W.dot(direction) * direction;
     }
     if (spec_.one_sided && off.dot(direction) >= 0) return Vec3::Zero();
-    const Vec3 force = -share * (spec_.stiffness * off + spec_.damping * across);
+    const Vec3 force = -share * (now_.stiffness * off + now_.damping * across);
     if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not hold
     return spec_.zone ? Vec3(left_at(off.norm()) * force) : force;
 }

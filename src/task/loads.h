@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "base/formula.h"
 #include "base/geometry.h"
 #include "scene/scene.h"
 #include "task/motions.h"
@@ -36,10 +37,10 @@ constexpr auto enum_names(LoadKind) {
 struct LoadSpec {
     LoadKind kind = LoadKind::viscous;
     Texts on;                    ///< handles of fingers, and bodies
-    Vec3 force = Vec3::Zero();   ///< f0 [N]
-    Vec3 torque = Vec3::Zero();  ///< t0 [N*m]
-    double damping = 0;          ///< b [N*s/m]
-    double stiffness = 0;        ///< k; a negative one drives away [N/m]
+    FormulaVec3 force;           ///< f0 [N]
+    FormulaVec3 torque;          ///< t0 [N*m]
+    Formula damping = 0;         ///< b [N*s/m]
+    Formula stiffness = 0;       ///< k; a negative one drives away [N/m]
     Mat3 A = Mat3::Zero();       ///< [N/m]
     Mat3 B = Mat3::Zero();       ///< [N*s/m]
     std::string about;           ///< region: p0, or a point of the line or plane
@@ -51,46 +52,66 @@ struct LoadSpec {
     bool one_sided = false;      ///< a plane acts only behind it, where its normal points from
     std::optional<double> zone;  ///< distance at which the load begins to fade [m]
     double fade = 0.01;          ///< distance within which it fades [m]
-    double delay = 0;            ///< age of the p and v that feed the load [s]
+    Formula delay = 0;           ///< age of the p and v that feed the load [s]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind, Field::text().required());
-        v("on", on, Field::text().required());
+        v("kind", kind, Field::text().required().says("Law of the load."));
+        v("on", on,
+          Field::text().required().says("Fingers, whose handles it acts on, and bodies."));
         switch (kind) {
             case LoadKind::constant:
                 visit_force(v);
-                v("torque", torque, Field::of(Quantity::torque).within(-10, 10));
+                v("torque", torque,
+                  Field::of(Quantity::torque)
+                      .within(-10, 10)
+                      .says("Torque, on bodies and on handles of devices that render torque."));
                 break;
             case LoadKind::viscous:
                 visit_damping(v);
                 break;
             case LoadKind::curl:
                 visit_damping(v);
-                v("axis", axis, direction());
+                v("axis", axis, direction().says("Axis of the field, right-handed."));
                 break;
             case LoadKind::general:
-                v("A", A, Field::of(Quantity::stiffness).within(-1e5, 1e5));
-                v("B", B, Field::of(Quantity::damping).within(-1000, 1000));
+                v("A", A,
+                  Field::of(Quantity::stiffness)
+                      .within(-1e5, 1e5)
+                      .says("Matrix by which the force follows the position relative to the "
+                            "region's centre."));
+                v("B", B,
+                  Field::of(Quantity::damping)
+                      .within(-1000, 1000)
+                      .says("Matrix by which the force follows the velocity."));
                 visit_force(v);
-                v("about", about);
+                v("about", about, says("Region whose centre is p0."));
                 visit_zone(v, "safe_within");
                 break;
             case LoadKind::spring:
-                v("stiffness", stiffness, Field::of(Quantity::stiffness).within(-1e5, 1e5));
+                v("stiffness", stiffness,
+                  Field::of(Quantity::stiffness)
+                      .within(-1e5, 1e5)
+                      .says("Stiffness; a negative one drives away."));
                 visit_place(v);
-                v("axis", axis, direction());
-                v("one_sided", one_sided);
+                v("axis", axis, direction().says("Direction of a line through the region."));
+                v("one_sided", one_sided,
+                  says("Whether a plane acts only behind it, where its normal points from."));
                 visit_zone(v, "safe_within");
                 break;
             case LoadKind::channel:
-                v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5));
+                v("stiffness", stiffness,
+                  Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
                 visit_place(v);
                 visit_zone(v, "break_out");
                 break;
         }
-        if (kind != LoadKind::constant) v("delay", delay, Field::of(Quantity::time).within(0, 2));
+        if (kind != LoadKind::constant)
+            v("delay", delay,
+              Field::of(Quantity::time)
+                  .within(0, 2)
+                  .says("Age of the position and velocity that feed the load."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -98,25 +119,34 @@ struct LoadSpec {
     static constexpr Field direction() { return Field::number().within(-1000, 1000); }
     template <class Visitor>
     void visit_force(Visitor& v) {
-        v("force", force, Field::of(Quantity::force).within(-1000, 1000));
+        v("force", force,
+          Field::of(Quantity::force)
+              .within(-1000, 1000)
+              .says("Force that does not depend on position and velocity."));
     }
     template <class Visitor>
     void visit_damping(Visitor& v) {
-        v("damping", damping, Field::of(Quantity::damping).within(-1000, 1000));
+        v("damping", damping,
+          Field::of(Quantity::damping)
+              .within(-1000, 1000)
+              .says("Damping; a negative one drives on."));
     }
     template <class Visitor>
     void visit_place(Visitor& v) {
         visit_damping(v);
-        v("about", about);
-        v("normal", normal, direction());
-        v("from", from);
-        v("to", to);
-        v("free", free, direction());
+        v("about", about, says("Region whose centre is the point, or lies on the line or plane."));
+        v("normal", normal, direction().says("Normal of a plane through the region."));
+        v("from", from, says("Region that a line leads from."));
+        v("to", to, says("Region that it leads to."));
+        v("free", free, direction().says("Direction that, with the line, spans a plane."));
     }
     template <class Visitor>
     void visit_zone(Visitor& v, const char* name) {
-        v(name, zone, Field::length().positive().at_most(10));
-        v("fade", fade, Field::length().within(1e-4, 10));
+        v(name, zone,
+          Field::length().positive().at_most(10).says(
+              "Distance beyond which the load fades; left out, it does not."));
+        v("fade", fade,
+          Field::length().within(1e-4, 10).says("Distance within which it fades to zero."));
     }
 };
 
@@ -128,6 +158,14 @@ class Load {
          Diagnostics& diagnostics);
 
     const LoadSpec& spec() const { return spec_; }
+    /// Takes up the numbers that are formulas. `resolved`: what these give, by index.
+    void resolve(std::span<const double> resolved) noexcept;
+    /// Whether any of its numbers is a formula.
+    bool is_computed() const;
+    double stiffness() const { return now_.stiffness; }
+    double delay() const { return now_.delay; }
+    /// The most that its delay may be [s].
+    double longest_delay() const;
     /// What it acts on: indices of bodies; fingers come after the scene's bodies.
     std::span<const int> on() const { return on_; }
     /// What it does to a thing with this motion. `regions_W`: centres of the regions [m].
@@ -157,7 +195,19 @@ class Load {
     Vec3 pull(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
     double left_at(double distance) const noexcept;
 
+    /// Its numbers in the trial.
+    struct Now {
+        Vec3 force = Vec3::Zero();
+        Vec3 torque = Vec3::Zero();
+        double damping = 0;
+        double stiffness = 0;
+        double delay = 0;
+    };
+
     LoadSpec spec_;
+    std::array<Number, 3> force_as_given_;
+    std::array<Number, 3> torque_as_given_;
+    Now now_;
     std::vector<int> on_;
     Shape shape_ = Shape::point;
     Vec3 direction_ = Vec3::UnitZ();  // of e, of a line about a region, or a plane's normal

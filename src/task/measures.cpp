@@ -38,13 +38,18 @@ bool pushes_by_velocity(const PerturbationSpec& spec) {
     });
 }
 
-/// Whether a load of the perturbation acts on what the measures are taken of.
+/// Whether the load acts on what the measures are taken of.
+bool acts_on(const LoadSpec& load, const Movement& movement) {
+    return movement.of == kHand ||
+           std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
+}
+
+/// Whether a load of the perturbation does.
 bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
-    if (movement.of == kHand) return true;
     const std::vector<LoadSpec> loads = spec.all_loads();
-    return std::any_of(loads.begin(), loads.end(), [&](const LoadSpec& load) {
-        return std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
-    });
+    return movement.of == kHand ||
+           std::any_of(loads.begin(), loads.end(),
+                       [&](const LoadSpec& load) { return acts_on(load, movement); });
 }
 
 /// The perturbation whose field is the ideal force; null if there is none.
@@ -209,20 +214,38 @@ std::vector<std::pair<Table::Column, Table::Cell>> cells_of(const MovementPlan& 
     return out;
 }
 
+/// Whether the load is a channel that keeps what moves from going to the side: not the plane that
+/// it moves in. `regions_W`: centres of the regions [m].
+bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
+                   const MovementPlan& movement) {
+    constexpr double kAside = 1e-3;  // [m]
+    if (load.spec().kind != LoadKind::channel) return false;
+    const Vec3 left = movement.left_W();
+    if (left.hasNaN()) return true;
+    const auto force_at = [&](const Vec3& p_W) {
+        return load.act(1, regions_W, {p_W, Vec3::Zero()}).force.dot(left);
+    };
+    return force_at(movement.from_W) - force_at(movement.from_W + kAside * left) >
+           load.stiffness() * kAside / 2;
+}
+
 /// How the trial's perturbations compare with the ideal field, and whether one is a channel.
-void compare(MovementPlan& out, const TaskPlan& plan, const Trial& trial,
+/// `cell`: the trial's, with its numbers resolved.
+void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, const Trial& trial,
              const Movement& movement) {
-    const TaskPlan::Cell& cell = plan.cell(trial);
-    const PerturbationSpec* ideal = ideal_of(plan.task, movement);
+    const PerturbationSpec* ideal = ideal_of(task, movement);
     if (ideal != nullptr)
-        out.ideal = cell.perturbations[place_of(plan.task.perturbations, ideal->name)].field_gain();
+        out.ideal = cell.perturbations[place_of(task.perturbations, ideal->name)].field_gain();
     out.channel = false;
     out.field_share = 0;
     Mat3 gain = Mat3::Zero();
     for (const int p : trial.perturb) {
         const auto i = static_cast<size_t>(p);
-        const PerturbationSpec& spec = plan.task.perturbations[i];
-        out.channel = out.channel || (is_channel(spec) && acts_on(spec, movement));
+        const std::span<const Load> loads = cell.perturbations[i].loads();
+        const bool holds = std::any_of(loads.begin(), loads.end(), [&](const Load& load) {
+            return acts_on(load.spec(), movement) && holds_to_line(load, cell.p_W, out);
+        });
+        out.channel = out.channel || holds;
         gain += cell.perturbations[i].field_gain();
     }
     if (out.channel) {
@@ -315,7 +338,7 @@ void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene)
         out.from_W = cell.p_W[from];
         out.to_W = cell.p_W[to];
         out.axis_W = movement.axis ? movement.axis->normalized() : usual_axis(cell);
-        compare(out, plan, trial, movement);
+        compare(out, plan.task, cell, trial, movement);
         for (const auto& [unused, value] : cells_of(out)) list.rows[i].push_back(value);
     }
 }

@@ -138,6 +138,32 @@ std::vector<Table::Column> measure_columns();
 inline constexpr const char* kNotMeasured = "not_measured";
 Table::Column not_measured_column();
 
+/// What of the values in an attempt's ticks is the measure.
+enum class Take { first, last, min, max, mean };
+constexpr auto enum_names(Take) {
+    return std::array{"first", "last", "min", "max", "mean"};
+}
+
+/// A measure of a task's own.
+struct OwnMeasure {
+    std::string name;  ///< its column in trials.csv, with the unit
+    std::string of;    ///< an expression, evaluated in each tick
+    Take take = Take::max;
+    std::vector<std::string> during;  ///< states; empty: all
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name,
+          Field::text().required().says(
+              "Its column in trials.csv, with the unit, e.g. squeeze_N."));
+        v("of", of, Field::text().required().says("An expression, evaluated in each tick."));
+        v("take", take, Field::text().required().says("Which of its values is reported."));
+        v("during", during, says("States in whose ticks it is taken; left out: all."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
 /// What movement a task's measures are taken of. What is left out is taken from `reach`.
 struct Movement {
     std::string of;                   ///< finger, body, or `hand`: the middle of all handles
@@ -149,6 +175,7 @@ struct Movement {
     /// Speed above which it moves: this, or else this share of its peak.
     std::optional<double> onset_speed;  ///< [m/s]
     double onset_share = 0.05;
+    double end_still = 0;          ///< time for which it has to be slow to have ended [s]
     double direction_after = 0.1;  ///< time from onset at which the initial direction is taken [s]
     std::optional<Vec3> axis;      ///< as ReachMeasure::axis
     std::string ideal;  ///< perturbation whose field is the ideal force; empty: the first
@@ -159,18 +186,38 @@ struct Movement {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("of", of);
-        v("from", from);
-        v("to", to);
-        v("during", during);
-        v("go", go);
-        v("step", step);
-        v("onset_speed", onset_speed, Field::of(Quantity::speed).within(1e-3, 10));
-        v("onset_share", onset_share, Field::number().within(0.001, 0.9));
-        v("direction_after", direction_after, Field::of(Quantity::time).within(1e-3, 10));
-        v("axis", axis, Field::number().within(-1000, 1000));
-        v("ideal", ideal);
-        v("error", error);
+        v("of", of,
+          says("Finger, body or hand (the middle of all handles) whose movement it "
+               "is; left out, the scene's first finger."));
+        v("from", from, says("Region that the straight line begins in."));
+        v("to", to, says("Region that it leads to."));
+        v("during", during,
+          says("States of the movement, from when the first is entered until they are left."));
+        v("go", go, says("State that begins with the go signal; left out, the first of these."));
+        v("step", step, says("State that begins with a load step."));
+        v("onset_speed", onset_speed,
+          Field::of(Quantity::speed)
+              .within(1e-3, 10)
+              .says("Speed above which it moves; left out, onset_share holds."));
+        v("onset_share", onset_share,
+          Field::number().within(0.001, 0.9).says("Share of its peak speed above which it moves."));
+        v("end_still", end_still,
+          Field::of(Quantity::time)
+              .within(0, 10)
+              .says("Time for which it has to be slow to have ended."));
+        v("direction_after", direction_after,
+          Field::of(Quantity::time)
+              .within(1e-3, 10)
+              .says("Time from onset at which the initial direction is taken."));
+        v("axis", axis,
+          Field::number()
+              .within(-1000, 1000)
+              .says("Axis from whose tip left is left of the line; left out, that of reach."));
+        v("ideal", ideal,
+          says("Perturbation whose field the channel's force is compared with; left "
+               "out, the first with a viscous or curl field."));
+        v("error", error,
+          says("Figure of a listed measure to which adaptation is fitted, by condition."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -32,7 +32,7 @@ void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFr
 }
 
 bool displaces(const VisualSpec& visual) {
-    return visual.delay > 0 || !visual.noise.isZero(0);
+    return visual.delay != 0 || !visual.noise.isZero(0);
 }
 
 /// A map that only delays or shakes what is shown needs no centre.
@@ -43,7 +43,7 @@ bool has_centre(const VisualSpec& visual) {
 
 void check_displacing(const VisualSpec& visual, uint32_t moves, Diagnostics& diagnostics) {
     if (!displaces(visual) || (moves & (servo::kMovesProxies | servo::kMovesObject)) != 0) return;
-    diagnostics.error(visual.place, visual.delay > 0 ? "delay" : "noise",
+    diagnostics.error(visual.place, visual.delay != 0 ? "delay" : "noise",
                       "is of proxies or the object, which are not moved", "Add proxies to moves.");
 }
 
@@ -75,6 +75,7 @@ void Perturbation::resolve(std::span<const double> resolved) noexcept {
         map_->scale = vector(map_->scale_as_given);
         map_->angle = map_->angle_as_given.in(resolved);
         map_->size = map_->size_as_given.in(resolved);
+        map_->delay = map_->delay_as_given.in(resolved);
     }
     if (properties_) {
         const double density = properties_as_given_.density.in(resolved);
@@ -83,6 +84,7 @@ void Perturbation::resolve(std::span<const double> resolved) noexcept {
         properties_->turning_scale = density;
         properties_->friction_scale = properties_as_given_.friction.in(resolved);
     }
+    for (Load& load : loads_) load.resolve(resolved);
 }
 
 void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
@@ -93,7 +95,8 @@ void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Regio
     Map& map = map_.emplace(Map{});
     map.moves = moves_of(visual, diagnostics);
     map.object = scene.object_index();
-    map.delay = visual.delay;
+    map.delay_as_given = visual.delay;
+    map.longest_delay = visual.delay.computed() ? visual.delay.field.max : visual.delay.value;
     map.noise = visual.noise;
     if (has_centre(visual)) map.about = region(visual.about, "about");
     check_displacing(visual, map.moves, diagnostics);
@@ -123,9 +126,12 @@ void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
     servo::PropertiesFrame& out = properties_.emplace();
     out.body =
         look_up(names_of(scene.bodies), body.body, body.place, "body", "no body", diagnostics);
-    if (out.body >= 0 && !scene.bodies[static_cast<size_t>(out.body)].moves_at_all()) {
+    const bool only_friction = body.mass_scale == FormulaVec3{1, 1, 1} && body.weight_scale == 1 &&
+                               body.density_scale == 1;
+    if (out.body >= 0 && !only_friction &&
+        !scene.bodies[static_cast<size_t>(out.body)].moves_at_all()) {
         diagnostics.error(body.place, "body", "'" + body.body + "' cannot move",
-                          "Name a body that can.");
+                          "Name a body that can, or change its friction alone.");
     }
     properties_as_given_ = {numbers(body.mass_scale), body.weight_scale, body.density_scale,
                             body.friction_scale};
@@ -174,7 +180,7 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const Mo
     }
     for (const Load& load : loads_) {
         for (const int thing : load.on()) {
-            const Motion* const motion = motions.of(thing, load.spec().delay);
+            const Motion* const motion = motions.of(thing, load.delay());
             if (motion == nullptr) continue;
             const Wrench wrench = load.act(share, regions_W, *motion);
             add(out.loads, {thing, wrench.force, wrench.torque});

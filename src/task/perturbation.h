@@ -29,9 +29,9 @@ struct Region {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("position", position, Field::length().within(-100, 100).required());
-        v("radius", radius, Field::length().within(1e-4, 10));
+        v("name", name, Field::text().required().says("Name of the region."));
+        v("position", position, Field::length().within(-100, 100).required().says("Its centre."));
+        v("radius", radius, Field::length().within(1e-4, 10).says("Its radius."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -47,21 +47,39 @@ struct VisualSpec {
     std::string toward;              ///< region: motion is shown on the line from `about` to it, at
                                      ///< its true distance from `about`
     Formula size = 1;                ///< the object's displayed size over its true size
-    double delay = 0;                ///< proxies and object are shown this much later [s]
+    Formula delay = 0;               ///< proxies and object are shown this much later [s]
     Vec3 noise = Vec3::Zero();       ///< SD of noise on where they are shown, in W [m]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("moves", moves, Field::text().required());
-        v("about", about);
-        v("scale", scale, Field::number().within(-10, 10));
-        v("axis", axis, Field::number().within(-1000, 1000));
-        v("angle", angle, Field::of(Quantity::angle).within(-6.3, 6.3));
-        v("toward", toward);
-        v("size", size, Field::number().within(0.1, 10));
-        v("delay", delay, Field::of(Quantity::time).within(0, 5));
-        v("noise", noise, Field::length().within(0, 1));
+        v("moves", moves,
+          Field::text().required().says(
+              "What is shown elsewhere than it is: any of proxies, object and target."));
+        v("about", about,
+          says("Region about whose centre motion is scaled and rotated, or from "
+               "which the line begins."));
+        v("scale", scale,
+          Field::number().within(-10, 10).says(
+              "Factors on displayed motion along the world's axes."));
+        v("axis", axis,
+          Field::number().within(-1000, 1000).says("Axis of the rotation, through the centre."));
+        v("angle", angle,
+          Field::of(Quantity::angle)
+              .within(-6.3, 6.3)
+              .says("Angle of the rotation, right-handed."));
+        v("toward", toward,
+          says("Region that the line leads to on which motion is shown, at its true "
+               "distance from the beginning."));
+        v("size", size,
+          Field::number().within(0.1, 10).says("Displayed over true size of the object."));
+        v("delay", delay,
+          Field::of(Quantity::time)
+              .within(0, 5)
+              .says("How much later proxies and object are shown."));
+        v("noise", noise,
+          Field::length().within(0, 1).says(
+              "Standard deviation of noise on where they are shown, along the world's axes."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -77,11 +95,17 @@ struct BodySpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("body", body, Field::text().required());
-        v("mass_scale", mass_scale, Field::number().within(0.05, 20));
-        v("weight_scale", weight_scale, Field::number().within(-20, 20));
-        v("density_scale", density_scale, Field::number().within(0.05, 20));
-        v("friction_scale", friction_scale, Field::number().within(0, 20));
+        v("body", body, Field::text().required().says("Body whose properties are changed."));
+        v("mass_scale", mass_scale,
+          Field::number().within(0.05, 20).says(
+              "Factors on its inertia along the world's axes; its weight stays."));
+        v("weight_scale", weight_scale,
+          Field::number().within(-20, 20).says("Factor on its weight; its inertia stays."));
+        v("density_scale", density_scale,
+          Field::number().within(0.05, 20).says(
+              "Factor on weight, inertia and moments of inertia together."));
+        v("friction_scale", friction_scale,
+          Field::number().within(0, 20).says("Factor on its coefficients of friction."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -106,13 +130,15 @@ struct PerturbationSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("during", during);
-        v("profile", profile);
-        v("visual", visual);
-        v("body", body);
-        v("field", field);
-        v("loads", loads);
+        v("name", name, Field::text().required().says("Name of the perturbation."));
+        v("during", during,
+          says("States in which it acts; left out, all but those with perturbed: no."));
+        v("profile", profile,
+          says("Its course in time within a trial; left out, it acts at once and stays."));
+        v("visual", visual, says("Difference between what is shown and what is."));
+        v("body", body, says("Change of a body's properties."));
+        v("field", field, says("A load, as in loads; it is the only one, or the first."));
+        v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -145,8 +171,8 @@ class Perturbation {
     void resolve(std::span<const double> resolved) noexcept;
     bool has_map() const { return map_.has_value(); }
     std::span<const Load> loads() const { return loads_; }
-    /// Delay of what it moves on the screen, at share 1 [s].
-    double delay() const { return map_ ? map_->delay : 0; }
+    /// The most that the delay of what it moves on the screen may be [s].
+    double longest_delay() const { return map_ ? map_->longest_delay : 0; }
     /// A body's properties at share 1; unset if it changes no body.
     const std::optional<servo::PropertiesFrame>& properties() const { return properties_; }
 
@@ -159,11 +185,13 @@ class Perturbation {
         std::array<Number, 3> scale_as_given;
         Number angle_as_given;
         Number size_as_given;
+        Number delay_as_given;
         Vec3 scale = Vec3::Ones();
         Vec3 axis = Vec3::UnitZ();
         double angle = 0;
         double size = 1;
         double delay = 0;
+        double longest_delay = 0;
         Vec3 noise = Vec3::Zero();
     };
     struct Properties {

@@ -7,7 +7,9 @@
 #include <cctype>
 
 #include "base/text_file.h"
+#include "base/unmeasured.h"
 #include "task/factors.h"
+#include "task/levels.h"
 #include "task/lookup.h"
 
 namespace dihaptic::task {
@@ -30,13 +32,18 @@ class Definer {
         const Task& task = plan_.task;
         for (const DrawSpec& draw : task.draws) define(draw);
         for (const Factor& factor : factors_of(task)) define(factor);
-        if (task.variables.size() > servo::TaskFrame::kMostVariables) {
-            diagnostics_.error(task.variables.back().place, "variables",
-                               fmt::format("there are {}, where {} are the most",
-                                           task.variables.size(), servo::TaskFrame::kMostVariables),
+        for (const Variable& variable : task.variables)
+            define(variable.name, variable.start, Kind::variable, variable.place, "name");
+        define_levels(task);
+        for (const AskSpec& ask : questions_of(task))
+            define(ask.name, kUnmeasured, Kind::variable, ask.place, "name");
+        if (plan_.start.size() > servo::TaskFrame::kMostVariables) {
+            diagnostics_.error(task.place, "variables",
+                               fmt::format("there are {} with levels of procedures and answers, "
+                                           "where {} are the most",
+                                           plan_.start.size(), servo::TaskFrame::kMostVariables),
                                "Leave some out.");
         }
-        for (const Variable& variable : task.variables) define(variable);
     }
 
   private:
@@ -117,18 +124,37 @@ class Definer {
         return true;
     }
 
-    void define(const Variable& variable) {
-        const double start = variable.start * split_unit(variable.name).si;
-        plan_.start.push_back({start});
-        if (!check_name(variable.name, variable.place, "name")) {
+    /// A number that changes in the session; `start` is in the unit of its name.
+    void define(const std::string& name, double start, Kind kind, const Place& place,
+                const char* key) {
+        const NameInUnit unit = split_unit(name);
+        plan_.start.push_back({start * unit.si});
+        if (!check_name(name, place, key)) {
             plan_.symbols.variables.push_back({});
             return;
         }
-        const Symbol symbol = number(variable.name, Kind::variable);
-        const NameInUnit unit = split_unit(variable.name);
-        const Symbol between =
-            plan_.between.define(std::string(unit.name), symbol.dimension, Kind::variable);
+        const Symbol symbol = number(name, kind);
+        const Symbol between = plan_.between.define(std::string(unit.name), symbol.dimension, kind);
         plan_.symbols.variables.push_back({symbol.slot, between.slot});
+    }
+
+    void define_levels(const Task& task) {
+        const std::vector<LevelName> levels = levels_of(task);
+        for (const LevelName& level : levels) {
+            const double si = split_unit(level.name).si;
+            TaskPlan::Level& out = plan_.levels.emplace_back();
+            out.variable = plan_.start.size();
+            out.standard = level.standard * si;
+            out.si = si;
+            for (const double value : level.values) out.values.push_back(value * si);
+            define(level.name, level.standard, Kind::level, level.place, "level");
+        }
+        for (const ProcedureSpec& procedure : task.procedures) {
+            const auto same = [&](const LevelName& l) { return l.name == procedure.level; };
+            const auto found = std::find_if(levels.begin(), levels.end(), same);
+            plan_.level_of_procedure.push_back(
+                found == levels.end() ? -1 : static_cast<int>(found - levels.begin()));
+        }
     }
 
     TaskPlan& plan_;
@@ -150,7 +176,9 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
         const std::vector<Factor> factors = factors_of(task);
         return name == "deg" || name == "rad" || any(task.draws) || any(task.variables) ||
                std::any_of(factors.begin(), factors.end(),
-                           [&](const Factor& f) { return named(f.factor); });
+                           [&](const Factor& f) { return named(f.factor); }) ||
+               std::any_of(task.procedures.begin(), task.procedures.end(),
+                           [&](const ProcedureSpec& p) { return named(p.level); });
     };
     size_t begin = 0;
     for (size_t i = 0; i <= text.size(); ++i) {
@@ -163,74 +191,35 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
     return false;
 }
 
-class FormulaPlanner {
-  public:
-    FormulaPlanner(TaskPlan& plan, Diagnostics& diagnostics)
-        : plan_(plan), diagnostics_(diagnostics) {}
+void formula_error(const Formula& formula, const std::string& what, const std::string& remedy,
+                   Diagnostics& diagnostics) {
+    diagnostics.error(formula.place, formula.key, fmt::format("{}: '{}'", what, formula.text),
+                      remedy);
+}
 
-    /// Nullopt, with the problem in the diagnostics, if the text gives no number of this kind.
-    std::optional<CompiledFormula> compile(const Formula& formula) {
-        CompiledFormula out;
-        Diagnostics found;
-        out.expression =
-            Expression::compile(formula.text, plan_.quantities, formula.place, formula.key, found);
-        out.formula = formula;
-        for (Problem problem : found.problems()) {
-            if (problem.severity == Severity::error)
-                problem.what = "must be a number or a formula: " + problem.what;
-            diagnostics_.add({problem});
+void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
+    // a failure is reported once: what is left of the formula is a number
+    each_formula(plan.task, [&](Formula& formula) {
+        if (!formula.computed() || finite_number(formula.text)) return;
+        auto compiled = compile_formula(formula, plan, plan.quantities, diagnostics);
+        if (compiled && compiled->expression.follows_tick()) {
+            formula_error(formula,
+                          "names what changes within a trial, and is set when a trial begins",
+                          "Name draws, factors, variables and regions; or use a condition: when.",
+                          diagnostics);
+            return;
         }
-        if (found.has_errors()) return {};
-        const Quantity wanted = formula.field.quantity;
-        const Dimension given = out.expression.dimension();
-        if (out.expression.type() != Expression::Type::number) {
-            error(formula, "must be a number or a formula of one",
-                  "A condition becomes a number by if, e.g. 10 if side > 0 else 20.");
-        } else if (given == Dimension{}) {
-            const bool angle = wanted == Quantity::angle && names_angle(plan_, formula.text);
-            out.scale = angle ? 1 : formula.to_si;
-            return out;
-        } else if (given == dimension(wanted)) {
-            return out;
-        } else {
-            error(formula,
-                  fmt::format("is in {}, and must be a {}", si_symbol(given), name(wanted)),
-                  "Divide by a unit, e.g. wait / 1 s, or name something else.");
-        }
-        return {};
-    }
-
-    void compile_all() {
-        // a failure is reported once: what is left of the formula is a number
-        each_formula(plan_.task, [this](Formula& formula) {
-            if (!formula.computed() || finite_number(formula.text)) return;
-            std::optional<CompiledFormula> compiled = compile(formula);
-            if (compiled && compiled->expression.follows_tick()) {
-                error(formula, "names what changes within a trial, and is set when a trial begins",
-                      "Name draws, factors, variables and regions; or use a condition: when.");
-                return;
-            }
-            if (!compiled) return;
-            formula.index = static_cast<int>(plan_.formulas.size());
-            compiled->formula.index = formula.index;
-            plan_.formulas.push_back(std::move(*compiled));
+        if (!compiled) return;
+        formula.index = static_cast<int>(plan.formulas.size());
+        compiled->formula.index = formula.index;
+        plan.formulas.push_back(std::move(*compiled));
+    });
+    for (State& state : plan.task.states) {
+        each_formula(state, [&](const Formula& formula) {
+            if (formula.index >= 0) plan.in_states.push_back(formula.index);
         });
-        for (State& state : plan_.task.states) {
-            each_formula(state, [this](const Formula& formula) {
-                if (formula.index >= 0) plan_.in_states.push_back(formula.index);
-            });
-        }
     }
-
-  private:
-    void error(const Formula& formula, const std::string& what, const std::string& remedy) {
-        diagnostics_.error(formula.place, formula.key, fmt::format("{}: '{}'", what, formula.text),
-                           remedy);
-    }
-
-    TaskPlan& plan_;
-    Diagnostics& diagnostics_;
-};
+}
 
 /// A condition between or after trials; empty if the text is none.
 std::optional<Expression> condition(const std::string& text, Quantities& quantities,
@@ -249,6 +238,39 @@ std::optional<Expression> condition(const std::string& text, Quantities& quantit
 
 }  // namespace
 
+std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,
+                                               Quantities& quantities, Diagnostics& diagnostics) {
+    CompiledFormula out;
+    Diagnostics found;
+    out.expression =
+        Expression::compile(formula.text, quantities, formula.place, formula.key, found);
+    out.formula = formula;
+    for (Problem problem : found.problems()) {
+        if (problem.severity == Severity::error)
+            problem.what = "must be a number or a formula: " + problem.what;
+        diagnostics.add({problem});
+    }
+    if (found.has_errors()) return {};
+    const Quantity wanted = formula.field.quantity;
+    const Dimension given = out.expression.dimension();
+    if (out.expression.type() != Expression::Type::number) {
+        formula_error(formula, "must be a number or a formula of one",
+                      "A condition becomes a number by if, e.g. 10 if side > 0 else 20.",
+                      diagnostics);
+    } else if (given == Dimension{}) {
+        const bool angle = wanted == Quantity::angle && names_angle(plan, formula.text);
+        out.scale = angle ? 1 : formula.to_si;
+        return out;
+    } else if (given == dimension(wanted)) {
+        return out;
+    } else {
+        formula_error(formula,
+                      fmt::format("is in {}, and must be a {}", si_symbol(given), name(wanted)),
+                      "Divide by a unit, e.g. wait / 1 s, or name something else.", diagnostics);
+    }
+    return {};
+}
+
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
     for (const Condition& round : plan.task.rounds) {
         if (round.factors.kind != Node::Kind::null)
@@ -256,7 +278,7 @@ void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
                               "Leave them out, or cross the factor with the others: cross.");
     }
     Definer(plan, diagnostics).define();
-    if (!diagnostics.has_errors()) FormulaPlanner(plan, diagnostics).compile_all();
+    if (!diagnostics.has_errors()) compile_all(plan, diagnostics);
 }
 
 void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
@@ -279,7 +301,7 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
         to.key = "to";
         to.place = rule.place;
         to.field = Field::of(unit.quantity);
-        if (auto compiled = FormulaPlanner(plan, diagnostics).compile(to)) {
+        if (auto compiled = compile_formula(to, plan, plan.quantities, diagnostics)) {
             change.to = std::move(*compiled);
             plan.changes.push_back(std::move(change));
         }

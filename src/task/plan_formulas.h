@@ -12,4 +12,9 @@ void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics);
 /// Compiles the rules after trials and the ends of blocks. The plan must have its outcomes.
 void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
 
+/// A formula that names what `quantities` knows; nullopt, with the problem in the diagnostics, if
+/// its text gives no number of its kind.
+std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,
+                                               Quantities& quantities, Diagnostics& diagnostics);
+
 }  // namespace dihaptic::task

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
 
 namespace dihaptic::task {
 namespace {
@@ -10,11 +14,36 @@ namespace {
 /// A trial's answer is processed within a tick, which takes 0.3 ms for the largest grid.
 constexpr size_t kLargestGrid = 200'000;
 
-/// The lowest level that the procedure's trials may have.
-double lowest_level(const ProcedureSpec& spec) {
-    if (spec.staircase) return spec.staircase->lowest.value_or(spec.least());
-    if (spec.quest_plus) return std::min(spec.quest_plus->levels.from, spec.quest_plus->levels.to);
-    return spec.least();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The range of levels that the file gives the procedure, infinite where it gives none.
+struct Range {
+    double least = -kInfinity;
+    double most = kInfinity;
+};
+
+/// Called in the tick: it allocates nothing.
+Range given_range(const ProcedureSpec& spec) {
+    const auto limits = [](const auto& s) {
+        return Range{s.lowest.value_or(-kInfinity), s.highest.value_or(kInfinity)};
+    };
+    if (spec.staircase) return limits(*spec.staircase);
+    if (spec.quest) return limits(*spec.quest);
+    if (spec.quest_plus) {
+        const auto [least, most] =
+            std::minmax(spec.quest_plus->levels.from, spec.quest_plus->levels.to);
+        return {least, most};
+    }
+    if (!spec.constant || spec.constant->levels.empty()) return {};
+    const auto [least, most] =
+        std::minmax_element(spec.constant->levels.begin(), spec.constant->levels.end());
+    return {*least, *most};
+}
+
+/// The range of shares, or of their logarithms; infinite of a number of one's own.
+Range share_range(const ProcedureSpec& spec) {
+    if (!spec.level.empty()) return {};
+    return {spec.logarithmic ? -kInfinity : 0, spec.logarithmic ? 0.0 : 1.0};
 }
 
 /// Number of cells of quest_plus's grid; 0 for the other procedures.
@@ -27,11 +56,12 @@ size_t grid_cells(const ProcedureSpec& spec) {
 
 /// Reports levels outside the range of shares, or of their logarithms.
 void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
+    const Range share = share_range(spec);
     const auto within = [&](const char* key, double level) {
-        if (level >= spec.least() && level <= spec.most()) return;
+        if (level >= share.least && level <= share.most) return;
         diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
                           fmt::format("goes to {:g}, where levels of a share end at {:g}", level,
-                                      level > spec.most() ? spec.most() : spec.least()),
+                                      level > share.most ? share.most : share.least),
                           spec.logarithmic
                               ? "The share is 10^level, at most 1: raise the perturbation instead."
                               : "The level is the perturbation's share: raise that instead.");
@@ -42,14 +72,42 @@ void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
     if (spec.staircase) {
         within("start", spec.staircase->start);
-        within("lowest", spec.staircase->lowest.value_or(spec.least()));
-        within("highest", spec.staircase->highest.value_or(spec.most()));
+        within("lowest", spec.staircase->lowest.value_or(share.least));
+        within("highest", spec.staircase->highest.value_or(share.most));
+    }
+    if (spec.quest) {
+        within("lowest", spec.quest->lowest.value_or(share.least));
+        within("highest", spec.quest->highest.value_or(share.most));
+    }
+    if (spec.constant) {
+        for (const double level : spec.constant->levels) within("levels", level);
+    }
+}
+
+/// Reports what the spec of a number of its own lacks, or what belongs to one.
+void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
+    if (spec.level.empty()) {
+        if (spec.perturb.empty())
+            diagnostics.error(spec.place, "perturb", "what the procedure chooses is missing",
+                              "Name a perturbation, whose share it then chooses, or a number that "
+                              "formulas may name, e.g. level: mass_g.");
+        if (spec.standard)
+            diagnostics.error(spec.place, "standard", "belongs to level, and this chooses a share",
+                              "Leave it out: without the procedure the share is 0.");
+        return;
+    }
+    const Range range = given_range(spec);
+    for (const auto& [key, given] : {std::pair{"lowest", range.least}, {"highest", range.most}}) {
+        if (std::isfinite(given)) continue;
+        diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
+                          fmt::format("how far {} may go is missing", spec.level),
+                          "Give lowest and highest, so that check can look at the trials there.");
     }
 }
 
 /// Warns of levels with which the experiment runs but its answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
-    const double lowest = lowest_level(spec);
+    const double lowest = spec.least();
     if (model::takes(spec.sigmoid, lowest)) return;
     diagnostics.warning(
         spec.place, fmt::format("{}.sigmoid", spec.name),
@@ -58,12 +116,26 @@ void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
                     lowest),
         spec.logarithmic ? "Take sigmoid: weibull_log10, which is the same of logarithms."
         : spec.staircase ? "Give the staircase a 'lowest' above 0, or take another sigmoid."
+        : spec.constant  ? "Leave out levels that are not above 0, or take another sigmoid."
                          : "Let the levels begin above 0, or take another sigmoid.");
 }
 
 }  // namespace
 
-Procedure make_procedure(const ProcedureSpec& spec) {
+double ProcedureSpec::least() const {
+    return std::max(given_range(*this).least, share_range(*this).least);
+}
+double ProcedureSpec::most() const {
+    return std::min(given_range(*this).most, share_range(*this).most);
+}
+double ProcedureSpec::share(double at) const {
+    return logarithmic ? std::pow(10, at) : at;
+}
+const char* ProcedureSpec::kind() const {
+    return staircase ? "staircase" : quest ? "quest" : quest_plus ? "quest_plus" : "constant";
+}
+
+Procedure make_procedure(const ProcedureSpec& spec, uint64_t seed) {
     if (spec.staircase) {
         const StaircaseSpec& s = *spec.staircase;
         StaircaseSettings settings;
@@ -71,8 +143,8 @@ Procedure make_procedure(const ProcedureSpec& spec) {
         settings.start = s.start;
         settings.steps_up = s.steps_up;
         settings.down_over_up = s.down_over_up;
-        settings.lowest = s.lowest.value_or(spec.least());
-        settings.highest = s.highest.value_or(spec.most());
+        settings.lowest = spec.least();
+        settings.highest = spec.most();
         settings.reversals = s.reversals;
         settings.skipped_reversals = s.skipped_reversals;
         settings.trials = spec.trials;
@@ -83,22 +155,33 @@ Procedure make_procedure(const ProcedureSpec& spec) {
         return {Quest({s.prior_mean, s.prior_sd, s.target, s.slope, spec.guess, s.blind, s.grain,
                        s.cells, spec.trials})};
     }
+    if (spec.constant) {
+        Random random(seed, "levels of " + spec.name);
+        return {Constant(spec.constant->levels, spec.trials, random)};
+    }
     const QuestPlusSpec& s = spec.quest_plus.value();
     return {QuestPlus({spec.sigmoid, s.levels.values(), s.thresholds.values(), s.shapes.values(),
                        s.lapses.values(), spec.guess, spec.guess_is_lapse, spec.trials})};
 }
 
 void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
-    const int kinds =
-        spec.staircase.has_value() + spec.quest.has_value() + spec.quest_plus.has_value();
+    const int kinds = spec.staircase.has_value() + spec.quest.has_value() +
+                      spec.quest_plus.has_value() + spec.constant.has_value();
     if (kinds != 1) {
         diagnostics.error(
             spec.place, spec.name,
             kinds == 0 ? "has no way to choose levels" : "has more than one way to choose levels",
-            "Give it one of staircase, quest and quest_plus.");
+            "Give it one of staircase, quest, quest_plus and constant.");
         return;
     }
-    if (spec.yes == spec.no)
+    check_number(spec, diagnostics);
+    for (const auto& [key, outcome] : {std::pair{"yes", &spec.yes}, {"no", &spec.no}}) {
+        if (outcome->empty())
+            diagnostics.error(spec.place, key, "is missing",
+                              "Name the outcome, or give states an interval, 1 or 2, and exits "
+                              "what they choose.");
+    }
+    if (spec.yes == spec.no && !spec.yes.empty())
         diagnostics.error(spec.place, "no", "is the same outcome as yes", "Name two outcomes.");
     if (const size_t cells = grid_cells(spec); cells > kLargestGrid) {
         diagnostics.error(
@@ -113,7 +196,7 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
                           "Add logarithmic: yes.");
     warn_of_levels(spec, diagnostics);
     try {
-        make_procedure(spec);
+        make_procedure(spec, 0);
     } catch (const Error& e) {
         for (Problem problem : e.problems()) {
             problem.place = spec.place;

@@ -29,11 +29,13 @@ struct Profile {
     template <class Visitor>
     void visit(Visitor& v) {
         const Field time = Field::of(Quantity::time).within(0, 3600);
-        v("delay", delay, time);
-        v("rise", rise, time);
-        v("plateau", plateau, time);
-        v("fall", fall, time);
-        v("shape", shape);
+        v("delay", delay,
+          time.says("How long it waits, from when the first of its states is entered."));
+        v("rise", rise, time.says("How long the share rises."));
+        v("plateau", plateau,
+          time.says("How long it stays; left out, as long as its states last."));
+        v("fall", fall, time.says("How long it falls after that."));
+        v("shape", shape, says("How it rises and falls."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 

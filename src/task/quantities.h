@@ -30,11 +30,8 @@
 namespace dihaptic::task {
 
 /// What a quantity's value follows from. Up to `region` it changes with the trial alone, as the
-/// list of trials has it.
-enum class Kind { draw, factor, region, variable, figure, tick };
-constexpr bool is_frozen(Kind kind) {
-    return kind <= Kind::region;
-}
+/// list of trials has it; a level lies in a range that is known before the session.
+enum class Kind { draw, factor, region, level, variable, figure, tick };
 
 /// Where the values of a name are.
 struct Symbol {

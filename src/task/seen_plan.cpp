@@ -71,7 +71,7 @@ int SeenPlanner::text(const std::string& text, const Place& place, const char* k
                                "Write e.g. {trial_num} or {countdown:.1f}; for a brace, {{ or }}.");
             continue;
         }
-        if (const auto found = number(given.name, place, key)) numbers.push_back(*found);
+        if (const auto named = number(given.name, place, key)) numbers.push_back(*named);
     }
     if (numbers.size() > kMostInText)
         diagnostics_.error(
@@ -125,10 +125,12 @@ void SeenPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
                                       [](const Exit& exit) { return exit.when == When::time; });
         if (!ends)
             diagnostics_.error(state.place, "countdown", "no exit by time ends this state",
-                               "Add e.g. - { when: time, hold_s: 5, outcome: too late }.");
+                               "Add e.g. - { when: time, after_s: 5, outcome: too late }.");
         out.lines.push_back(text(kCountdown, state.place, "countdown"));
     }
-    for (const int line : lines(state.lines, state.place)) out.lines.push_back(line);
+    std::vector<std::string> texts = state.lines;
+    if (state.ask) texts.push_back(line_of(*state.ask));
+    for (const int line : lines(texts, state.place)) out.lines.push_back(line);
 }
 
 void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::Stage& out) {

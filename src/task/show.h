@@ -27,11 +27,14 @@ struct Show {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("targets", targets);
-        v("cursor", cursor);
-        v("object", object);
-        v("bodies", bodies);
-        v("fingers", fingers);
+        v("targets", targets, says("Regions that are shown."));
+        v("cursor", cursor,
+          says("Whether the fingers' proxies are shown, or shown where they were as "
+               "the state began."));
+        v("object", object, says("Whether the scene's object is shown."));
+        v("bodies", bodies, says("Single bodies by name, each shown or not."));
+        v("fingers", fingers,
+          says("Single fingers by name, each shown or not, in place of what cursor says."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
     /// As visit(), for the one key of a struct that has it.
@@ -43,7 +46,8 @@ struct Show {
         if (is_list) {
             v("show", targets);
         } else {
-            v("show", *this);
+            v("show", *this,
+              says("What is shown while the state lasts, or the list of targets alone."));
         }
     }
 };
@@ -59,11 +63,11 @@ struct LookSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("body", body);
-        v("finger", finger);
-        v("target", target);
-        v("colour", colour);
-        v("scale", scale, Field::number().within(0.05, 20));
+        v("body", body, says("Body that looks so."));
+        v("finger", finger, says("Finger whose proxy looks so."));
+        v("target", target, says("Region that looks so."));
+        v("colour", colour, says("Its colour, as \"#rrggbb\"."));
+        v("scale", scale, Field::number().within(0.05, 20).says("Factor on its displayed size."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -78,10 +82,13 @@ struct PageSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("text", text);
-        v("picture", picture);
-        v("key", key);
-        v("for", lasts, Field::of(Quantity::time).within(0, 3600));
+        v("text", text, says("Text of the page, in Markdown; numbers stand in braces."));
+        v("picture", picture, says("PNG file, relative to this file."));
+        v("key", key, says("Letter or digit that turns the page; left out, any."));
+        v("for", lasts,
+          Field::of(Quantity::time)
+              .within(0, 3600)
+              .says("Longest time for which the page is shown; 0 is until the key."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -12,6 +12,7 @@
 #include "task/measures.h"
 #include "task/perturbation.h"
 #include "task/procedure_spec.h"
+#include "task/rating.h"
 #include "task/show.h"
 
 namespace dihaptic::task {
@@ -28,6 +29,7 @@ enum class When {
     key,         ///< the operator pressed a key
     button,      ///< a button of a finger's device is held
     trigger,     ///< a code came in from outside, on one of the rig's outlets
+    answered,    ///< the number that the state asks for was typed
     time,        ///< the state's time is over
     expression,  ///< what the text says (expression.h)
 };
@@ -48,7 +50,8 @@ struct WhenRow {
         code = 256,
         comes = 512,
         what = 1024,
-        count = 2048
+        count = 2048,
+        after = 4096
     };
     const char* name;
     unsigned has;  ///< besides the fields of all
@@ -64,7 +67,8 @@ constexpr WhenRow kWhenTable[] = {
     {"key", WhenRow::key | WhenRow::comes | WhenRow::count},
     {"button", WhenRow::button | WhenRow::finger | WhenRow::comes | WhenRow::count},
     {"trigger", WhenRow::code | WhenRow::comes | WhenRow::count},
-    {"time", WhenRow::comes},
+    {"answered", WhenRow::comes},
+    {"time", WhenRow::comes | WhenRow::after},
     {"", WhenRow::count},
 };
 static_assert(std::size(kWhenTable) == static_cast<size_t>(When::expression) + 1);
@@ -99,6 +103,7 @@ struct Exit {
     int code = 0;           ///< trigger; 0: any
     std::string to;         ///< state
     std::string outcome;    ///< ends the trial with this outcome
+    int chooses = 0;        ///< ends the trial with the answer that this interval has more
     bool redo = false;      ///< the trial is to be done again
     std::string feedback;   ///< shown for Task::feedback at least, then until the next message
     Place place;
@@ -120,7 +125,9 @@ struct Exit {
     template <class Visitor>
     void visit(Visitor& v) {
         std::string text = given();
-        v("when", text, Field::text().required());
+        v("when", text,
+          Field::text().required().says(
+              "What ends the state: one of the conditions' words, or an expression."));
         set_given(text);
         const auto of = [&](unsigned any, const char* name, auto& value, Field field = {}) {
             if (has(any)) {
@@ -129,40 +136,75 @@ struct Exit {
                 v.foreign(name, field, conditions_with(text, any));
             }
         };
-        of(WhenRow::region, "region", region);
-        of(WhenRow::region, "shown", shown);
-        of(WhenRow::body, "body", body);
-        of(WhenRow::what, "what", what);
-        of(WhenRow::finger | WhenRow::any_finger, "finger", finger);
-        of(WhenRow::height, "height", height, Field::length().within(1e-4, 10));
-        of(WhenRow::speed, "speed", speed, Field::of(Quantity::speed).positive().at_most(100));
-        of(WhenRow::count, "count", count, Field::number().within(1, 10000));
-        v("hold", hold, Field::of(Quantity::time).within(0, 3600));
-        of(WhenRow::key, "key", key);
-        of(WhenRow::button, "button", button, Field::number().within(0, 31));
-        of(WhenRow::code, "code", code, Field::number().within(0, 255));
-        v("to", to);
-        v("outcome", outcome);
-        v("redo", redo);
-        v("feedback", feedback);
+        of(WhenRow::region, "region", region, says("Region that the thing is to be in, or not."));
+        of(WhenRow::region, "shown", shown,
+           says("Whether the hand counts where it is displayed, in place of where it is."));
+        of(WhenRow::body, "body", body, says("Body that is touched, released, gripped or lifted."));
+        of(WhenRow::what, "what", what,
+           says("Body, finger or hand that the condition is about, in place of a finger."));
+        of(WhenRow::finger | WhenRow::any_finger, "finger", finger,
+           says("Finger or hand that the condition is about; left out, it is any of "
+                "them, all or their middle, and of a button the scene's first."));
+        of(WhenRow::height, "height", height,
+           Field::length().within(1e-4, 10).says(
+               "How far the body has to be above where it begins the trial."));
+        of(WhenRow::speed, "speed", speed,
+           Field::of(Quantity::speed)
+               .positive()
+               .at_most(100)
+               .says("Speed below which a thing is still."));
+        of(WhenRow::count, "count", count,
+           Field::number().within(1, 10000).says(
+               "How often the condition has to be met in the state."));
+        constexpr Field kTime = Field::of(Quantity::time).within(0, 3600);
+        of(WhenRow::after, "after", hold, kTime.formerly("hold").says("How long the state lasts."));
+        if (!has(WhenRow::after))
+            v("hold", hold, kTime.says("How long the condition has to hold without a break."));
+        of(WhenRow::key, "key", key, says("Letter or digit that the operator presses."));
+        of(WhenRow::button, "button", button,
+           Field::number().within(0, 31).says("Button of the finger's device, counted from 0."));
+        of(WhenRow::code, "code", code,
+           Field::number().within(0, 255).says(
+               "Code that comes in on one of the rig's outlets; 0 is any."));
+        v("to", to, says("State that follows."));
+        v("outcome", outcome, says("Ends the trial, with this outcome."));
+        v("chooses", chooses,
+          Field::number().within(0, 2).says(
+              "Interval that the exit says the participant chose, of two alternatives."));
+        v("redo", redo, says("Whether the trial is to be done again."));
+        v("feedback", feedback,
+          says("Text that is shown then, for feedback_s at least; numbers stand in braces."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
 /// A step of the simulated hand in a state: as in a script, or to a region.
 struct HandStep {
-    double duration = 0;             ///< [s]
-    std::string reach;               ///< region that the hand's centre goes to
-    Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
-    std::optional<double> aperture;  ///< aperture at the end [m]
+    double duration = 0;               ///< [s]
+    std::string reach;                 ///< region that the hand's centre goes to
+    Vec3 move = Vec3::Zero();          ///< displacement of the hand's centre [m]
+    std::optional<double> aperture;    ///< aperture at the end [m]
+    std::vector<std::string> fingers;  ///< only these move; empty: all
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("duration", duration, Field::of(Quantity::time).positive().at_most(3600).required());
-        v("reach", reach);
-        v("move", move, Field::length().within(-hand::kFarthest, hand::kFarthest));
-        v("aperture", aperture, Field::length().within(0, hand::kFarthest));
+        v("duration", duration,
+          Field::of(Quantity::time)
+              .positive()
+              .at_most(3600)
+              .required()
+              .says("How long the step lasts."));
+        v("reach", reach, says("Region that the middle of the hand goes to."));
+        v("move", move,
+          Field::length()
+              .within(-hand::kFarthest, hand::kFarthest)
+              .says("How far the middle of the hand goes, from that region if one is named."));
+        v("aperture", aperture,
+          Field::length()
+              .within(0, hand::kFarthest)
+              .says("Distance between the fingers at the step's end."));
+        v("fingers", fingers, says("Fingers that move; left out: all."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -177,10 +219,14 @@ struct StatePlace {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("body", body, Field::text().required());
-        v("position", position, Field::length().within(-100, 100));
-        v("held", held);
-        v("removed", removed);
+        v("body", body,
+          Field::text().required().says("Body that is put somewhere as the state begins."));
+        v("position", position,
+          Field::length().within(-100, 100).says(
+              "Where its origin is put; left out, it stays where it is."));
+        v("held", held, says("Whether the body is kept there while the state lasts."));
+        v("removed", removed,
+          says("Whether the body is out of reach and sight while the state lasts."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -190,9 +236,11 @@ struct State {
     Show show;
     std::vector<LookSpec> look;
     bool perturbed = true;  ///< the trial's perturbations act
+    int interval = 0;       ///< of two, 1 or 2, that it belongs to; 0: none
     std::string message;
     std::vector<std::string> lines;  ///< texts below the message, while the state lasts
     bool countdown = false;          ///< a line says for how many seconds the state may last still
+    std::optional<AskSpec> ask;      ///< a number that is asked for
     int marker = 0;                  ///< event code on entering; 0: none
     std::vector<StatePlace> places;
     std::vector<Exit> exits;     ///< the first whose condition holds is taken
@@ -201,17 +249,29 @@ struct State {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
+        v("name", name,
+          Field::text().required().says("Name of the state, by which exits lead to it."));
         show.visit_in(v);
-        v("look", look);
-        v("perturbed", perturbed);
-        v("message", message);
-        v("lines", lines);
-        v("countdown", countdown);
-        v("marker", marker, Field::number().within(0, 255));
-        v("place", places);
-        v("exits", exits);
-        v("hand", hand);
+        v("look", look, says("Colours and sizes while the state lasts."));
+        v("perturbed", perturbed, says("Whether the trial's perturbations may act."));
+        v("interval", interval,
+          Field::number().within(0, 2).says(
+              "Interval of a two-interval trial that the state belongs to; 0 is none."));
+        v("message", message,
+          says("Text that is shown from the state's beginning until the next "
+               "message; numbers stand in braces."));
+        v("lines", lines, says("Texts below the message while the state lasts, two at most."));
+        v("countdown", countdown,
+          says("Whether a line says how many seconds are left of the state's exit by time."));
+        v("ask", ask, says("A number that the participant is asked for while the state lasts."));
+        v("marker", marker,
+          Field::number().within(0, 255).says(
+              "Event code that is sent as the state begins; 0 is none."));
+        v("place", places, says("Bodies that are put somewhere as the state begins."));
+        v("exits", exits, says("Ways out of the state; the first whose condition is met counts."));
+        v("simulated_hand", hand,
+          Field{}.formerly("hand").says(
+              "Steps that the state asks of a simulated hand or person."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -224,8 +284,11 @@ struct BodyPlace {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("body", body, Field::text().required());
-        v("position", position, Field::length().within(-100, 100).required());
+        v("body", body,
+          Field::text().required().says(
+              "Body that begins the trial elsewhere than the scene has it."));
+        v("position", position,
+          Field::length().within(-100, 100).required().says("Where its origin is then."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -238,8 +301,11 @@ struct Factor {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("factor", factor, Field::text().required());
-        v("levels", levels, Field::text().required());
+        v("factor", factor,
+          Field::text().required().says(
+              "Name of the factor, which may end in the unit of its levels."));
+        v("levels", levels,
+          Field::text().required().says("Its levels, all of them numbers or all of them texts."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -248,7 +314,8 @@ struct Factor {
 /// begin, and how things look.
 struct Condition {
     std::string name;
-    Node factors;  ///< its level of each factor
+    Node factors;        ///< its level of each factor
+    std::string object;  ///< body whose lifts are measured; empty: the scene's object
     std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
@@ -257,12 +324,17 @@ struct Condition {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("factors", factors);
-        v("places", places);
-        v("regions", regions);
-        v("perturbations", perturbations);
-        v("look", look);
+        v("name", name,
+          Field::text().required().says(
+              "Name of the condition; with cross, of the one that this is added to."));
+        v("factors", factors,
+          says("A level of each factor, by the factor's name; cross gives them by itself."));
+        v("object", object, says("Body whose lifts are measured; left out, the scene's object."));
+        v("places", places, says("Bodies that begin the trial elsewhere."));
+        v("regions", regions, says("Regions in place of those of the same name."));
+        v("perturbations", perturbations,
+          says("Perturbations in place of those of the same name."));
+        v("look", look, says("Colours and sizes in these trials."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -304,10 +376,13 @@ struct Insert {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind);
-        v("count", count, Field::number().within(1, 10000).required());
-        v("gap", gap, Field::number().within(1, 10000));
-        v("perturb", perturb);
+        v("kind", kind, says("What the trials are for the analysis."));
+        v("count", count,
+          Field::number().within(1, 10000).required().says("How many trials are inserted."));
+        v("gap", gap,
+          Field::number().within(1, 10000).says(
+              "Least number of other trials between two of them."));
+        v("perturb", perturb, says("Perturbations of these trials; left out, there are none."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -329,18 +404,31 @@ struct Block {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("kind", kind);
-        v("conditions", conditions);
-        v("repeats", repeats, Field::number().within(1, 10000));
-        v("order", order);
-        v("perturb", perturb);
-        v("ramp", ramp, Field::number().within(0, 100000));
-        v("procedures", procedures);
-        v("insert", insert);
-        v("until", until);
-        v("rest", rest, Field::of(Quantity::time).within(0, 3600));
-        v("pages", pages);
+        v("name", name, Field::text().required().says("Name of the block."));
+        v("kind", kind, says("What its trials are for the analysis."));
+        v("conditions", conditions, says("Conditions that the block has; left out, all."));
+        v("repeats", repeats,
+          Field::number().within(1, 10000).says("How often each of the conditions is done."));
+        v("order", order, says("Order of the conditions, made anew in each repeat."));
+        v("perturb", perturb,
+          says("Perturbations that act together in its trials, eight at most; left "
+               "out, there are none."));
+        v("ramp", ramp,
+          Field::number().within(0, 100000).says(
+              "Number of trials in which the perturbations' share rises to 1; 0 is at once."));
+        v("procedures", procedures,
+          says("Procedures whose trials, mixed, the block consists of, in place of "
+               "conditions and repeats."));
+        v("insert", insert,
+          says("Further trials of another kind, at random places but not first."));
+        v("until", until,
+          says("Condition on variables after which the block's other trials are left out."));
+        v("rest", rest,
+          Field::of(Quantity::time)
+              .within(0, 3600)
+              .says("Break before the block, unless it is the session's first."));
+        v("pages", pages,
+          says("Pages in place of the scene before the block, one after the other."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -374,13 +462,20 @@ struct ReachMeasure {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("measure", measure);
-        v("finger", finger);
-        v("from", from, Field::text().required());
-        v("to", to, Field::text().required());
-        v("during", during, Field::text().required());
-        v("distance", distance, Field::length().within(1e-4, 10));
-        v("axis", axis, Field::number().within(-1000, 1000));
+        v("measure", measure,
+          says("Whether the reach's direction is measured or how far its first stroke goes."));
+        v("finger", finger, says("Finger that reaches; left out, the scene's first."));
+        v("from", from, Field::text().required().says("Region that the reach begins in."));
+        v("to", to, Field::text().required().says("Region that it goes to."));
+        v("during", during, Field::text().required().says("State in which it is measured."));
+        v("distance", distance,
+          Field::length().within(1e-4, 10).says(
+              "Distance from the start at which the angle is taken."));
+        v("axis", axis,
+          Field::number()
+              .within(-1000, 1000)
+              .says("Axis about which angles count, right-handed; left out, that of the first "
+                    "perturbation that has one, or z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -393,8 +488,9 @@ struct Hand {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("fingers", fingers, Field::text().required());
+        v("name", name,
+          Field::text().required().says("Name by which conditions take these fingers together."));
+        v("fingers", fingers, Field::text().required().says("Fingers of the hand."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -407,8 +503,11 @@ struct Variable {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("start", start, Field::number().within(-1e9, 1e9));
+        v("name", name,
+          Field::text().required().says("Name of the variable, which may end in its unit."));
+        v("start", start,
+          Field::number().within(-1e9, 1e9).says(
+              "Its value at the session's start, in that unit."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -422,9 +521,9 @@ struct Rule {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("when", when);
-        v("set", set, Field::text().required());
-        v("to", to, Field::text().required());
+        v("when", when, says("Condition on the ended trial; left out, the rule always holds."));
+        v("set", set, Field::text().required().says("Variable that is set."));
+        v("to", to, Field::text().required().says("Expression of its new value."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -453,32 +552,51 @@ struct Task {
     std::vector<std::string> lines;  ///< texts below the message, throughout
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names of kMeasureTable
-    std::optional<Movement> movement;   ///< that they are taken of
+    std::vector<OwnMeasure> own_measures;
+    std::optional<Movement> movement;  ///< that `measures` are taken of
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("hands", hands);
-        v("draws", draws);
-        v("variables", variables);
-        v("after_trial", after_trial);
-        v("cross", cross);
-        v("regions", regions);
-        v("perturbations", perturbations);
-        v("states", states, Field::text().required());
-        v("conditions", conditions);
-        v("rounds", rounds);
-        v("round_order", round_order);
-        v("procedures", procedures);
-        v("blocks", blocks, Field::text().required());
-        v("redo", redo);
-        v("most_attempts", most_attempts, Field::number().within(1, 100));
-        v("feedback", feedback, Field::of(Quantity::time).within(0, 60));
-        v("feedback_beside", feedback_beside);
-        v("lines", lines);
-        v("reach", reach);
-        v("measures", measures);
-        v("movement", movement);
+        v("hands", hands, says("Groups of fingers that conditions can name."));
+        v("draws", draws, says("Numbers and texts that are drawn for each trial."));
+        v("variables", variables, says("Numbers that rules change between trials."));
+        v("after_trial", after_trial,
+          says("Rules that set variables when a trial ends, in their order."));
+        v("cross", cross, says("Factors whose levels, crossed, make the conditions."));
+        v("regions", regions,
+          says("Named spheres, 16 at most, where hands have to be and which can be shown."));
+        v("perturbations", perturbations,
+          says("Named changes of what is shown, felt or pushed, which blocks and inserts choose."));
+        v("states", states,
+          Field::text().required().says("States that each trial runs through, from the first on."));
+        v("conditions", conditions,
+          says("How trials differ; left out, there is one condition without a name."));
+        v("rounds", rounds, says("Conditions as well: the blocks are done once for each."));
+        v("round_order", round_order, says("Order of the rounds."));
+        v("procedures", procedures,
+          says("Adaptive procedures, which choose the share of a perturbation by the "
+               "answers so far."));
+        v("blocks", blocks, Field::text().required().says("Blocks of trials, in their order."));
+        v("redo", redo, says("When a trial that is to be done again is done."));
+        v("most_attempts", most_attempts,
+          Field::number().within(1, 100).says("Largest number of attempts at one trial."));
+        v("feedback", feedback,
+          Field::of(Quantity::time)
+              .within(0, 60)
+              .says("How long feedback is shown before the next message or trial."));
+        v("feedback_beside", feedback_beside,
+          says("Whether feedback is a line below the message for that time, and "
+               "holds no message back."));
+        v("lines", lines, says("Texts below the message throughout the session, two at most."));
+        v("reach", reach, says("What is measured of a reach, once in each trial."));
+        v("measures", measures,
+          says("Names of the [measures of behaviour](measures-of-behaviour.md) that "
+               "are reported for each attempt."));
+        v("own_measures", own_measures,
+          says("Expressions of one's own, reported of each attempt."));
+        v("movement", movement,
+          says("Movement that the measures are taken of; what it leaves out is taken from reach."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -53,7 +53,7 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
       displayer_(plan, seed, tick),
       opening_(plan) {
     for (const ProcedureSpec& spec : plan.task.procedures)
-        procedures_.push_back(make_procedure(spec));
+        procedures_.push_back(make_procedure(spec, seed));
     skip_done();
     for (const Attempt& attempt : done) {
         for (size_t i = 0; i < attempt.variables.size(); ++i)
@@ -82,13 +82,13 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
     displayer_.see(last);
     // texts name quantities between trials too
     numbers_.quantities().update(last, handles);
-    direct(last, now, commands);
+    direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
     say(now, commands.task);
 }
 
-void TaskDirector::direct(const servo::Frame& last, double now,
-                          servo::Commands& commands) noexcept {
+void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Handle> handles,
+                          double now, servo::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
     // taken in every tick, so that input between trials counts for no trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
@@ -101,6 +101,7 @@ void TaskDirector::direct(const servo::Frame& last, double now,
         finish(plan_.skipped, false, now, commands);
         return;
     }
+    ask(handles, input.key);
     if (state_ < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
@@ -110,7 +111,7 @@ void TaskDirector::direct(const servo::Frame& last, double now,
             feedback_until_ = now + plan_.task.feedback - tick_ / 2;
         }
         if (way->state < 0) {
-            finish(way->outcome, way->exit.redo, now, commands);
+            finish(plan_.outcome_of(*way, trial()), way->exit.redo, now, commands);
             return;
         }
         enter(way->state, now, commands);
@@ -123,7 +124,7 @@ void TaskDirector::begin(const servo::Frame& last, char key, double now,
                          servo::Commands& commands) noexcept {
     if (now < feedback_until_) return;  // the feedback is still being read
     if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
-    if (!std::exchange(begun_, true)) numbers_.begin(queue_.trial(), queue_.attempt(), variables_);
+    if (!begun_) resolve();
     if (!clear(last)) {
         message_ = plan_.move_away;
         return;
@@ -174,6 +175,7 @@ void TaskDirector::put(int body, const Pose& X_WB, servo::Commands& commands) no
 
 void TaskDirector::enter(int state, double now, servo::Commands& commands) noexcept {
     if (state_ < 0) trial_began_ = now;
+    numbers_.follow(queue_.trial() + 1, queue_.attempt(), variables_, state);
     const TaskPlan::Cell& cell = numbers_.cell();
     for (const int i : trial().perturb) {
         if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
@@ -181,6 +183,7 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
     displayer_.enter(plan_.stages[static_cast<size_t>(state)], cell, state_ < 0);
     state_ = state;
     entered_ = now;
+    rating_.begin();
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
     const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
@@ -228,6 +231,8 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
         case When::trigger:
             return input.trigger == kAnyTrigger ||
                    (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
+        case When::answered:
+            return !std::isnan(rating_.answer());
         default:
             return way.condition(numbers_.values()) != 0;
     }
@@ -289,8 +294,12 @@ void TaskDirector::say(double now, servo::TaskFrame& out) const noexcept {
 void TaskDirector::say(int message, double now, servo::TaskFrame& out) const noexcept {
     if (message < 0) return;
     for (const TextNumber& number : plan_.numbers[static_cast<size_t>(message)]) {
-        add(out.numbers, {number.quantity.empty() ? value_of(number.figure, now)
-                                                  : number.quantity(numbers_.values())});
+        if (!number.quantity.empty()) {
+            add(out.numbers, {number.quantity(numbers_.values())});
+        } else {
+            add(out.numbers,
+                {number.figure == Figure::answer ? rating_.shown() : value_of(number.figure, now)});
+        }
     }
 }
 
@@ -317,8 +326,9 @@ double TaskDirector::value_of(Figure figure, double now) const noexcept {
             return ended ? last_attempt_ : queue_.attempt();
         case Figure::countdown:
             return countdown(now);
+        default:
+            return kUnmeasured;
     }
-    return kUnmeasured;
 }
 
 /// Half a tick of tolerance, because times are sums of ticks, which round.
@@ -346,7 +356,7 @@ bool TaskDirector::is_done() noexcept {
 
 void TaskDirector::follow_rules(int outcome) noexcept {
     // a trial that is skipped before it began has its numbers all the same
-    if (!std::exchange(begun_, true)) numbers_.begin(queue_.trial(), queue_.attempt(), variables_);
+    if (!begun_) resolve();
     Quantities& quantities = numbers_.quantities();
     quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
     for (const TaskPlan::Change& change : plan_.changes) {
@@ -358,7 +368,38 @@ void TaskDirector::follow_rules(int outcome) noexcept {
     }
 }
 
-/// The level that the trial's procedure chose, within the range of the shares.
+void TaskDirector::ask(std::span<const haptics::Handle> handles, char key) noexcept {
+    if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
+    const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
+    if (question.by_key) {
+        rating_.press(key, question);
+    } else {
+        Vec3 middle_W = Vec3::Zero();
+        for (const haptics::Handle& handle : handles)
+            middle_W += handle.p_WH / static_cast<double>(handles.size());
+        const auto& p_W = numbers_.cell().p_W;
+        rating_.point(middle_W, p_W[static_cast<size_t>(question.from)],
+                      p_W[static_cast<size_t>(question.to)], question);
+    }
+    const double answer = question.si * rating_.answer();
+    variables_[question.variable].value = answer;
+    numbers_.quantities().set(plan_.symbols.variables[question.variable].slot, answer);
+}
+
+void TaskDirector::resolve() noexcept {
+    begun_ = true;
+    for (size_t i = plan_.task.variables.size() + plan_.levels.size(); i < variables_.size(); ++i)
+        variables_[i].value = kUnmeasured;
+    for (const TaskPlan::Level& level : plan_.levels)
+        variables_[level.variable].value = level.standard;
+    if (const TaskPlan::Level* const chosen = plan_.level_of(trial())) {
+        const auto i = static_cast<size_t>(trial().procedure);
+        variables_[chosen->variable].value = chosen->si * plan_.task.procedures[i].share(level());
+    }
+    numbers_.begin(queue_.trial(), queue_.attempt(), variables_, 0);
+}
+
+/// The level that the trial's procedure chose, within its range.
 double TaskDirector::level() const noexcept {
     const auto i = static_cast<size_t>(trial().procedure);
     const ProcedureSpec& spec = plan_.task.procedures[i];
@@ -366,7 +407,8 @@ double TaskDirector::level() const noexcept {
 }
 
 double TaskDirector::share_of_trial() const noexcept {
-    if (trial().procedure < 0) return trial().share;
+    if (trial().procedure < 0 || plan_.level_of(trial()) != nullptr) return trial().share;
+    if (plan_.shows_standard(trial(), state_)) return 0;
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
@@ -419,7 +461,9 @@ void TaskDirector::order(double now, servo::Commands& commands) const noexcept {
         const double part = cell.perturbations[i].share_at(now - began_[i]);
         if (part == 0) continue;  // its profile has not begun, or is over
         // the trial's share: what the profile makes of it shows in what is ordered
-        out.share = share_of_trial();
+        const double share = share_of_trial();
+        if (share == 0 && plan_.shows_standard(trial(), state_)) continue;
+        out.share = share;
         cell.perturbations[i].order(part * out.share, cell.p_W, motions_, out);
     }
 }

@@ -62,9 +62,12 @@ class TaskDirector {
     void order_end(double now, servo::Commands& commands) const noexcept;
     void order(double now, servo::Commands& commands) const noexcept;
     void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
+    /// Takes what was typed, or where the hands are, as the answer that the state asks for.
+    void ask(std::span<const haptics::Handle> handles, char key) noexcept;
 
     /// As operator(), but for how things look and what texts say.
-    void direct(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
+    void direct(const servo::Frame& last, std::span<const haptics::Handle> handles, double now,
+                servo::Commands& commands) noexcept;
     /// Orders the texts, once the message is ordered, or the page in their place.
     void say(double now, servo::TaskFrame& out) const noexcept;
     void say(int message, double now, servo::TaskFrame& out) const noexcept;
@@ -78,6 +81,8 @@ class TaskDirector {
     bool is_done() noexcept;
     /// Changes the variables by the rules for the trial that ends.
     void follow_rules(int outcome) noexcept;
+    /// Chooses the numbers of the trial that begins, and resolves its formulas.
+    void resolve() noexcept;
     double level() const noexcept;
     double share_of_trial() const noexcept;
     void take_answer(int outcome) noexcept;
@@ -110,6 +115,7 @@ class TaskDirector {
     Motions motions_;
     // by perturbation: when a state in which it acts was entered from one in which it does not [s]
     std::vector<double> began_;
+    Rating rating_;
     Displayer displayer_;
     Opening opening_;
     std::atomic<char> key_{0};

@@ -9,16 +9,10 @@ namespace dihaptic::task {
 
 TaskHand::TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
                    const std::vector<std::string>& fingers)
-    : plan_(std::move(plan)),
-      numbers_(*plan_),
-      places_(hand::finger_places(spec, fingers)),
-      start_{spec.centre, spec.aperture} {
-    for (const hand::FingerPlace& place : places_) {
-        if (!place.centre && !place.aperture) continue;
-        throw Error(place.place, place.centre ? "centre" : "aperture",
-                    "a task moves one hand: its fingers have no centre or aperture of their own",
-                    "Leave it out, and use offset.");
-    }
+    : plan_(std::move(plan)), numbers_(*plan_), places_(hand::finger_places(spec, fingers)) {
+    for (const hand::FingerPlace& place : places_)
+        start_.push_back(
+            {place.centre.value_or(spec.centre), place.aperture.value_or(spec.aperture)});
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     restart();
 }
@@ -32,28 +26,31 @@ void TaskHand::restart() {
     from_ = to_ = start_;
 }
 
-TaskHand::Posture TaskHand::posture(double t) const noexcept {
+TaskHand::Posture TaskHand::posture(size_t finger, double t) const noexcept {
     const double share = model::minimum_jerk((t - begun_) / duration_).share;
-    return {from_.centre + share * (to_.centre - from_.centre),
-            from_.aperture + share * (to_.aperture - from_.aperture)};
+    const Posture& from = from_[finger];
+    const Posture& to = to_[finger];
+    return {from.centre + share * (to.centre - from.centre),
+            from.aperture + share * (to.aperture - from.aperture)};
 }
 
 hand::FingerTarget TaskHand::do_target(int finger, double t) const noexcept {
-    const hand::FingerPlace& place = places_[static_cast<size_t>(finger)];
-    const Posture now = posture(t);
+    const auto i = static_cast<size_t>(finger);
+    const hand::FingerPlace& place = places_[i];
+    const Posture now = posture(i, t);
     const double s = (t - begun_) / duration_;
     const double rate = s >= 0 && s < 1 ? model::minimum_jerk(s).rate / duration_ : 0;
     hand::FingerTarget target;
     target.p_WT = now.centre + place.offset + now.aperture / 2 * place.side;
-    target.v_WT =
-        rate * (to_.centre - from_.centre + (to_.aperture - from_.aperture) / 2 * place.side);
+    target.v_WT = rate * (to_[i].centre - from_[i].centre +
+                          (to_[i].aperture - from_[i].aperture) / 2 * place.side);
     return target;
 }
 
 void TaskHand::do_see(const servo::Frame& frame) noexcept {
     const double now = seconds(frame.time);
     if (frame.phase != kBetween)
-        numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables);
+        numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
     // between trials the hand still ends the steps that it has begun
     const bool between = frame.phase == kBetween || frame.trial < 1;
     const bool entered = !between && (frame.trial != trial_ || frame.phase != phase_ ||
@@ -77,13 +74,15 @@ void TaskHand::do_see(const servo::Frame& frame) noexcept {
 
 void TaskHand::begin_step(double now) noexcept {
     const TaskPlan::Step& next = plan_->stages[static_cast<size_t>(phase_ - 1)].hand[step_];
-    from_ = posture(now);
+    for (size_t i = 0; i < places_.size(); ++i) {
+        to_[i] = from_[i] = posture(i, now);
+        if (!next.moves(i)) continue;
+        to_[i].aperture = next.step.aperture.value_or(from_[i].aperture);
+        if (next.reach >= 0) to_[i].centre = numbers_.cell().p_W[static_cast<size_t>(next.reach)];
+        to_[i].centre += next.step.move;
+    }
     begun_ = now;
     duration_ = next.step.duration;
-    to_.aperture = next.step.aperture.value_or(from_.aperture);
-    to_.centre =
-        next.reach < 0 ? from_.centre : numbers_.cell().p_W[static_cast<size_t>(next.reach)];
-    to_.centre += next.step.move;
 }
 
 }  // namespace dihaptic::task

@@ -1,5 +1,5 @@
-// The simulated hand that an experiment file describes for its task: on entering a state it begins
-// that state's steps from where it is, by minimum jerk as in a script.
+// The simulated hands that an experiment file describes for its task: on entering a state they
+// begin that state's steps from where they are, by minimum jerk as in a script.
 #pragma once
 
 #include <memory>
@@ -24,17 +24,17 @@ class TaskHand final : public SeeingDriver {
     void do_see(const servo::Frame& frame) noexcept override;
     void begin_step(double now) noexcept;
 
-    /// Where the hand is in its step.
+    /// Where a finger's hand is in its step.
     struct Posture {
         Vec3 centre = Vec3::Zero();
         double aperture = 0;
     };
-    Posture posture(double t) const noexcept;
+    Posture posture(size_t finger, double t) const noexcept;
 
     std::shared_ptr<const TaskPlan> plan_;
     TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
-    Posture start_;
+    std::vector<Posture> start_;  // by finger, as those below
     std::vector<Phase> phases_;
     int trial_ = 0;
     int attempt_ = 0;
@@ -42,8 +42,8 @@ class TaskHand final : public SeeingDriver {
     size_t step_ = 0;      // index among the state's steps
     double begun_ = 0;     // [s]
     double duration_ = 1;  // [s]
-    Posture from_;
-    Posture to_;
+    std::vector<Posture> from_;
+    std::vector<Posture> to_;
 };
 
 }  // namespace dihaptic::task

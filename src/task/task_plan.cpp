@@ -5,9 +5,12 @@
 #include <cmath>
 #include <set>
 
+#include "base/unmeasured.h"
 #include "task/clearance.h"
 #include "task/factors.h"
+#include "task/levels.h"
 #include "task/lookup.h"
+#include "task/own_measures.h"
 #include "task/plan_formulas.h"
 #include "task/reach_plan.h"
 #include "task/seen_plan.h"
@@ -76,13 +79,9 @@ std::string as_expression(const Exit& exit, const TaskPlan& plan) {
             return fmt::format("still({}, {})", who, as_expression(exit.speed, plan, "m_s"));
         case When::expression:
             return exit.condition;
-        case When::key:
-        case When::button:
-        case When::trigger:
-        case When::time:
-            break;
+        default:
+            return "";
     }
-    return "";
 }
 
 class Planner {
@@ -104,7 +103,9 @@ class Planner {
 
     TaskPlan plan() {
         cross_factors(plan_.task, diagnostics_);
+        complete_intervals(plan_.task, diagnostics_);
         check_lists();
+        plan_intervals();
         plan_formulas(plan_, diagnostics_);
         plan_.move_away = seen_.text(kMoveAway, plan_.task.place, "message");
         for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
@@ -115,9 +116,11 @@ class Planner {
         seen_.plan_task();
         for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
         for (const Block& block : plan_.task.blocks) check_block(block);
+        check_levels_named();
         check_reach();
         plan_rules(plan_, diagnostics_);
         check_measures(plan_, scene_, diagnostics_);
+        plan_own_measures(plan_, diagnostics_);
         for (const scene::Finger& finger : scene_.fingers)
             plan_.finger_radius.push_back(reach_of(finger));
         return std::move(plan_);
@@ -162,14 +165,22 @@ class Planner {
         }
     }
 
+    void plan_intervals() {
+        if (!has_intervals(plan_.task)) return;
+        plan_.comparison = look_up(names_of(plan_.task.draws), kComparisonInterval,
+                                   plan_.task.place, "draws", "no draw", diagnostics_);
+    }
+
+    void check_movable(const std::string& name, const Place& place, const char* key) {
+        const int body = look_up(bodies_, name, place, key, "no body", diagnostics_);
+        if (body >= 0 && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
+            error(place, key, fmt::format("'{}' cannot move", name), "Name a body that can.");
+    }
+
     void check_condition(const Condition& condition) {
-        for (const BodyPlace& place : condition.places) {
-            const int body =
-                look_up(bodies_, place.body, place.place, "body", "no body", diagnostics_);
-            if (body >= 0 && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
-                error(place.place, "body", fmt::format("'{}' cannot move", place.body),
-                      "Name a body that can.");
-        }
+        if (!condition.object.empty()) check_movable(condition.object, condition.place, "object");
+        for (const BodyPlace& place : condition.places)
+            check_movable(place.body, place.place, "body");
         for (const Region& region : condition.regions)
             look_up(regions_, region.name, region.place, "name", "no region of the task",
                     diagnostics_);
@@ -187,28 +198,72 @@ class Planner {
         out.message = seen_.text(state.message, state.place, "message");
         seen_.plan_state(state, out);
         out.marker = state.marker;
+        out.interval = state.interval;
+        if (state.ask) out.question = question(*state.ask);
+        check_answered(state);
         for (const StatePlace& place : state.places) add_put(place, out.puts);
         for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
         for (const HandStep& step : state.hand) {
             const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
             out.hand.push_back({step, reach});
+            if (!step.fingers.empty()) out.hand.back().fingers = bits(step.fingers, step.place);
         }
         if (state.exits.empty()) {
             error(state.place, state.name, "never ends",
-                  "Add exits, e.g. - { when: time, hold_s: 5, outcome: too late, redo: yes }.");
+                  "Add exits, e.g. - { when: time, after_s: 5, outcome: too late, redo: yes }.");
         }
         return out;
+    }
+
+    /// One bit for each of the fingers.
+    uint32_t bits(const std::vector<std::string>& fingers, const Place& place) {
+        uint32_t out = 0;
+        for (const std::string& finger : fingers) {
+            const int i = look_up(fingers_, finger, place, "fingers", "none of the scene's fingers",
+                                  diagnostics_);
+            if (i >= 0) out |= 1u << i;
+        }
+        return out;
+    }
+
+    Question question(const AskSpec& ask) {
+        check(ask, diagnostics_);
+        const std::vector<std::string> names = names_of(questions_of(plan_.task));
+        const auto index = std::find(names.begin(), names.end(), ask.name) - names.begin();
+        Question out;
+        out.least = ask.least();
+        out.most = ask.most();
+        out.whole = ask.whole();
+        out.by_key = ask.by == AnswerBy::key;
+        out.variable =
+            plan_.task.variables.size() + plan_.levels.size() + static_cast<size_t>(index);
+        out.si = split_unit(ask.name).si;
+        if (!out.by_key && ask.between.size() == 2) {
+            out.from = region(ask.between[0], ask.place, "between");
+            out.to = region(ask.between[1], ask.place, "between");
+        }
+        return out;
+    }
+
+    void check_answered(const State& state) {
+        for (const Exit& exit : state.exits) {
+            if (exit.when != When::answered) continue;
+            if (!state.ask) {
+                error(exit.place, "when", "the state asks for no number",
+                      "Add e.g. ask: { name: heaviness, scale: numbers, from: 1, to: 9 }.");
+            } else if (state.ask->by == AnswerBy::cursor) {
+                error(exit.place, "when", "a hand on a line has always an answer",
+                      "Say when it counts, e.g. when: still, hold_s: 1.");
+            }
+            if (exit.hold != 0)
+                error(exit.place, "hold", "an answer is given at once", "Leave it out.");
+        }
     }
 
     std::vector<Quantities::Names::Hand> hands() {
         std::vector<Quantities::Names::Hand> out;
         for (const Hand& hand : plan_.task.hands) {
-            auto& made = out.emplace_back(Quantities::Names::Hand{hand.name, 0});
-            for (const std::string& finger : hand.fingers) {
-                const int i = look_up(fingers_, finger, hand.place, "fingers",
-                                      "none of the scene's fingers", diagnostics_);
-                if (i >= 0) made.fingers |= 1u << i;
-            }
+            out.push_back({hand.name, bits(hand.fingers, hand.place)});
             const auto is = [&](const std::string& other) { return other == hand.name; };
             if (std::any_of(fingers_.begin(), fingers_.end(), is) ||
                 std::any_of(bodies_.begin(), bodies_.end(), is))
@@ -255,11 +310,13 @@ class Planner {
             out.finger = look_up(fingers_, exit.finger, exit.place, "finger",
                                  "none of the scene's fingers", diagnostics_);
         out.condition = condition(exit);
-        if (exit.to.empty() == exit.outcome.empty()) {
-            error(exit.place, "to",
-                  exit.to.empty() ? "leads nowhere" : "leads to a state and out of the trial",
-                  "Give it either to: a state, or outcome: what became of the trial.");
+        const int ways = !exit.to.empty() + !exit.outcome.empty() + (exit.chooses > 0);
+        if (ways != 1) {
+            error(exit.place, "to", ways == 0 ? "leads nowhere" : "leads to more than one place",
+                  "Give it to: a state, or outcome: what became of the trial, or chooses: an "
+                  "interval.");
         }
+        if (exit.chooses > 0) out.outcome = choice(exit);
         if (!exit.to.empty()) {
             out.state = look_up(names_of(plan_.task.states), exit.to, exit.place, "to", "no state",
                                 diagnostics_);
@@ -267,6 +324,18 @@ class Planner {
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
         out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
         return out;
+    }
+
+    /// Any of the two outcomes: which it is follows from the trial.
+    int choice(const Exit& exit) {
+        if (plan_.comparison < 0)
+            error(exit.place, "chooses", "there are no intervals to choose from",
+                  "Add interval: 1 and interval: 2 to states, or give it an outcome.");
+        Exit chosen = exit;
+        chosen.outcome = kStandard;
+        plan_.chose_standard = outcome(chosen);
+        chosen.outcome = kComparison;
+        return plan_.chose_comparison = outcome(chosen);
     }
 
     Expression condition(const Exit& exit) {
@@ -312,7 +381,7 @@ class Planner {
                   "Write one letter or digit, e.g. key: y.");
         }
         if (exit.when == When::time && !exit.hold.computed() && exit.hold.value <= 0)
-            error(exit.place, "hold", "how long is missing", "Add e.g. hold_s: 2.");
+            error(exit.place, "after", "how long is missing", "Add e.g. after_s: 2.");
         if (exit.when == When::trigger && exit.hold != 0)
             error(exit.place, "hold", "a trigger is over at once", "Leave it out.");
     }
@@ -438,7 +507,7 @@ class Planner {
                           const std::vector<Region>& regions, Diagnostics& found) {
         const Perturbation& added = cell.perturbations.emplace_back(spec, regions, scene_, found);
         for (const Load& load : added.loads())
-            plan_.longest_delay = std::max(plan_.longest_delay, load.spec().delay);
+            plan_.longest_delay = std::max(plan_.longest_delay, load.longest_delay());
         uint64_t& during = cell.during.emplace_back(0);
         const std::vector<State>& states = plan_.task.states;
         for (size_t i = 0; i < std::min(states.size(), kMostStates); ++i) {
@@ -457,8 +526,9 @@ class Planner {
 
     void check_procedure(const ProcedureSpec& procedure) {
         check(procedure, diagnostics_);
-        check_perturbations({procedure.perturb}, procedure.place);
+        check_perturbations(procedure.perturb, procedure.place);
         for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
+            if (name->empty()) continue;
             const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
                                   "no outcome", diagnostics_);
             if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
@@ -615,6 +685,31 @@ class Planner {
               channels ? remedy : "Write kind: force_channel.");
     }
 
+    /// A number that a procedure chooses must change something.
+    void check_levels_named() {
+        if (diagnostics_.has_errors()) return;
+        for (size_t i = 0; i < plan_.task.procedures.size(); ++i) {
+            if (plan_.level_of_procedure[i] < 0) continue;
+            const auto level = static_cast<size_t>(plan_.level_of_procedure[i]);
+            const int slot = plan_.symbols.variables[plan_.levels[level].variable].slot;
+            if (is_named(slot)) continue;
+            const ProcedureSpec& procedure = plan_.task.procedures[i];
+            error(procedure.place, "level",
+                  fmt::format("no formula names {}", split_unit(procedure.level).name),
+                  "Name it in what it is to change, e.g. friction_scale: friction / 0.5.");
+        }
+    }
+
+    bool is_named(int slot) const {
+        const auto in_way = [&](const TaskPlan::Way& way) { return way.condition.names(slot); };
+        return std::any_of(plan_.formulas.begin(), plan_.formulas.end(),
+                           [&](const CompiledFormula& f) { return f.expression.names(slot); }) ||
+               std::any_of(plan_.stages.begin(), plan_.stages.end(),
+                           [&](const TaskPlan::Stage& stage) {
+                               return std::any_of(stage.ways.begin(), stage.ways.end(), in_way);
+                           });
+    }
+
     void check_reach() {
         if (!plan_.task.reach) return;
         const ReachMeasure& reach = *plan_.task.reach;
@@ -709,7 +804,7 @@ std::vector<int> TaskPlan::used_in(const Trial& trial) const {
 double TaskPlan::largest(const Formula& number) const {
     if (number.index < 0) return number.value;
     const CompiledFormula& compiled = formulas[static_cast<size_t>(number.index)];
-    return compiled.expression.frozen() ? compiled.largest : compiled.formula.field.max;
+    return compiled.expression.foreseen() ? compiled.largest : compiled.formula.field.max;
 }
 
 TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics) {
@@ -725,20 +820,24 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
 
 Table procedure_table(const TaskPlan& plan) {
     Table table;
-    table.columns = {{"procedure", "name"},
-                     {"kind", "staircase, quest or quest_plus"},
-                     {"perturbation", "whose share it chooses"},
-                     {"logarithmic", "the share is 10^level"},
-                     {"yes", "outcome that grows likelier with the level"},
-                     {"no", "the other"},
-                     {"sigmoid", "of the psychometric function"},
-                     {"guess", "its lower end"},
-                     {"guess_is_lapse", "or the lapse rate is"}};
+    table.columns = {
+        {"procedure", "name"},
+        {"kind", "staircase, quest, quest_plus or constant"},
+        {"perturbation", "whose share it chooses, or that acts"},
+        {"logarithmic", "the share, or the number, is 10^level"},
+        {"yes", "outcome that grows likelier with the level"},
+        {"no", "the other"},
+        {"sigmoid", "of the psychometric function"},
+        {"guess", "its lower end"},
+        {"guess_is_lapse", "or the lapse rate is"},
+        {"level", "column of trials.csv with the number that it chooses; empty: share"},
+        {"standard", "of that number"}};
     const auto yes_no = [](bool yes) { return std::string(yes ? "yes" : "no"); };
     for (const ProcedureSpec& p : plan.task.procedures) {
-        table.rows.push_back({p.name, std::string(p.kind()), p.perturb, yes_no(p.logarithmic),
-                              p.yes, p.no, std::string(enum_name(p.sigmoid)), p.guess,
-                              yes_no(p.guess_is_lapse)});
+        table.rows.push_back(
+            {p.name, std::string(p.kind()), fmt::format("{}", fmt::join(p.perturb, kBetweenNames)),
+             yes_no(p.logarithmic), p.yes, p.no, std::string(enum_name(p.sigmoid)), p.guess,
+             yes_no(p.guess_is_lapse), p.level, p.standard.value_or(kUnmeasured)});
     }
     return table;
 }

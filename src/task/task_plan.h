@@ -22,10 +22,12 @@ enum class Figure {
     blocks,
     attempt,
     countdown,
+    answer,  ///< typed so far, or pointed at
 };
 constexpr auto enum_names(Figure) {
     return std::array{"trial_num", "trials", "trials_left", "trial_num_in_block",
-                      "block_num", "blocks", "attempt",     "countdown"};
+                      "block_num", "blocks", "attempt",     "countdown",
+                      "answer"};
 }
 
 /// A number in a text: a quantity of the task, or else a Figure.
@@ -51,7 +53,7 @@ struct TaskPlan {
         Expression condition;  ///< empty: of key, button, trigger, time
         int finger = 0;        ///< whose button it is
         int state = -1;        ///< state that it leads to
-        int outcome = -1;      ///< outcome that it ends the trial with
+        int outcome = -1;      ///< outcome that it ends the trial with; see outcome_of()
         int feedback = -1;
 
         /// Whether it comes whatever the hand does.
@@ -61,7 +63,9 @@ struct TaskPlan {
     };
     struct Step {
         HandStep step;
-        int reach = -1;  ///< region
+        int reach = -1;          ///< region
+        uint32_t fingers = ~0u;  ///< that move, one bit each
+        bool moves(size_t finger) const noexcept { return (fingers >> finger & 1u) != 0; }
     };
     /// What conditions and formulas name; a director has a copy.
     Quantities quantities;
@@ -91,6 +95,8 @@ struct TaskPlan {
         std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;
+        int interval = 0;
+        std::optional<Question> question;
         std::vector<Put> puts;
         std::vector<Way> ways;
         std::vector<Step> hand;
@@ -163,6 +169,14 @@ struct TaskPlan {
         int outcome = 0;
         std::vector<double> outcomes;  ///< code of each outcome's name
     };
+    /// A measure of the task's own.
+    struct Measured {
+        CompiledFormula value;  ///< with the slots of `measured`
+        Take take = Take::max;
+        uint64_t states = 0;  ///< one bit each
+    };
+    Quantities measured;  ///< `quantities`, and what measures name besides
+    std::vector<Measured> own_measures;
     /// What happens to a variable after a trial.
     struct Change {
         std::optional<Expression> when;
@@ -173,6 +187,19 @@ struct TaskPlan {
     Symbols symbols;
     std::vector<CompiledFormula> formulas;
     std::vector<int> in_states;  ///< formulas
+    /// A number that procedures choose. In frames it follows the variables.
+    struct Level {
+        size_t variable = 0;
+        double standard = 0;         ///< [SI]
+        double si = 1;               ///< unit of its name
+        std::vector<double> values;  ///< at which trials are looked at before the session [SI]
+    };
+    std::vector<Level> levels;
+    std::vector<int> level_of_procedure;  ///< index among the levels; -1: it chooses a share
+    int comparison = -1;                  ///< draw of the interval of the comparison
+    int chose_comparison = -1;            ///< outcome
+    int chose_standard = -1;              ///< outcome
+    /// What variables, then levels, and then answers are at the session's start.
     std::vector<servo::VariableFrame> start;
     std::vector<Change> changes;
     std::vector<std::optional<Expression>> until;  ///< by block
@@ -182,10 +209,31 @@ struct TaskPlan {
         return static_cast<size_t>(trial.round) * conditions + static_cast<size_t>(trial.condition);
     }
     const Cell& cell(const Trial& trial) const { return cells[cell_index(trial)]; }
+    /// Whether levels, and shares that procedures choose, are at their standard in the state; -1:
+    /// in none.
+    bool shows_standard(const Trial& trial, int state) const noexcept {
+        return comparison >= 0 && state >= 0 &&
+               stages[static_cast<size_t>(state)].interval != interval_of(trial);
+    }
+    /// Interval of the comparison.
+    int interval_of(const Trial& trial) const noexcept {
+        return static_cast<int>(trial.draws[static_cast<size_t>(comparison)]);
+    }
+    /// Outcome of a trial that ends this way.
+    int outcome_of(const Way& way, const Trial& trial) const noexcept {
+        if (way.exit.chooses == 0) return way.outcome;
+        return way.exit.chooses == interval_of(trial) ? chose_comparison : chose_standard;
+    }
+    /// The number that the trial's procedure chooses; null if it chooses none.
+    const Level* level_of(const Trial& trial) const noexcept {
+        if (trial.procedure < 0) return nullptr;
+        const int i = level_of_procedure[static_cast<size_t>(trial.procedure)];
+        return i < 0 ? nullptr : &levels[static_cast<size_t>(i)];
+    }
     /// The formulas that the trial uses.
     std::vector<int> used_in(const Trial& trial) const;
-    /// The largest value of a number that may be a formula, over all trials; where variables change
-    /// it, the largest that it may have [SI].
+    /// The largest value of a number that may be a formula, over all trials and levels; where
+    /// variables change it, the largest that it may have [SI].
     double largest(const Formula& number) const;
     /// Names of the phases: "between trials", then the states.
     std::vector<std::string> phases() const;

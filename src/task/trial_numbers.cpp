@@ -15,6 +15,34 @@ double within(const Field& field, double value) noexcept {
     return std::isnan(value) ? least : std::clamp(value, least, field.max);
 }
 
+/// Notes what the formula gives in the trial, and reports a value that its bounds do not allow.
+void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& plan,
+             std::vector<char>& told, Diagnostics& diagnostics) {
+    const auto i = static_cast<size_t>(index);
+    CompiledFormula& compiled = plan.formulas[i];
+    const Formula& f = compiled.formula;
+    const double given = numbers.unbounded(i);
+    compiled.largest = std::max(compiled.largest, within(f.field, given));
+    if (within(f.field, given) == given || told[i]) return;
+    told[i] = 1;
+    if (std::isnan(given)) {
+        diagnostics.error(f.place, f.key,
+                          fmt::format("'{}' gives no number in trial {}", f.text, trial + 1),
+                          "Let it name what is known by then: a region may name those that "
+                          "are listed before it.");
+        return;
+    }
+    const auto say =
+        fmt::format("'{}' gives {:.6g} in trial {}, and must be from {:.6g} to {:.6g}", f.text,
+                    given / f.to_si, trial + 1, f.field.min / f.to_si, f.field.max / f.to_si);
+    if (compiled.expression.foreseen()) {
+        diagnostics.error(f.place, f.key, say, "Correct the formula, or what it names.");
+    } else {
+        diagnostics.warning(f.place, f.key, say,
+                            "It is kept within these bounds; clamp() says so in the file.");
+    }
+}
+
 }  // namespace
 
 TrialNumbers::TrialNumbers(const TaskPlan& plan)
@@ -56,8 +84,8 @@ bool TrialNumbers::ends_before(int trial) noexcept {
     return until && (*until)(between_.values()) != 0;
 }
 
-void TrialNumbers::begin(int trial, int attempt,
-                         std::span<const servo::VariableFrame> variables) noexcept {
+void TrialNumbers::begin(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+                         int state) noexcept {
     trial_ = trial + 1;
     attempt_ = attempt;
     const Trial& now = plan_.trials[static_cast<size_t>(trial)];
@@ -72,6 +100,10 @@ void TrialNumbers::begin(int trial, int attempt,
     quantities_.set(Quantities::kTrial, trial_);
     quantities_.set(Quantities::kAttempt, attempt_);
     set(variables);
+    standard_ = plan_.shows_standard(now, state);
+    for (const TaskPlan::Level& level : plan_.levels) {
+        if (standard_) quantities_.set(symbols.variables[level.variable].slot, level.standard);
+    }
     cell_ = plan_.cell_index(now);
     TaskPlan::Cell& cell = cells_[cell_];
     // what is not known yet shows, when all trials are resolved before the session
@@ -98,44 +130,21 @@ void TrialNumbers::begin(int trial, int attempt,
     for (Perturbation& perturbation : cell.perturbations) perturbation.resolve(resolved_);
 }
 
-void TrialNumbers::follow(int trial, int attempt,
-                          std::span<const servo::VariableFrame> variables) noexcept {
-    if (trial < 1 || (trial == trial_ && attempt == attempt_)) return;
-    begin(trial - 1, attempt, variables);
+void TrialNumbers::follow(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+                          int state) noexcept {
+    if (trial < 1) return;
+    const bool standard = plan_.shows_standard(plan_.trials[static_cast<size_t>(trial - 1)], state);
+    if (trial == trial_ && attempt == attempt_ && standard == standard_) return;
+    begin(trial - 1, attempt, variables, state);
 }
 
 void resolve_all(TaskPlan& plan, Diagnostics& diagnostics) {
     if (plan.formulas.empty()) return;
-    TrialNumbers numbers(plan);
     std::vector<char> told(plan.formulas.size(), 0);
-    for (size_t t = 0; t < plan.trials.size(); ++t) {
-        numbers.begin(static_cast<int>(t), 1, plan.start);
-        for (const int index : plan.used_in(plan.trials[t])) {
-            const auto i = static_cast<size_t>(index);
-            CompiledFormula& compiled = plan.formulas[i];
-            const Formula& f = compiled.formula;
-            const double given = numbers.unbounded(i);
-            compiled.largest = std::max(compiled.largest, within(f.field, given));
-            if (within(f.field, given) == given || told[i]) continue;
-            told[i] = 1;
-            if (std::isnan(given)) {
-                diagnostics.error(f.place, f.key,
-                                  fmt::format("'{}' gives no number in trial {}", f.text, t + 1),
-                                  "Let it name what is known by then: a region may name those that "
-                                  "are listed before it.");
-                continue;
-            }
-            const auto say = fmt::format(
-                "'{}' gives {:.6g} in trial {}, and must be from {:.6g} to {:.6g}", f.text,
-                given / f.to_si, t + 1, f.field.min / f.to_si, f.field.max / f.to_si);
-            if (compiled.expression.frozen()) {
-                diagnostics.error(f.place, f.key, say, "Correct the formula, or what it names.");
-            } else {
-                diagnostics.warning(f.place, f.key, say,
-                                    "It is kept within these bounds; clamp() says so in the file.");
-            }
-        }
-    }
+    each_trial(plan, [&](size_t t, const TrialNumbers& numbers) {
+        for (const int index : plan.used_in(plan.trials[t]))
+            look_at(index, t, numbers, plan, told, diagnostics);
+    });
 }
 
 }  // namespace dihaptic::task

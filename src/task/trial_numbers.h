@@ -14,10 +14,14 @@ class TrialNumbers {
     /// `plan` must outlive it.
     explicit TrialNumbers(const TaskPlan& plan);
 
-    /// `trial`: index among the plan's. `variables`: their values [SI].
-    void begin(int trial, int attempt, std::span<const servo::VariableFrame> variables) noexcept;
-    /// Begins the attempt if it is another one, and one of a trial. `trial`: from 1, as in frames.
-    void follow(int trial, int attempt, std::span<const servo::VariableFrame> variables) noexcept;
+    /// `trial`: index among the plan's. `variables`: their values [SI]. `state`: levels of
+    /// procedures may be at their standard in it; -1: they are as in the variables.
+    void begin(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+               int state = -1) noexcept;
+    /// Begins the attempt if it is another one, and one of a trial, or if the state is of another
+    /// interval. `trial`: from 1, as in frames.
+    void follow(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+                int state) noexcept;
     /// Forgets which attempt was begun.
     void restart() noexcept { trial_ = 0; }
 
@@ -48,13 +52,31 @@ class TrialNumbers {
     size_t cell_ = 0;
     int trial_ = 0;  // from 1; 0: none yet
     int attempt_ = 0;
+    bool standard_ = false;  // levels are at their standard
     int bounded_ = 0;
     int last_bounded_ = -1;
 };
 
-/// Resolves the formulas of all trials with the variables as they start: notes their largest values
-/// in the plan, and reports values that their bounds do not allow: as errors, or as warnings where
-/// variables may change them. Variables' values are then kept within the bounds.
+/// Calls f(trial's index, its numbers) for each trial with the variables as they start, and with
+/// each level of its procedure at which trials are looked at before the session.
+template <class F>
+void each_trial(const TaskPlan& plan, F f) {
+    TrialNumbers numbers(plan);
+    for (size_t t = 0; t < plan.trials.size(); ++t) {
+        std::vector<servo::VariableFrame> variables = plan.start;
+        const TaskPlan::Level* const level = plan.level_of(plan.trials[t]);
+        for (size_t i = 0; i < (level == nullptr ? 1 : level->values.size()); ++i) {
+            if (level != nullptr) variables[level->variable].value = level->values[i];
+            numbers.begin(static_cast<int>(t), 1, variables);
+            f(t, numbers);
+        }
+    }
+}
+
+/// Resolves the formulas of all trials with the variables as they start, and with levels of
+/// procedures at the ends of their range: notes their largest values in the plan, and reports
+/// values that their bounds do not allow: as errors, or as warnings where variables may change
+/// them. Variables' values are then kept within the bounds.
 void resolve_all(TaskPlan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

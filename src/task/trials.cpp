@@ -84,7 +84,6 @@ std::vector<std::string> names_in(const std::string& cell) {
 /// nothing.
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
                                     Random& random) {
-    trial.share = std::numeric_limits<double>::quiet_NaN();
     std::vector<int> turns;
     for (const std::string& name : block.procedures) {
         const int i = index_of(names_of(task.procedures), name);
@@ -94,8 +93,10 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     shuffle(turns, random);
     std::vector<Trial> out;
     for (const int i : turns) {
+        const ProcedureSpec& procedure = task.procedures[static_cast<size_t>(i)];
         trial.procedure = i;
-        trial.perturb = perturbations_of(task, {task.procedures[static_cast<size_t>(i)].perturb});
+        trial.perturb = perturbations_of(task, procedure.perturb);
+        trial.share = procedure.level.empty() ? std::numeric_limits<double>::quiet_NaN() : 1;
         out.push_back(trial);
     }
     return out;

@@ -22,8 +22,14 @@ class Commands(unittest.TestCase):
         self.assertEqual(set(figures["tick"][0]), {"extra", "awake", "asleep", "bullet_us", "most_us", "within_bar"})
         self.assertEqual(set(figures["tick"][0]["awake"]), {"median_us", "p99_us", "max_us"})
 
+    def test_bench_task_has_twenty_states_and_ten_loads(self):
+        figures = json.loads(bench("task", "--pairs", "1", "--json").stdout)
+        self.assertEqual((figures["states"], figures["loads"]), (20, 10))
+        self.assertEqual(set(figures), {"states", "loads", "plain", "task", "more_us", "expressions_us", "within_bars"})
+        self.assertGreater(figures["expressions_us"], 0)
+
     def test_every_bench_has_help_with_an_example(self):
-        for command in [[], ["friction"], ["scale"], ["heap"], ["contact"], ["solvers"], ["jitter"], ["view"]]:
+        for command in [[], ["friction"], ["scale"], ["heap"], ["contact"], ["solvers"], ["jitter"], ["task"], ["view"]]:
             result = bench(*command, "--help")
             self.assertEqual(result.returncode, 0, command)
             self.assertIn("Example", result.stdout, command)

@@ -205,7 +205,7 @@ groups:
 
     def test_a_session_that_nothing_ends_says_so(self):
         text = pathlib.Path(self.experiment).read_text()
-        text = text.replace("        - { when: time, hold_s: 2, outcome: too slow, redo: yes, feedback: "
+        text = text.replace("        - { when: time, after_s: 2, outcome: too slow, redo: yes, feedback: "
                             '"Too slow: reach faster" }\n', "")
         text = text.replace("radius_mm: 90 }", "radius_mm: 900 }")
         pathlib.Path(self.experiment).write_text(text)

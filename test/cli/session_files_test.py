@@ -30,11 +30,11 @@ task:
     - name: home
       show: [start]
       exits: [{ when: inside, region: start, hold_s: 0.1, to: reach }]
-      hand: [{ duration_s: 0.2, reach: start }]
+      simulated_hand: [{ duration_s: 0.2, reach: start }]
     - name: reach
       show: [target]
       exits: [{ when: inside, region: target, outcome: reached }]
-      hand: [{ duration_s: 0.2, reach: target }]
+      simulated_hand: [{ duration_s: 0.2, reach: target }]
   reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
   blocks: [{ name: all, kind: baseline, repeats: 2 }]
 """

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/lifts.h"
+#include "analysis/measures/measures.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/regular_file.h"
-#include "task/measures.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
@@ -49,7 +49,8 @@ std::vector<Attempt> attempts_of(const CsvFile& trials, const recording::Session
 }
 
 /// Columns made from trials.csv and lifts.csv, with their descriptions.
-std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lifts) {
+std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lifts,
+                                       const recording::SessionFolder& session) {
     std::map<std::string, Table::Column> known;
     for (const Table::Column& c : trial_columns()) known[c.name] = c;
     std::vector<Table::Column> out;
@@ -57,7 +58,7 @@ std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lif
         if (trials.has(name)) out.push_back(known[name]);
     // what happened or was measured in a trial: only the trial's own row has it
     std::vector<Table::Column> measured = list_figures(TrialMeasures{}).columns;
-    for (Table::Column& c : task::measure_columns()) measured.push_back(std::move(c));
+    for (Table::Column& c : measure_columns_of(session)) measured.push_back(std::move(c));
     for (const Table::Column& c : measured)
         if (c.name != "attempt" && trials.has(c.name)) out.push_back(c);
     if (lifts == nullptr) return out;
@@ -102,8 +103,9 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
 
 class EventRows {
   public:
-    EventRows(const CsvFile& trials, const CsvFile* lifts, const recording::MovedBy& by)
-        : trials_(trials), lifts_(lifts), by_(by), columns_(columns_for(trials, lifts)) {
+    EventRows(const CsvFile& trials, const CsvFile* lifts, const recording::MovedBy& by,
+              const recording::SessionFolder& session)
+        : trials_(trials), lifts_(lifts), by_(by), columns_(columns_for(trials, lifts, session)) {
         for (size_t i = 0; lifts != nullptr && i < lifts->rows(); ++i)
             lift_of_[{lifts->text(i, "trial_num"), lifts->text(i, "attempt")}] = i;
     }
@@ -172,7 +174,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     const CsvFile trials(session.file("trials.csv"));
     std::optional<CsvFile> lifts;
     if (is_there(session.file("lifts.csv"))) lifts.emplace(session.file("lifts.csv"));
-    const EventRows maker(trials, lifts ? &*lifts : nullptr, info.moved_by);
+    const EventRows maker(trials, lifts ? &*lifts : nullptr, info.moved_by, session);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
     std::vector<std::pair<double, Row>> rows;  // by onset [s]

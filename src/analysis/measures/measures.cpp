@@ -27,7 +27,27 @@ size_t place_of(const Table& table, const char* name) {
                                table.columns.begin());
 }
 
+/// Null if they cannot be taken.
+std::unique_ptr<task::OwnMeasures> own_measures(const task::Task& task,
+                                                const recording::SessionFolder& folder) {
+    Diagnostics problems(UnknownKeys::are_left_out);
+    const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), problems);
+    task::TaskPlan plan = task::plan_task(task, scene, problems);
+    if (problems.has_errors()) return nullptr;
+    plan.trials = task::read_trial_list(plan.task, folder.file("trial-list.csv"));
+    return std::make_unique<task::OwnMeasures>(std::move(plan));
+}
+
 }  // namespace
+
+std::vector<Table::Column> measure_columns_of(const recording::SessionFolder& folder) {
+    std::vector<Table::Column> out = task::measure_columns();
+    if (const auto task = read_frozen_task(folder.file("task.yaml"))) {
+        const auto own = task::columns_of(task->own_measures);
+        out.insert(out.end() - 1, own.begin(), own.end());
+    }
+    return out;
+}
 
 std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& folder,
                                                const recording::LogHead& head,
@@ -37,7 +57,9 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
     for (const std::string& name : task ? task->measures : std::vector<std::string>{}) {
         if (const task::MeasureRow* row = task::measure_row(name)) out.measures_.push_back(row);
     }
-    if (out.measures_.empty()) return std::nullopt;
+    if (task) out.own_measures_ = task->own_measures;
+    if (!out.own_measures_.empty()) out.own_ = own_measures(*task, folder);
+    if (out.measures_.empty() && !out.own_) return std::nullopt;
     out.options_ = movement_of(*task, head.fingers.empty() ? "" : head.fingers.front());
     const std::vector<std::string>& during = out.options_.during;
     for (const std::string& name : during) out.phases_.during.push_back(index_of(phases, name));
@@ -85,6 +107,7 @@ void MeasureFinder::add(const servo::Frame& frame) {
         number_ = frame.task.attempt;
         attempt_.share = std::fmax(attempt_.share, frame.task.share);
         attempt_.samples.push_back(sample(frame));
+        if (own_) own_->add(frame);
     }
     sequence_ = frame.sequence;
 }
@@ -106,6 +129,12 @@ void MeasureFinder::end_attempt(const Lift* lift) {
         if (!of.why.empty())
             missing += (missing.empty() ? "" : "; ") + std::string(measure->name) + ": " + of.why;
     }
+    const std::vector<double> own = own_ ? own_->end_attempt() : std::vector<double>{};
+    for (size_t k = 0; k < own.size(); ++k) {
+        row.cells.emplace_back(own[k]);
+        if (std::isnan(own[k]))
+            missing += (missing.empty() ? "" : "; ") + own_measures_[k].name + ": not measured";
+    }
     row.cells.emplace_back(missing);
     attempt_.samples.clear();
     attempt_.share = 0;
@@ -117,6 +146,10 @@ void MeasureFinder::add_to(Table& trials) const {
     for (const task::MeasureRow* measure : measures_) {
         for (Table::Column& column : task::columns_of_measure(*measure))
             trials.columns.push_back(std::move(column));
+    }
+    if (own_) {
+        const auto own = task::columns_of(own_measures_);
+        trials.columns.insert(trials.columns.end(), own.begin(), own.end());
     }
     trials.columns.push_back(task::not_measured_column());
     std::map<std::pair<double, double>, const Row*> rows;

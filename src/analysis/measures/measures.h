@@ -1,6 +1,7 @@
 // Takes a task's measures (task/measures.h) of each attempt at a trial, while the frames go by.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,8 +9,13 @@
 #include "base/table.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
+#include "task/own_measures.h"
 
 namespace dihaptic::analysis {
+
+/// Columns of all measures that trials.csv of the session may have: those that have names, those of
+/// its task's own, and what is not measured.
+std::vector<Table::Column> measure_columns_of(const recording::SessionFolder& folder);
 
 class MeasureFinder {
   public:
@@ -30,6 +36,8 @@ class MeasureFinder {
     MotionSample sample(const servo::Frame& frame) const;
 
     std::vector<const task::MeasureRow*> measures_;
+    std::vector<task::OwnMeasure> own_measures_;
+    std::unique_ptr<task::OwnMeasures> own_;  // null if there are none
     task::Movement options_;
     MeasurePhases phases_;
     std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure needs a movement

@@ -96,8 +96,14 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     if (!(peak >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
     onset_ = peak_;
     while (onset_ > 0 && speed_[onset_ - 1] >= threshold) --onset_;
-    end_ = peak_;
-    while (end_ < run_.size() && speed_[end_] >= threshold) ++end_;
+    // pauses that are shorter belong to it
+    const auto pause = static_cast<size_t>(std::round(options_.end_still / tick_));
+    end_ = run_.size();
+    size_t slow = 0;
+    for (size_t i = peak_; i < run_.size() && end_ == run_.size(); ++i) {
+        slow = speed_[i] < threshold ? slow + 1 : 0;
+        if (slow > pause) end_ = i - pause;
+    }
     if (onset_ == 0) return "it moved before its states began";
     if (end_ == run_.size()) no_end_ = "not over when its states ended";
     return "";
@@ -234,7 +240,7 @@ Values AttemptMeasures::grip_latency() const {
     const double threshold = mean + std::max(kGripSpreads * std::sqrt(square), kLeastRise);
     const auto lasts = static_cast<size_t>(std::round(kLasts / tick_));
     size_t above = 0;
-    for (size_t i = step; i < all.size(); ++i) {
+    for (size_t i = step; i < all.size() && all[i].phase == all[step].phase; ++i) {
         above = all[i].grip > threshold ? above + 1 : 0;
         if (above > lasts) return {all[i - lasts].time - step_};
     }

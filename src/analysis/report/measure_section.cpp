@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 
+#include "analysis/measures/measures.h"
+#include "analysis/perturbations.h"
 #include "analysis/report/session_page.h"
 #include "analysis/report/statistics.h"
 #include "task/measures.h"
@@ -13,8 +17,9 @@ namespace dihaptic::analysis {
 namespace {
 
 /// Columns of the task's measures that are in the trials.
-std::vector<Table::Column> measured_columns(const CsvFile& trials) {
-    std::vector<Table::Column> out = task::measure_columns();
+std::vector<Table::Column> measured_columns(const SessionData& session) {
+    const CsvFile& trials = session.trials;
+    std::vector<Table::Column> out = measure_columns_of(session.folder);
     out.pop_back();  // what is not measured
     std::erase_if(out, [&](const Table::Column& c) { return !trials.has(c.name); });
     // of a session without the measures, a column of the same name is another
@@ -73,10 +78,95 @@ Chart measure_chart(const SessionData& session, const Table::Column& column) {
     return chart;
 }
 
+/// Names of the task's factors, as the trials' columns are named.
+std::vector<std::string> factors_of(const SessionData& session) {
+    const std::optional<task::Task> task = read_frozen_task(session.folder.file("task.yaml"));
+    std::vector<std::string> out;
+    for (const task::Factor& factor : task ? task->cross : std::vector<task::Factor>{})
+        out.push_back(factor.factor);
+    if (task && out.empty() && !task->conditions.empty()) {
+        for (const Node::Entry& factor : task->conditions.front().factors.entries)
+            out.push_back(factor.key);
+    }
+    return out;
+}
+
+/// Levels of factors: numbers in the order of their size, texts in that of the alphabet.
+using Levels = std::vector<std::pair<double, std::string>>;
+
+Levels levels_of(const CsvFile& trials, size_t i, const std::vector<std::string>& factors) {
+    Levels out;
+    for (const std::string& factor : factors) {
+        const double number = trials.number(i, factor);
+        out.emplace_back(std::isnan(number) ? 0 : number, factor + " " + trials.text(i, factor));
+    }
+    return out;
+}
+
+Series series_of(const Levels& levels, const std::map<double, std::vector<double>>& by_x) {
+    Series out;
+    for (const auto& [unused, level] : levels) out.name += (out.name.empty() ? "" : ", ") + level;
+    if (out.name.empty()) out.name = "mean";
+    for (const auto& [x, own] : by_x) {
+        const Sample s = sample(own);
+        out.x.push_back(x);
+        out.y.push_back(s.mean);
+        out.low.push_back(s.mean_interval.low);
+        out.high.push_back(s.mean_interval.high);
+    }
+    return out;
+}
+
+/// Means of a measure over a factor of numbers, by the levels of the other factors: over trials, or
+/// of several people, who count once each. Has no series if no factor has numbers.
+Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Column& column,
+                   const std::string& origin) {
+    std::vector<std::string> factors = factors_of(*sessions.front());
+    const auto numeric = std::find_if(factors.begin(), factors.end(), [&](const auto& factor) {
+        const CsvFile& trials = sessions.front()->trials;
+        return trials.rows() > 0 && !std::isnan(trials.number(0, factor));
+    });
+    if (numeric == factors.end()) return {};
+    const std::string over = *numeric;
+    factors.erase(numeric);
+    std::map<Levels, std::map<double, std::map<std::string, std::vector<double>>>> values;
+    for (const SessionData* session : sessions) {
+        const CsvFile& trials = session->trials;
+        for (size_t i = 0; i < trials.rows(); ++i) {
+            const std::string kind = trials.text(i, "kind");
+            const double value = trials.number(i, column.name);
+            if (kind == "practice" || kind == "catch" || std::isnan(value)) continue;
+            values[levels_of(trials, i, factors)][trials.number(i, over)][session->participant()]
+                .push_back(value);
+        }
+    }
+    Chart chart{column.name + " by " + over,
+                over,
+                column.unit,
+                "Means and their 95 % intervals, without practice and catch trials. " + origin,
+                {},
+                {}};
+    for (const auto& [levels, by_x] : values) {
+        std::map<double, std::vector<double>> samples;
+        for (const auto& [x, people] : by_x) {
+            for (const auto& [unused, own] : people) {
+                std::vector<double>& all = samples[x];
+                if (sessions.size() == 1) {
+                    all = own;
+                } else {
+                    all.push_back(sample(own).mean);
+                }
+            }
+        }
+        chart.series.push_back(series_of(levels, samples));
+    }
+    return chart;
+}
+
 }  // namespace
 
 void add_measures(Page& page, const SessionData& session) {
-    const std::vector<Table::Column> columns = measured_columns(session.trials);
+    const std::vector<Table::Column> columns = measured_columns(session);
     if (columns.empty()) return;
     page.heading("Measures");
     page.text(
@@ -89,12 +179,14 @@ void add_measures(Page& page, const SessionData& session) {
                  {"SD", ""},
                  {"missing", "how often, and why"}},
                 {}};
-    std::string why;
     for (const Table::Column& column : columns) {
+        std::string measure = column.name;
         for (const task::MeasureRow& row : task::kMeasureTable) {
-            const auto own = task::columns_of_measure(row);
-            if (own.front().name == column.name) why = reasons(session.trials, row.name);
+            const auto of_row = task::columns_of_measure(row);
+            const auto is_it = [&](const Table::Column& c) { return c.name == column.name; };
+            if (std::any_of(of_row.begin(), of_row.end(), is_it)) measure = row.name;
         }
+        const std::string why = reasons(session.trials, measure);
         std::vector<double> values;
         for (size_t i = 0; i < session.trials.rows(); ++i)
             values.push_back(session.trials.number(i, column.name));
@@ -102,8 +194,18 @@ void add_measures(Page& page, const SessionData& session) {
         table.rows.push_back(
             {column.name, column.unit, static_cast<double>(all.count), all.mean, all.sd, why});
         page.chart(measure_chart(session, column));
+        Chart by_factor = factor_chart(std::array{&session}, column, origin_of(session));
+        if (!by_factor.series.empty()) page.chart(std::move(by_factor));
     }
     page.table(table, "Over all attempts. " + origin_of(session));
+}
+
+void add_measures_of_people(Page& page, std::span<const SessionData* const> sessions,
+                            const std::string& origin) {
+    for (const Table::Column& column : measured_columns(*sessions.front())) {
+        Chart chart = factor_chart(sessions, column, origin);
+        if (!chart.series.empty()) page.chart(std::move(chart));
+    }
 }
 
 }  // namespace dihaptic::analysis

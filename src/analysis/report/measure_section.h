@@ -1,6 +1,10 @@
 // The part of a session's page on the measures that its task lists (task/measures.h): a chart of
-// each over the trials, by condition, and how often each is missing, and why.
+// each over the trials, by condition, and of its means over a factor; and how often each is
+// missing, and why.
 #pragma once
+
+#include <span>
+#include <string>
 
 #include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
@@ -9,5 +13,8 @@ namespace dihaptic::analysis {
 
 /// Adds nothing for a task without measures.
 void add_measures(Page& page, const SessionData& session);
+/// Adds the means of each measure over a factor, where the experiment of these sessions has one.
+void add_measures_of_people(Page& page, std::span<const SessionData* const> sessions,
+                            const std::string& origin);
 
 }  // namespace dihaptic::analysis

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/report/measure_section.h"
 #include "analysis/report/statistics.h"
 #include "base/plural.h"
 
@@ -229,8 +230,10 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
             row("ppid", session->participant(), "", "participant");
             row("procedure", track.procedure, "", "name");
             row("perturbation", track.perturbation, "", "name");
+            row("chooses", track.what(), "", "what the levels are of");
             row("trials", track.answers.size(), "1", "answers");
-            row("threshold_share", track.share(f.threshold), "1", "of the perturbation");
+            row("threshold_share", track.share(f.threshold), "1",
+                "of the perturbation; or the number, in the unit of its name");
             row("shape", f.shape, "1", "of the sigmoid");
             row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
             row("note", threshold.note, "", "why there is no fit, or more");
@@ -250,7 +253,9 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
         table.rows.push_back({procedure, static_cast<double>(all.count), all.mean,
                               in_words(all.mean_interval), all.sd});
     }
-    std::string caption = "Thresholds over people, as shares of the perturbation. ";
+    std::string caption =
+        "Thresholds over people, as shares of the perturbation or numbers in the unit of their "
+        "names. ";
     if (not_counted > 0) {
         caption += fmt::format(
             "{} not counted, since there is no fit or the threshold lies outside of the levels "
@@ -332,6 +337,7 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
     }
     add_not_measured(out, title, sessions);
     add_adaptation(out, title, sessions, origin);
+    add_measures_of_people(out.page, sessions, origin);
     add_thresholds(out, title, sessions, origin);
     add_lifts(out, title, sessions, origin);
     const auto tables = tables_of(out);

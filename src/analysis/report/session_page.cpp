@@ -214,8 +214,7 @@ Chart psychometric_chart(const ThresholdTrack& track, const std::optional<Psycho
                          const std::string& origin) {
     Chart chart;
     chart.title = "Answers of " + track.procedure;
-    chart.x_label = track.logarithmic ? "level (log10 of the share of " + track.perturbation + ")"
-                                      : "share of " + track.perturbation;
+    chart.x_label = track.logarithmic ? "level (log10 of the " + track.what() + ")" : track.what();
     chart.y_label = "share of yes";
     chart.caption = origin;
     Series answers{"answers", Drawn::points, {}, {}, {}, {}, {}};
@@ -253,12 +252,14 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
     }
     FigureLister row;
     row("procedure", track.procedure, "", "name");
-    row("kind", track.kind, "", "staircase, quest or quest_plus");
+    row("kind", track.kind, "", "staircase, quest, quest_plus or constant");
     row("perturbation", track.perturbation, "", "name");
+    row("chooses", track.what(), "", "what the levels are of");
     row("trials", track.answers.size(), "1", "answers");
     row("threshold", f.threshold, "1", "level");
     row("threshold_95", threshold_95, "", "its bootstrap interval");
-    row("threshold_share", track.share(f.threshold), "1", "of the perturbation");
+    row("threshold_share", track.share(f.threshold), "1",
+        "of the perturbation; or the number, in the unit of its name");
     row("shape", f.shape, "1", "of the sigmoid");
     row("shape_95", shape_95, "", "its bootstrap interval");
     row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
@@ -270,7 +271,8 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
 void add_thresholds(SessionPage& out, const SessionData& session) {
     out.page.heading("Thresholds");
     out.page.text(
-        "Each procedure chose the share of its perturbation by the answers before. The function is "
+        "Each procedure chose the share of its perturbation, or a number, as a rule by the answers "
+        "before. The function is "
         "fitted to all of its answers by maximum likelihood, with lapses up to 5 %; intervals are "
         "those of 500 bootstrap samples.");
     for (const ThresholdTrack& track : session.tracks) {

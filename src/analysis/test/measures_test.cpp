@@ -108,6 +108,23 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
     EXPECT_EQ(reach.take("adaptation_index").why, "no channel");
 }
 
+TEST(Measures, AMovementGoesOnAfterAPauseThatIsShorterThanItsEnd) {
+    Reach reach;  // and another stroke, from 0.2 s after the end of the first on
+    for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.06, 0, 0};
+    const double first = reach.value("movement_time");
+    EXPECT_LT(first, 0.5);
+    reach.options.end_still = 0.15;
+    EXPECT_EQ(reach.value("movement_time"), first);
+    reach.options.end_still = 0.3;  // the states end 0.1 s after it
+    EXPECT_EQ(reach.take("movement_time").why, "not over when its states ended");
+    reach.attempt.samples.resize(2100);
+    for (int i = 2100; i < 2500; ++i) {
+        reach.attempt.samples.push_back(reach.attempt.samples[1100]);
+        reach.attempt.samples.back().time = i * kTick;
+    }
+    EXPECT_NEAR(reach.value("movement_time"), 2.1 - (1.3 + rise()), 2 * kTick);
+}
+
 TEST(Measures, SayWhyTheyAreMissing) {
     Reach slow;
     for (MotionSample& s : slow.attempt.samples) s.v_W *= 0.1;
@@ -146,6 +163,8 @@ TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
     }
     // 0.05 N above the mean after five ticks
     EXPECT_NEAR(held.value("grip_latency"), 0.085, kTick / 2);
+    for (size_t i = 1085; i < held.attempt.samples.size(); ++i) held.attempt.samples[i].phase = 3;
+    EXPECT_EQ(held.take("grip_latency").why, "grip did not answer");  // what grips now is the next
 }
 
 TEST(Measures, SpectralArcLengthIsThatOfItsAuthors) {

@@ -140,6 +140,29 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name: a\ntexts: [a, [b]]\n", "texts: must be a single word or text"},
         Bad{"name: a\ncount:\n", "must be a number, is nothing"}));
 
+struct Renamed {
+    double wait = 0;  // [s]
+    template <class V>
+    void visit(V& v) {
+        v("wait", wait, Field::of(Quantity::time).required().formerly("hold"));
+    }
+};
+
+TEST(FieldReader, AnOldNameIsAnErrorInAFileAndIsReadInWhatWasFrozen) {
+    const Node node = parse_yaml("hold_ms: 250\n", "old.yaml");
+    Renamed read;
+    Diagnostics frozen(UnknownKeys::are_left_out);
+    read_fields(read, node, frozen);
+    EXPECT_TRUE(frozen.problems().empty());
+    EXPECT_DOUBLE_EQ(read.wait, 0.25);
+    Diagnostics written;
+    read_fields(read, node, written);
+    ASSERT_EQ(written.problems().size(), 1u);
+    EXPECT_EQ(written.problems()[0].key, "hold_ms");
+    EXPECT_EQ(written.problems()[0].place.line, 1);
+    EXPECT_EQ(written.problems()[0].what, "is called wait_ms now");
+}
+
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
     const Read in("cuont: 3\nfruit: plum\n");
     EXPECT_EQ(in.diagnostics.problems().size(), 3u);  // the third: the name is missing
@@ -252,6 +275,36 @@ TEST(Node, SaysWhyAFileCannotBeRead) {
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("No such file"), std::string::npos) << e.what();
     }
+}
+
+struct Placed {
+    double size = 0;
+    double size_ratio = 1;
+    Place place;
+    template <class V>
+    void visit(V& v) {
+        v("size", size, Field::length());
+        v("size_ratio", size_ratio);
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+TEST(FieldReader, AProblemWithAFieldIsInItsKeysLine) {
+    Placed value;
+    Diagnostics diagnostics;
+    read_fields(value, parse_yaml("\nsize_ratio: 2\nsize_mm:\n  3\n", "a.yaml"), diagnostics);
+    diagnostics.error(value.place, "size", "is odd", "Mend it.");
+    diagnostics.warning(value.place, "size_mm", "is odd", "Mend it.");
+    diagnostics.error(value.place, "size_ratio", "is odd", "Mend it.");
+    diagnostics.error(value.place, "colour", "is missing", "Add it.");
+    std::string said;
+    for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
+    EXPECT_EQ(said,
+              "a.yaml:3: error: size: is odd. Mend it.\n"
+              "a.yaml:3: warning: size_mm: is odd. Mend it.\n"
+              "a.yaml:2: error: size_ratio: is odd. Mend it.\n"
+              "a.yaml:2: error: colour: is missing. Add it.\n");
+    EXPECT_EQ(Error(value.place, "size", "is odd", "").problems().front().place.line, 3);
 }
 
 }  // namespace

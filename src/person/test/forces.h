@@ -33,12 +33,12 @@ inline std::string force_task(const std::string& blocks) {
       perturbed: no
       exits:
         - { when: inside, region: start, hold_s: 0.2, to: reach }
-        - { when: time, hold_s: 20, outcome: no start }
-      hand: [{ duration_s: 0.6, reach: start }]
+        - { when: time, after_s: 20, outcome: no start }
+      simulated_hand: [{ duration_s: 0.6, reach: start }]
     - name: reach
       show: [target]
-      exits: [{ when: time, hold_s: 1.2, outcome: reached }]
-      hand: [{ duration_s: 0.5, reach: target }]
+      exits: [{ when: time, after_s: 1.2, outcome: reached }]
+      simulated_hand: [{ duration_s: 0.5, reach: target }]
   conditions:
     - { name: away, regions: [{ name: target, position_mm: [0, 60, 120], radius_mm: 10 }] }
     - { name: turned, regions: [{ name: target, position_mm: [-70.7107, 30.7107, 120], radius_mm: 10 }] }

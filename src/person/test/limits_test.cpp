@@ -19,14 +19,14 @@ std::string task(const std::string& perturbation, const std::string& exits,
                  const std::string& hand = "duration_s: 0.5, reach: target") {
     return "  perturbations:\n    - { name: changed, " + perturbation +
            " }\n  states:\n    - name: reach\n      show: [target]\n      exits: [{ when: time, "
-           "hold_s: 1, to: ask }]\n      hand: [{ " +
+           "after_s: 1, to: ask }]\n      simulated_hand: [{ " +
            hand + " }]\n    - name: ask\n      exits:\n" + exits +
            "  blocks: [{ name: all, kind: perturbed, perturb: changed, repeats: 2 }]\n";
 }
 
 constexpr const char* kScaling = "visual: { moves: [proxies], about: start, scale: [1, 1.2, 1] }";
 constexpr const char* kCurl = "field: { kind: curl, on: index, axis: [0, 0, 1], damping_Ns_m: 13 }";
-constexpr const char* kEnd = "        - { when: time, hold_s: 1, outcome: done }\n";
+constexpr const char* kEnd = "        - { when: time, after_s: 1, outcome: done }\n";
 constexpr const char* kTwo =
     "        - { when: key, key: y, outcome: yes }\n        - { when: key, key: n, outcome: no }\n";
 constexpr const char* kThree = "        - { when: key, key: \"3\", outcome: rated 3 }\n";

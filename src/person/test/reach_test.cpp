@@ -47,7 +47,7 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
         sitting.end_with("    - name: reach\n", reach + R"(
     - name: arrived
       show: [target]
-      exits: [{ when: time, hold_s: 0.1, outcome: reached }]
+      exits: [{ when: time, after_s: 0.1, outcome: reached }]
   reach: { from: start, to: target, during: reach, distance_mm: 65, axis: [0, 0, 1] }
   blocks:
     - { name: baseline, kind: baseline, repeats: 2 }
@@ -61,21 +61,21 @@ TEST(Reaches, OverSeveralStatesAreLearnedAsInOne) {
     const auto one = curve(R"(
     - name: reach
       show: [target]
-      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 2, outcome: too slow }]
-      hand: [{ duration_s: 0.7, reach: target }]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, after_s: 2, outcome: too slow }]
+      simulated_hand: [{ duration_s: 0.7, reach: target }]
 )");
     // timed: only the message changes on the way
     const auto three = curve(R"(
     - name: reach
       show: [target]
-      exits: [{ when: outside, region: shell, outcome: too fast }, { when: time, hold_s: 0.45, to: in time }]
-      hand: [{ duration_s: 0.7, reach: target }]
+      exits: [{ when: outside, region: shell, outcome: too fast }, { when: time, after_s: 0.45, to: in time }]
+      simulated_hand: [{ duration_s: 0.7, reach: target }]
     - name: in time
       show: [target]
-      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 0.1, to: late }]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, after_s: 0.1, to: late }]
     - name: late
       show: [target]
-      exits: [{ when: outside, region: shell, to: arrived }, { when: time, hold_s: 2, outcome: too slow }]
+      exits: [{ when: outside, region: shell, to: arrived }, { when: time, after_s: 2, outcome: too slow }]
 )");
     ASSERT_EQ(one.size(), three.size());
     for (size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(three[i], one[i], 0.5) << i;

@@ -47,6 +47,36 @@ TEST(Session, OfAPersonIsRecordedWithWhoItWasAndReplaysToTheBit) {
     EXPECT_NE(frames(first).size(), frames(run("S02")).size());
 }
 
+TEST(Session, OfTwoHandsMovesTheSecondAsTheFileSaysAndReplaysToTheBit) {
+    Sitting sitting("pass-block");
+    sitting.end_with("  blocks:", "  blocks: [{ name: passing }]\n");
+    session::Plan plan = sitting.plan();
+    sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
+    session::RunOptions options;
+    options.out = sitting.folder.file("sessions");
+    const std::string folder = session::record(plan, options, kGoOn).folder;
+    EXPECT_TRUE(session::replay_session(folder, kGoOn, {}).good());
+    const CsvFile trials(folder + "/trials.csv");
+    ASSERT_GE(trials.rows(), 2u);
+    for (size_t i = 0; i < trials.rows(); ++i) EXPECT_EQ(trials.text(i, "outcome"), "passed");
+}
+
+TEST(Session, OfTwoHandsHasThePersonsOwnFingersFirst) {
+    Sitting sitting("pass-block");
+    sitting.replace("{ name: right_thumb, side: [-1, 0, 0] }",
+                    "{ name: right_thumb, side: [-1, 0, 0], aperture_mm: 90 }");
+    session::Plan plan = sitting.plan();
+    try {
+        sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("right_thumb: is of another hand"),
+                  std::string::npos)
+            << error.what();
+        EXPECT_GT(error.problems().front().place.line, 0);
+    }
+}
+
 TEST(Session, ThatIsReadWhileItRunsHasTheTablesOfItsLog) {
     for (const char* name : {"rotation-reversal", "grip-by-sight"}) {
         Sitting sitting(name);
@@ -150,11 +180,11 @@ std::vector<std::string> answers(double scale, const Traits& traits, int trials)
       show: [start]
       perturbed: no
       exits: [{{ when: inside, region: start, hold_s: 0.2, to: reach }}]
-      hand: [{{ duration_s: 0.5, reach: start }}]
+      simulated_hand: [{{ duration_s: 0.5, reach: start }}]
     - name: reach
       show: [target]
-      exits: [{{ when: time, hold_s: 1.5, to: ask }}]
-      hand: [{{ duration_s: 0.5, reach: target }}]
+      exits: [{{ when: time, after_s: 1.5, to: ask }}]
+      simulated_hand: [{{ duration_s: 0.5, reach: target }}]
     - name: ask
       exits:
         - {{ when: key, key: y, outcome: larger }}

@@ -159,7 +159,7 @@ TEST(RigFile, RefusesACalibrationOfOtherDevices) {
     };
     said(refusal(kPart, "serial: P-2"), "is of device P-1, and the thumb holds P-2. Calibrate");
     said(refusal("date: 2026-10-01\ndevices:\n  - {finger: toe}\n", ""),
-         "calibration.yaml:1: error: devices: has no part for the thumb's device");
+         "calibration.yaml:2: error: devices: has no part for the thumb's device");
     said(refusal("date: 2026-10-01\ndevices:\n  - {finger: thumb, joint_offset_deg: [0, 1, 1]}\n",
                  ""),
          "which tells no joint angles. Calibrate the rig again");

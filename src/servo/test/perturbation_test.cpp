@@ -114,6 +114,37 @@ TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
     EXPECT_LT((after - before - kTick * desk.scene.gravity).norm(), 1e-12);
 }
 
+TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
+    // a = (F - mu' m g) / m, with the plane's coefficient halved
+    Desk desk(true, 0.5);
+    for (int i = 0; i < 1000; ++i) desk.tick();
+    EXPECT_EQ(desk.tick().bodies[1].awake, 0);
+    const double force = 0.8;  // too little for the whole coefficient
+    PropertiesFrame slippery;
+    slippery.body = 0;
+    slippery.friction_scale = 0.5;
+    double v = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+            add(c.task.properties, slippery);
+            add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
+        });
+        if (i < 50) {
+            v = frame.bodies[1].v_WB.x();
+            continue;
+        }
+        v += kTick * (force - 0.25 * kMass * 9.81) / kMass;
+        EXPECT_NEAR(frame.bodies[1].v_WB.x(), v, 2e-5) << i;
+    }
+    EXPECT_GT(v, 0.3);
+    for (int i = 0; i < 1000; ++i) {  // without an order the plane is as in the scene
+        desk.tick([&](const Frame&, Commands& c) {
+            add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
+        });
+    }
+    EXPECT_NEAR(desk.servo->world().state({1}).v_WB.norm(), 0, 1e-6);
+}
+
 TEST_P(AnySolver, SlidesABlockOfDirectionalMassUnderItsTrueWeight) {
     // a = (F - mu m g) / (s m) along x; friction follows the weight, which is not scaled
     Desk desk(true, 0.5, Vec3::Zero(), settings());

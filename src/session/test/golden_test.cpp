@@ -109,8 +109,8 @@ TEST_P(Golden, HashesAreThoseThatWereKept) {
     if (renews) write(hashes);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Golden, ::testing::ValuesIn(shipped()), [](const auto& info) {
-    std::string name = std::filesystem::path(info.param).replace_extension("");
+INSTANTIATE_TEST_SUITE_P(Shipped, Golden, ::testing::ValuesIn(shipped()), [](const auto& shipped) {
+    std::string name = std::filesystem::path(shipped.param).replace_extension("");
     for (char& c : name) {
         if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     }

@@ -29,7 +29,14 @@ TEST(ShippedFiles, AreInOrder) {
         for (const std::string& file : shipped(folder, ".yaml")) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");
-            for (const Problem& p : diagnostics.problems()) ADD_FAILURE() << p.text();
+            for (const Problem& p : diagnostics.problems()) {
+                // what simulated people cannot judge is to be rehearsed all the same: its file says
+                // so
+                const bool arbitrary = p.severity == Severity::warning &&
+                                       p.text().find("arbitrary") != std::string::npos;
+                const bool said = testing::read_file(file).find("arbitrary") != std::string::npos;
+                EXPECT_TRUE(arbitrary && said) << p.text();
+            }
         }
     }
 }
@@ -456,6 +463,11 @@ TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
               std::string::npos);
     EXPECT_NE(warnings("distance_mm: 30", "distance_mm: 51")
                   .find("distance: is 51 mm, and the nearest target is 50 mm away"),
+              std::string::npos);
+    // what a formula gives is not known before the trial
+    EXPECT_EQ(warnings("name: target, position_mm: [50, 0, 120]",
+                       "name: target, position_mm: [start.x + 50 mm, 0, 120]")
+                  .find("is not measured"),
               std::string::npos);
 }
 

@@ -45,15 +45,15 @@ task:
       message: Go home
       exits:
         - { when: inside, region: start, hold_s: 0.2, to: reach }
-        - { when: time, hold_s: 5, outcome: lost, redo: yes }
-      hand: [{ duration_s: 0.2, reach: start }]
+        - { when: time, after_s: 5, outcome: lost, redo: yes }
+      simulated_hand: [{ duration_s: 0.2, reach: start }]
     - name: reach
       show: [target]
       marker: 7
       exits:
         - { when: outside, region: shell, outcome: reached, feedback: Good }
-        - { when: time, hold_s: 1, outcome: too slow, redo: yes }
-      hand: [{ duration_s: 0.2, reach: target }]
+        - { when: time, after_s: 1, outcome: too slow, redo: yes }
+      simulated_hand: [{ duration_s: 0.2, reach: target }]
   reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
   conditions:
     - name: right

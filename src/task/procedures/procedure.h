@@ -1,10 +1,11 @@
-// An adaptive procedure chooses the level of each trial by the answers so far. Procedure wraps any
+// A procedure chooses the level of each trial, as a rule by the answers so far. Procedure wraps any
 // of the procedures as a value: copies are independent, and the same answers always lead to the
 // same state, so a session is resumed by giving the answers again.
 #pragma once
 
 #include <variant>
 
+#include "task/procedures/constant.h"
 #include "task/procedures/quest.h"
 #include "task/procedures/quest_plus.h"
 #include "task/procedures/staircase.h"
@@ -13,7 +14,7 @@ namespace dihaptic::task {
 
 class Procedure {
   public:
-    using Kind = std::variant<Staircase, Quest, QuestPlus>;
+    using Kind = std::variant<Staircase, Quest, QuestPlus, Constant>;
 
     Procedure(Kind kind) : kind_(std::move(kind)) {}
 

@@ -45,7 +45,7 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
         const Observer observer{0.12 * std::exp(0.25 * random.normal())};  // as in adults.yaml
         const ProcedureSpec& spec = experiment.task->procedures[static_cast<size_t>(i % 2)];
         const double scale = i % 2 == 0 ? 2 : 0.5;
-        Procedure procedure = make_procedure(spec);
+        Procedure procedure = make_procedure(spec, 0);
         std::vector<analysis::Answer> answers;
         while (!procedure.done()) {
             const double level = procedure.level();

@@ -35,7 +35,7 @@ struct Waiting {
             "    - name: wait\n"
             "      exits:\n        - " +
             exit +
-            "\n        - { when: time, hold_s: 100, outcome: never }\n"
+            "\n        - { when: time, after_s: 100, outcome: never }\n"
             "  blocks: [{ name: all }]\n";
         plan = session::make_plan(files.request());
         director = std::make_unique<TaskDirector>(*plan.task, 1, 1e-3);
@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "It belongs to when: inside, outside"},
         Mistake{kExit, "{ when: key, key: y, height_mm: 3, outcome: reached }",
                 "It belongs to when: lifted"},
-        Mistake{kExit, "{ when: time, hold_s: 1, count: 3, outcome: reached }",
+        Mistake{kExit, "{ when: time, after_s: 1, count: 3, outcome: reached }",
                 "It belongs to when: inside"},
         Mistake{kExit, "{ when: outside, region: shell, count: 0, outcome: reached }", "count"},
         Mistake{kExit, "{ when: outside, region: shell, what: blok, outcome: reached }",

@@ -11,6 +11,10 @@
 #include <set>
 
 #include "base/table.h"
+#include "scene/scene.h"
+#include "task/task_plan.h"
+#include "task/trials.h"
+#include "testing/files.h"
 
 namespace dihaptic::task::draws_test {
 namespace {
@@ -48,16 +52,48 @@ DrawSpec foreperiod() {
     return draw;
 }
 
+double foreperiod_cdf(double t) {
+    return (1 - std::exp(-(t - 0.3) / 0.5)) / (1 - std::exp(-1.7 / 0.5));
+}
+
 TEST(Draws, ForeperiodsAreTruncatedExponentials) {
-    const auto cdf = [](double t) {
-        return (1 - std::exp(-(t - 0.3) / 0.5)) / (1 - std::exp(-1.7 / 0.5));
-    };
     for (const uint64_t seed : {1, 2, 3, 4, 5}) {
         const std::vector<double> waits = drawn_10000(foreperiod(), seed);
-        EXPECT_GT(p_of(waits, cdf), kLeastP) << seed;
+        EXPECT_GT(p_of(waits, foreperiod_cdf), kLeastP) << seed;
         EXPECT_GE(*std::min_element(waits.begin(), waits.end()), 0.3);
         EXPECT_LE(*std::max_element(waits.begin(), waits.end()), 2);
     }
+}
+
+TEST(Draws, TenThousandForeperiodsAreFrozenInTheListAndRepeatedByTheSeed) {
+    Diagnostics diagnostics;
+    scene::Scene scene;
+    read_fields(scene, parse_yaml("bodies: [{ name: floor, shape: plane, fixed: yes }]", "s.yaml"),
+                diagnostics);
+    Task task;
+    read_fields(
+        task,
+        parse_yaml("draws: [{ name: wait_s, exponential: { mean: 0.5, from: 0.3, to: 2 } }]\n"
+                   "states: [{ name: wait, exits: [{ when: time, after_s: wait, "
+                   "outcome: done }] }]\n"
+                   "blocks: [{ name: only, repeats: 10000 }]\n",
+                   "t.yaml"),
+        diagnostics);
+    const TaskPlan plan = plan_task(task, scene, diagnostics);
+    diagnostics.throw_if_errors();
+    const testing::TemporaryFolder folder;
+    const auto list = [&](uint64_t seed) {
+        const std::string file = folder.file("trial-list.csv");
+        write_csv(trial_list(plan.task, make_trials(plan.task, 7, seed)), file);
+        return testing::read_file(file);
+    };
+    EXPECT_NE(list(1), list(2));
+    EXPECT_EQ(list(1), list(1));
+    std::vector<double> waits;  // as a session that goes on has them: from the list
+    for (const Trial& trial : read_trial_list(plan.task, folder.file("trial-list.csv")))
+        waits.push_back(trial.draws.at(0));
+    ASSERT_EQ(waits.size(), kTrials);
+    EXPECT_GT(p_of(waits, foreperiod_cdf), kLeastP);
 }
 
 TEST(Draws, TheHazardOfAForeperiodIsFlat) {

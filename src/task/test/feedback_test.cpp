@@ -79,7 +79,7 @@ TEST(Feedback, InATrialHoldsBackTheNextStatesMessageButNotTheState) {
                   "        - { when: outside, region: shell, to: back, feedback: Good }");
     files.replace("  reach: { from",
                   "    - name: back\n      message: Go back\n      exits:\n"
-                  "        - { when: time, hold_s: 1.5, outcome: reached }\n  reach: { from");
+                  "        - { when: time, after_s: 1.5, outcome: reached }\n  reach: { from");
     const std::vector<Said> said = said_in(files.run(session::make_plan(files.request())));
     int back = 0;
     for (size_t i = 1; i < said.size(); ++i) {

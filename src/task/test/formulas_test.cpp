@@ -45,14 +45,14 @@ task:
   states:
     - name: home
       perturbed: no
-      exits: [{ when: time, hold_s: wait, to: reach }]
-      hand: [{ duration_s: 0.05, reach: start }]
+      exits: [{ when: time, after_s: wait, to: reach }]
+      simulated_hand: [{ duration_s: 0.05, reach: start }]
     - name: reach
       show: [target]
       exits:
         - { when: inside, region: target, outcome: reached }
-        - { when: time, hold_s: 1, outcome: too slow }
-      hand: [{ duration_s: 0.1, reach: target }]
+        - { when: time, after_s: 1, outcome: too slow }
+      simulated_hand: [{ duration_s: 0.1, reach: target }]
   blocks:
     - { name: first, repeats: 2, until: score >= 60 }
     - { name: second, kind: perturbed, perturb: changed }
@@ -237,7 +237,7 @@ TEST(Formulas, ARecoveredSessionHasItsColumnsAndAResumedOneGoesOnWithItsVariable
 
 TEST(Formulas, AreKeptWithinBoundsWhereVariablesLeaveThem) {
     Formulas files;
-    files.replace("hold_s: wait", "hold_s: (score - 5) / 100");
+    files.replace("after_s: wait", "after_s: (score - 5) / 100");
     const session::Plan plan = session::make_plan(files.request());
     ASSERT_FALSE(plan.warnings.empty());
     EXPECT_NE(plan.warnings.front().text().find("gives -0.05 in trial 1"), std::string::npos)
@@ -363,9 +363,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"side * reach", "sied * reach", "sied"},
         Mistake{"side * reach", "wait", "must be a length"},
         Mistake{"side * reach", "side * reach *", "position_mm"},
-        Mistake{"hold_s: wait", "hold_s: wait > 0.1", "must be a number"},
-        Mistake{"hold_s: wait", "hold_s: block.z / 1 m * 1 s", "changes within a trial"},
-        Mistake{"hold_s: wait", "hold_s: wait - 1 s", "in trial 1"},
+        Mistake{"after_s: wait", "after_s: wait > 0.1", "must be a number"},
+        Mistake{"after_s: wait", "after_s: block.z / 1 m * 1 s", "changes within a trial"},
+        Mistake{"after_s: wait", "after_s: wait - 1 s", "in trial 1"},
         Mistake{"position_mm: [0, 0, 120], radius", "position_mm: [target.x, 0, 120], radius",
                 "gives no number in trial 1"},
         Mistake{"mass / 100 g", "mass / 1 g", "must be from 0.05 to 20"},

@@ -221,10 +221,11 @@ TEST(Motions, KeepWhatWasADelayAgo) {
 /// A block 0.5 m up in the air, where the region `there` is, and states of one trial under what
 /// `perturbations` lists.
 struct InTheAir : session::Files {
-    explicit InTheAir(const std::string& perturbations, const std::string& perturb,
-                      const std::string& states =
-                          "    - { name: fly, exits: [{ when: time, hold_s: 0.4, outcome: done }], "
-                          "hand: [{ duration_s: 0.4 }] }\n") {
+    explicit InTheAir(
+        const std::string& perturbations, const std::string& perturb,
+        const std::string& states =
+            "    - { name: fly, exits: [{ when: time, after_s: 0.4, outcome: done }], "
+            "simulated_hand: [{ duration_s: 0.4 }] }\n") {
         scene.replace(scene.find("position_mm: [0, 0, 20]"), 23, "position_mm: [200, 0, 500]");
         experiment =
             "title: In the air\nscene: scene.yaml\nhand: { centre_mm: [0, 0, 120] }\ntask:\n"
@@ -317,7 +318,7 @@ TEST(Load, ADelayedOneIsTheUndelayedShifted) {
 }
 
 TEST(Perturbation, APulseFollowsItsProfileAcrossStatesAndNoOthers) {
-    const std::string state = "exits: [{ when: time, hold_s: 0.1, ";
+    const std::string state = "exits: [{ when: time, after_s: 0.1, ";
     InTheAir files(
         "    - name: pulse\n"
         "      during: [second, third]\n"
@@ -326,10 +327,10 @@ TEST(Perturbation, APulseFollowsItsProfileAcrossStatesAndNoOthers) {
         "    - { name: heavier, during: third, body: { body: block, weight_scale: 2 } }\n"
         "    - { name: rougher, body: { body: block, weight_scale: 3, friction_scale: 0.5 } }\n",
         "[pulse, heavier, rougher]",
-        "    - { name: first, hand: [{ duration_s: 0.1 }], " + state + "to: second }] }\n" +
-            "    - { name: second, " + state + "to: third }] }\n" + "    - { name: third, " +
-            state + "to: fourth }] }\n" + "    - { name: fourth, perturbed: no, " + state +
-            "outcome: done }] }\n");
+        "    - { name: first, simulated_hand: [{ duration_s: 0.1 }], " + state +
+            "to: second }] }\n" + "    - { name: second, " + state + "to: third }] }\n" +
+            "    - { name: third, " + state + "to: fourth }] }\n" +
+            "    - { name: fourth, perturbed: no, " + state + "outcome: done }] }\n");
     Profile profile;
     profile.delay = 0.05;
     profile.rise = 0.02;

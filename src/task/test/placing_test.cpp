@@ -15,8 +15,8 @@ constexpr double kGravity = 9.81;
 
 /// A state of 0.1 s that leads to another, or out of the trial.
 std::string state(const std::string& name, const std::string& next, const std::string& more) {
-    return "    - { name: " + name + ", exits: [{ when: time, hold_s: 0.1, " + next + " }]" + more +
-           " }\n";
+    return "    - { name: " + name + ", exits: [{ when: time, after_s: 0.1, " + next + " }]" +
+           more + " }\n";
 }
 
 /// Frames of the first trial of an experiment with these states, but the session's first, in which
@@ -41,7 +41,7 @@ TEST(Placing, HoldsABodyAndLetsItGo) {
     const auto frames =
         frames_of(files, state("hold", "to: drop",
                                ", place: [{ body: block, position_mm: [100, 0, 300], held: yes }], "
-                               "hand: [{ duration_s: 0.1 }]") +
+                               "simulated_hand: [{ duration_s: 0.1 }]") +
                              state("drop", "outcome: done", ""));
     double t = 0;
     for (const servo::Frame& frame : frames) {
@@ -63,7 +63,7 @@ TEST(Placing, RemovesAndExchangesBodies) {
         files,
         state("one", "to: other",
               ", place: [{ body: ball, removed: yes }], "
-              "hand: [{ duration_s: 0.1 }]") +
+              "simulated_hand: [{ duration_s: 0.1 }]") +
             state("other", "outcome: done",
                   ", place: [{ body: block, removed: yes }, { body: ball, position_mm: [0, 0, "
                   "20] }]"));
@@ -78,13 +78,13 @@ TEST(Placing, RemovesAndExchangesBodies) {
 
 TEST(Placing, WaitsForAFingerThatIsInTheWay) {
     session::Files files;
-    const auto frames =
-        frames_of(files,
-                  "    - name: in the way\n"
-                  "      place: [{ body: block, position_mm: [0, 0, 220], held: yes }]\n"
-                  "      exits: [{ when: time, hold_s: 0.8, to: away }]\n"
-                  "      hand: [{ duration_s: 0.1 }, { duration_s: 0.5, move_mm: [0, 0, 150] }]\n" +
-                      state("away", "outcome: done", ""));
+    const auto frames = frames_of(
+        files,
+        "    - name: in the way\n"
+        "      place: [{ body: block, position_mm: [0, 0, 220], held: yes }]\n"
+        "      exits: [{ when: time, after_s: 0.8, to: away }]\n"
+        "      simulated_hand: [{ duration_s: 0.1 }, { duration_s: 0.5, move_mm: [0, 0, 150] }]\n" +
+            state("away", "outcome: done", ""));
     ASSERT_GT(frames.size(), 850u);
     size_t put = 0;
     for (const servo::Frame& frame : frames) {

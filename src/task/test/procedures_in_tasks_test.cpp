@@ -33,8 +33,8 @@ task:
       exits:
         - { when: key, key: y, outcome: turned }
         - { when: key, key: n, outcome: straight }
-        - { when: time, hold_s: 5, outcome: late, redo: yes }
-      hand: [{ duration_s: 0.2 }]
+        - { when: time, after_s: 5, outcome: late, redo: yes }
+      simulated_hand: [{ duration_s: 0.2 }]
   procedures:
     - name: left
       perturb: left

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kMessage, "lines: [one, two, three]", "where 2 are the most"},
         Mistake{kMessage, "lines: [\"{scoer}\"]", "no number that a text may have"},
         Mistake{kMessage, "countdown: 5", "must be yes or no"},
-        Mistake{"- { when: time, hold_s: 5, outcome: lost, redo: yes }",
+        Mistake{"- { when: time, after_s: 5, outcome: lost, redo: yes }",
                 "- { when: key, key: l, outcome: lost, redo: yes }\n      countdown: yes",
                 "no exit by time ends this state"},
         Mistake{"feedback: Good", "feedback: \"{target}\"", "no number that a text may have"}));

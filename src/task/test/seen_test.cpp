@@ -108,7 +108,7 @@ TEST(Seen, AHeldCursorStaysWhereItWasWhenTheStateBegan) {
     files.replace("region: shell, outcome: reached, feedback: Good }", "region: shell, to: end }");
     files.replace("  reach: { from",
                   "    - name: end\n      show: { cursor: held }\n      perturbed: no\n"
-                  "      exits: [{ when: time, hold_s: 0.3, outcome: reached }]\n  reach: { from");
+                  "      exits: [{ when: time, after_s: 0.3, outcome: reached }]\n  reach: { from");
     constexpr int kEnd = 3;
     const Told told = tell(files);
     Pose held;

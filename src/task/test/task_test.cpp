@@ -77,8 +77,8 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     session::Files files;
     files.replace("kind: visual_clamp, perturb: clamp", "kind: force_channel, perturb: channel");
     // the hand goes astray, 10 mm to the side
-    files.replace("hand: [{ duration_s: 0.2, reach: target }]",
-                  "hand: [{ duration_s: 0.2, reach: target, move_mm: [10, 10, 0] }]");
+    files.replace("simulated_hand: [{ duration_s: 0.2, reach: target }]",
+                  "simulated_hand: [{ duration_s: 0.2, reach: target, move_mm: [10, 10, 0] }]");
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -110,8 +110,8 @@ std::vector<servo::BodyFrame> fall_through(const std::string& field) {
         field +
         " } }]\n"
         "  states:\n"
-        "    - { name: fall, exits: [{ when: time, hold_s: 0.2, outcome: done }], "
-        "hand: [{ duration_s: 0.2 }] }\n"
+        "    - { name: fall, exits: [{ when: time, after_s: 0.2, outcome: done }], "
+        "simulated_hand: [{ duration_s: 0.2 }] }\n"
         "  blocks: [{ name: all, kind: perturbed, perturb: field }]\n";
     const session::RunResult result = files.run(session::make_plan(files.request()));
     std::vector<servo::BodyFrame> out;
@@ -158,8 +158,8 @@ TEST(Task, ABodyFallsThroughACurlFieldOnACycloid) {
 
 TEST(Task, DoesAbortedTrialsAgain) {
     session::Files files;
-    files.replace("hand: [{ duration_s: 0.2, reach: target }]",
-                  "hand: [{ duration_s: 3, reach: target }]");
+    files.replace("simulated_hand: [{ duration_s: 0.2, reach: target }]",
+                  "simulated_hand: [{ duration_s: 3, reach: target }]");
     const session::RunResult result = files.run(session::make_plan(files.request()));
     finish(result);
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(27, "too slow"));
@@ -176,16 +176,16 @@ task:
     - name: push
       exits:
         - { when: touched, body: block, to: slide }
-        - { when: time, hold_s: 2, outcome: missed }
-      hand: [{ duration_s: 0.6, move_mm: [140, 0, 0] }]
+        - { when: time, after_s: 2, outcome: missed }
+      simulated_hand: [{ duration_s: 0.6, move_mm: [140, 0, 0] }]
     - name: slide
-      exits: [{ when: time, hold_s: 0.5, to: stay }]
-      hand: [{ duration_s: 0.3, move_mm: [40, 0, 0] }]
+      exits: [{ when: time, after_s: 0.5, to: stay }]
+      simulated_hand: [{ duration_s: 0.3, move_mm: [40, 0, 0] }]
     - name: stay
       exits: [{ when: still, hold_s: 0.1, speed_mm_s: 5, to: back }]
     - name: back
-      exits: [{ when: time, hold_s: 0.6, outcome: pushed }]
-      hand: [{ duration_s: 0.2, move_mm: [0, 0, 60] }, { duration_s: 0.4, move_mm: [-140, 0, -60] }]
+      exits: [{ when: time, after_s: 0.6, outcome: pushed }]
+      simulated_hand: [{ duration_s: 0.2, move_mm: [0, 0, 60] }, { duration_s: 0.4, move_mm: [-140, 0, -60] }]
   blocks: [{ name: all, repeats: 3 }]
 )";
     const session::RunResult result = files.run(session::make_plan(files.request()));

@@ -1,0 +1,141 @@
+#include "task/own_measures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "base/unmeasured.h"
+#include "task/lookup.h"
+#include "task/plan_formulas.h"
+
+namespace dihaptic::task {
+namespace {
+
+void check_name(const OwnMeasure& measure, const TaskPlan& plan, Diagnostics& diagnostics) {
+    std::vector<Table::Column> columns = kTrialListColumns;
+    for (const auto& more : {own_columns(plan.task), measure_columns()})
+        columns.insert(columns.end(), more.begin(), more.end());
+    const auto is_name = [&](const Table::Column& c) { return c.name == measure.name; };
+    const auto letter = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
+    if (!std::all_of(measure.name.begin(), measure.name.end(), letter)) {
+        diagnostics.error(measure.place, "name",
+                          fmt::format("'{}' cannot be a column", measure.name),
+                          "Use letters, digits and _, with the unit at the end, e.g. squeeze_N.");
+    } else if (std::any_of(columns.begin(), columns.end(), is_name)) {
+        diagnostics.error(measure.place, "name",
+                          fmt::format("'{}' is the name of another column", measure.name),
+                          "Use another name.");
+    }
+}
+
+}  // namespace
+
+void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics) {
+    plan.measured = plan.quantities;
+    const std::vector<OwnMeasure>& measures = plan.task.own_measures;
+    check_names(measures, "measures", diagnostics);
+    for (const OwnMeasure& measure : measures) {
+        check_name(measure, plan, diagnostics);
+        TaskPlan::Measured out;
+        out.take = measure.take;
+        for (const std::string& state : measure.during) {
+            const int i = look_up(names_of(plan.task.states), state, measure.place, "during",
+                                  "no state", diagnostics);
+            if (i >= 0) out.states |= uint64_t{1} << i;
+        }
+        if (measure.during.empty()) out.states = ~uint64_t{0};
+        Formula of;
+        of.text = measure.of;
+        of.to_si = split_unit(measure.name).si;
+        of.key = "of";
+        of.place = measure.place;
+        of.field = Field::of(split_unit(measure.name).quantity);
+        if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
+            out.value = std::move(*compiled);
+            plan.own_measures.push_back(std::move(out));
+        }
+    }
+}
+
+std::vector<Table::Column> columns_of(const std::vector<OwnMeasure>& measures) {
+    std::vector<Table::Column> out;
+    for (const OwnMeasure& measure : measures) {
+        const NameInUnit name = split_unit(measure.name);
+        std::string unit;
+        if (name.quantity != Quantity::none) unit = measure.name.substr(name.name.size() + 1);
+        std::replace(unit.begin(), unit.end(), '_', '/');
+        out.push_back(
+            {measure.name, fmt::format("{} of {}", enum_name(measure.take), measure.of), unit});
+    }
+    return out;
+}
+
+OwnMeasures::OwnMeasures(TaskPlan plan)
+    : plan_([&] {
+          plan.quantities = plan.measured;
+          return std::move(plan);
+      }()),
+      numbers_(plan_),
+      taken_(plan_.own_measures.size()) {}
+
+void OwnMeasures::add(const servo::Frame& frame) {
+    const double now = seconds(frame.time);
+    if (began_ < 0) began_ = now;
+    if (frame.phase != phase_) entered_ = now;
+    phase_ = frame.phase;
+    numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
+    Quantities& quantities = numbers_.quantities();
+    quantities.set(Quantities::kTimeInState, now - entered_);
+    quantities.set(Quantities::kTimeInTrial, now - began_);
+    handles_.resize(frame.fingers.size());
+    for (size_t i = 0; i < handles_.size(); ++i) {
+        handles_[i].p_WH = frame.fingers[i].p_WH;
+        handles_[i].v_WH = frame.fingers[i].v_WH;
+        if (frame.turns.size() != handles_.size()) continue;
+        handles_[i].R_WH = frame.turns[i].R_WH;
+        handles_[i].w_WH = frame.turns[i].w_WH;
+    }
+    quantities.update(frame, handles_);
+    for (size_t i = 0; i < taken_.size(); ++i) {
+        const TaskPlan::Measured& measure = plan_.own_measures[i];
+        if ((measure.states >> (frame.phase - 1) & 1u) == 0) continue;
+        const double value = measure.value.value(numbers_.values());
+        Taken& taken = taken_[i];
+        const bool first = taken.ticks++ == 0;
+        switch (measure.take) {
+            case Take::first:
+                if (first) taken.value = value;
+                break;
+            case Take::last:
+                taken.value = value;
+                break;
+            case Take::min:
+                taken.value = first ? value : std::fmin(taken.value, value);
+                break;
+            case Take::max:
+                taken.value = first ? value : std::fmax(taken.value, value);
+                break;
+            case Take::mean:
+                taken.value += (value - taken.value) / static_cast<double>(taken.ticks);
+                break;
+        }
+    }
+}
+
+std::vector<double> OwnMeasures::end_attempt() {
+    std::vector<double> out;
+    for (size_t i = 0; i < taken_.size(); ++i) {
+        const double si = plan_.own_measures[i].value.formula.to_si;
+        out.push_back(taken_[i].ticks > 0 ? taken_[i].value / si : kUnmeasured);
+        taken_[i] = {};
+    }
+    phase_ = 0;
+    began_ = -1;
+    return out;
+}
+
+}  // namespace dihaptic::task

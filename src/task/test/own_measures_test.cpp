@@ -1,0 +1,111 @@
+// Tests measures of a task's own against what the recorded frames say, and the error for every
+// mistake.
+#include "task/own_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "analysis/session_report.h"
+#include "base/table.h"
+#include "recording/raw_log.h"
+#include "session/test/reaches.h"
+
+namespace dihaptic::task::own_measures_test {
+namespace {
+
+using session::Mistake;
+
+const char* const kBlocks = "  blocks:\n";
+
+TEST(OwnMeasures, AreTakenOfEachAttemptInItsStates) {
+    session::Files files;
+    files.replace(kBlocks,
+                  "  draws: [{ name: bonus, uniform: { from: 1, to: 2 } }]\n"
+                  "  own_measures:\n"
+                  "    - { name: top_speed_mm_s, of: index.speed, take: max, during: [reach] }\n"
+                  "    - { name: way_mm, of: 'distance(index, start) * bonus', take: last }\n"
+                  "    - { name: waited, of: time_in_state / 1 s, take: last, during: [home] }\n"
+                  "    - { name: mean_z_m, of: index.z, take: mean }\n"
+                  "  blocks:\n");
+    const session::Plan plan = session::make_plan(files.request());
+    const session::RunResult result = files.run(plan);
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    struct Expected {
+        double speed = 0, way = 0, entered = 0, waited = 0, z = 0;
+        int phase = 0, ticks = 0;
+    };
+    std::map<int, Expected> expected;  // by trial
+    recording::RawLogReader log(result.folder + "/raw.log");
+    while (const servo::Frame* frame = log.next()) {
+        if (frame->phase == 0) continue;
+        Expected& e = expected[frame->trial];
+        const Vec3& p_W = frame->fingers[0].p_WH;
+        const double now = seconds(frame->time);
+        if (frame->phase != e.phase) e.entered = now;
+        e.phase = frame->phase;
+        if (frame->phase == 1) e.waited = now - e.entered;
+        if (frame->phase == 2) e.speed = std::max(e.speed, frame->fingers[0].v_WH.norm());
+        e.way = (p_W - Vec3(0, 0, 0.12)).norm() *
+                plan.task->trials[static_cast<size_t>(frame->trial - 1)].draws[0];
+        e.z += (p_W.z() - e.z) / ++e.ticks;
+    }
+    const CsvFile trials(result.folder + "/trials.csv");
+    ASSERT_EQ(trials.rows(), 9u);
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const Expected& e = expected.at(static_cast<int>(trials.number(i, "trial_num")));
+        EXPECT_GT(e.speed, 0.1);
+        EXPECT_NEAR(trials.number(i, "top_speed_mm_s"), 1e3 * e.speed, 1e-6);
+        EXPECT_NEAR(trials.number(i, "way_mm"), 1e3 * e.way, 1e-6);
+        EXPECT_NEAR(trials.number(i, "waited"), e.waited, 1e-6);
+        EXPECT_NEAR(trials.number(i, "mean_z_m"), e.z, 1e-9);
+        EXPECT_EQ(trials.text(i, kNotMeasured), "");
+    }
+}
+
+TEST(OwnMeasures, SayWhatTheyCouldNotTake) {
+    session::Files files;
+    files.replace("        - { when: outside, region: shell, outcome: reached",
+                  "        - { when: key, key: x, to: never }\n"
+                  "        - { when: outside, region: shell, outcome: reached");
+    files.replace("  reach: {",
+                  "    - { name: never, exits: [{ when: time, after_s: 1, outcome: late }] }\n"
+                  "  own_measures: [{ name: z_mm, of: index.z, take: min, during: [never] }]\n"
+                  "  reach: {");
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    EXPECT_EQ(trials.text(0, "z_mm"), "");
+    EXPECT_EQ(trials.text(0, kNotMeasured), "z_mm: not measured");
+}
+
+class MistakenMeasure : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakenMeasure, IsRefusedWithFileLineAndRemedy) {
+    session::Files files;
+    const Mistake& mistake = GetParam();
+    const std::string by = std::string("  own_measures: [") + mistake.by + "]\n  blocks:\n";
+    session::expect_refused(files, {mistake.what, by.c_str(), mistake.said});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OwnMeasures, MistakenMeasure,
+    ::testing::Values(
+        Mistake{kBlocks, "{ name: a_N, of: grip_forc, take: max }", "Did you mean grip_force?"},
+        Mistake{kBlocks, "{ name: a_N, of: index.speed, take: max }", "and must be a"},
+        Mistake{kBlocks, "{ name: a, of: index.speed, take: max }", "and must be a"},
+        Mistake{kBlocks, "{ name: a_m_s, of: index.speed > 1 m_s, take: max }",
+                "must be a number or a formula of one"},
+        Mistake{kBlocks, "{ name: a_m_s, of: index.speed, take: most }", "'most' is not known"},
+        Mistake{kBlocks, "{ name: a_m_s, of: index.speed }", "take: is missing"},
+        Mistake{kBlocks, "{ name: a_m_s, take: max }", "of: is missing"},
+        Mistake{kBlocks, "{ of: index.speed, take: max }", "name: is missing"},
+        Mistake{kBlocks, "{ name: a b, of: 1, take: max }", "cannot be a column"},
+        Mistake{kBlocks, "{ name: outcome, of: 1, take: max }", "is the name of another column"},
+        Mistake{kBlocks, "{ name: a, of: 1, take: max }, { name: a, of: 2, take: max }",
+                "there are two measures 'a'"},
+        Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"}));
+
+}  // namespace
+}  // namespace dihaptic::task::own_measures_test

@@ -1,0 +1,228 @@
+// Tests ratings: what is typed or pointed at becomes a number of the trial, in tables and formulas.
+#include "task/rating.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/recovery.h"
+#include "person/population.h"
+#include "session/replay.h"
+#include "session/test/reaches.h"
+#include "task/task_director.h"
+
+namespace dihaptic::task::rating_test {
+namespace {
+
+using session::Mistake;
+
+const char* const kRating = R"(title: Rating
+scene: scene.yaml
+hand: { centre_mm: [0, 0, 120] }
+task:
+  regions:
+    - { name: low, position_mm: [-50, 0, 120] }
+    - { name: high, position_mm: [50, 0, 120] }
+  variables: [{ name: sum }]
+  after_trial: [{ when: heaviness > 0, set: sum, to: sum + heaviness }]
+  states:
+    - name: rate
+      message: How heavy was it?
+      ask: { name: heaviness, scale: numbers, from: 1, to: 9, labels: [light, heavy] }
+      exits:
+        - { when: answered, outcome: rated }
+        - { when: time, after_s: 0.5, outcome: no answer }
+      simulated_hand: [{ duration_s: 0.1 }]
+  blocks:
+    - { name: ratings, kind: baseline, repeats: 3 }
+)";
+
+struct Ratings : session::Files {
+    Ratings() { experiment = kRating; }
+};
+
+Question numbers(double least, double most, bool whole = true) {
+    Question out;
+    out.least = least;
+    out.most = most;
+    out.whole = whole;
+    return out;
+}
+
+double typed(const char* keys, const Question& question) {
+    Rating rating;
+    for (const char* key = keys; *key != 0; ++key) rating.press(*key, question);
+    return rating.answer();
+}
+
+TEST(Rating, IsTyped) {
+    EXPECT_EQ(typed("7", numbers(1, 9)), 7);
+    EXPECT_TRUE(std::isnan(typed("0", numbers(1, 9))));
+    EXPECT_EQ(typed("05", numbers(1, 9)), 5);  // 0 is taken back
+    EXPECT_TRUE(std::isnan(typed("5", numbers(0, 100))));
+    EXPECT_EQ(typed("5\r", numbers(0, 100)), 5);
+    EXPECT_EQ(typed("57", numbers(0, 100)), 57);  // no other digit could follow
+    EXPECT_EQ(typed("100", numbers(0, 100)), 100);
+    EXPECT_EQ(typed("6\b42", numbers(0, 100)), 42);
+    EXPECT_EQ(typed("2.5\r", numbers(0, 1e6, false)), 2.5);
+    EXPECT_EQ(typed("2.5\r", numbers(0, 1e6)), 25);
+    EXPECT_EQ(typed("-3\r", numbers(-5, 5)), -3);
+    EXPECT_TRUE(std::isnan(typed("abc\r", numbers(0, 100))));
+    EXPECT_EQ(typed("12345678901\r", numbers(0, 1e8)), 12345678);
+    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // what comes later counts no more
+    Rating rating;
+    rating.press('4', numbers(0, 100));
+    EXPECT_EQ(rating.shown(), 4);
+    EXPECT_TRUE(std::isnan(rating.answer()));
+    rating.begin();
+    EXPECT_TRUE(std::isnan(rating.shown()));
+}
+
+TEST(Rating, IsWhereTheHandIsOnALine) {
+    Rating rating;
+    const Vec3 from(-0.05, 0, 0.12), to(0.05, 0, 0.12);
+    const Question question = numbers(0, 100, false);
+    rating.point({0.02, 0.3, 0}, from, to, question);
+    EXPECT_NEAR(rating.answer(), 70, 1e-9);
+    rating.point({0.2, 0, 0}, from, to, question);
+    EXPECT_EQ(rating.answer(), 100);
+    rating.point({-0.2, 0, 0}, from, to, question);
+    EXPECT_EQ(rating.answer(), 0);
+    rating.point({0.021, 0, 0}, from, to, numbers(1, 9));
+    EXPECT_EQ(rating.answer(), 7);
+}
+
+/// Runs the director, with the hand at `p_WH`, and presses the keys one after the other.
+std::vector<servo::TaskFrame> run(const session::Plan& plan, const std::string& keys,
+                                  const Vec3& p_WH = {0, 0, 0.12}) {
+    TaskDirector director(*plan.task, plan.seed, 1e-3);
+    servo::Frame last;
+    last.bodies.resize(plan.scene.bodies.size());
+    for (size_t i = 0; i < last.bodies.size(); ++i)
+        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
+    last.fingers.resize(1);
+    last.fingers[0].p_WP = p_WH;
+    const haptics::Handle handle{p_WH};
+    std::vector<servo::TaskFrame> out;
+    size_t at = 0;
+    for (int i = 0; i < 20000; ++i) {
+        servo::Commands commands;
+        commands.task.reserve(last.bodies.size());
+        director(last, std::span(&handle, 1), commands);
+        last.sequence += 1;
+        last.time += std::chrono::milliseconds(1);
+        out.push_back(commands.task);
+        if (commands.phase == 1 && commands.task.outcome < 0 && at < keys.size())
+            director.press(keys[at++]);
+        last.task = commands.task;
+        if (commands.stop) break;
+    }
+    return out;
+}
+
+TEST(Rating, IsAVariableOfTheTrialAndANumberInItsLine) {
+    Ratings files;
+    const session::Plan plan = session::make_plan(files.request());
+    ASSERT_EQ(plan.task->start.size(), 2u);
+    std::vector<double> answers;
+    std::vector<double> sums;
+    for (const servo::TaskFrame& task : run(plan, "37")) {
+        if (task.outcome < 0) continue;
+        answers.push_back(task.variables[1].value);
+        sums.push_back(task.variables[0].value);
+    }
+    ASSERT_EQ(answers.size(), 3u);
+    EXPECT_EQ(answers[0], 3);
+    EXPECT_EQ(answers[1], 7);
+    EXPECT_TRUE(std::isnan(answers[2]));
+    EXPECT_EQ(sums, (std::vector<double>{3, 10, 10}));
+    EXPECT_NE(std::find(plan.task->messages.begin(), plan.task->messages.end(),
+                        "1 light ... 9 heavy: {answer}"),
+              plan.task->messages.end());
+}
+
+TEST(Rating, ByTheCursorIsWhereTheHandIsWhenTheStateEnds) {
+    Ratings files;
+    files.replace("scale: numbers, from: 1, to: 9,",
+                  "scale: vas, by: cursor, between: [low, high],");
+    files.replace("when: answered", "when: still, hold_s: 0.1");
+    const session::Plan plan = session::make_plan(files.request());
+    int trials = 0;
+    for (const servo::TaskFrame& task : run(plan, "", {0.03, 0.01, 0.15})) {
+        if (task.outcome < 0) continue;
+        EXPECT_NEAR(task.variables[1].value, 80, 1e-9);
+        EXPECT_EQ(plan.task->outcomes[static_cast<size_t>(task.outcome)].name, "rated");
+        ++trials;
+    }
+    EXPECT_EQ(trials, 3);
+}
+
+TEST(Rating, OfASimulatedPersonIsArbitraryOnTheScaleAndSaidToBe) {
+    Ratings files;
+    files.replace("after_s: 0.5", "after_s: 10");
+    files.replace("name: heaviness,", "name: size_mm,");
+    files.replace("heaviness > 0, set: sum, to: sum + heaviness",
+                  "size > 0 mm, set: sum, to: sum + 1");
+    Diagnostics diagnostics;
+    session::check_file(files.request().file, diagnostics);
+    bool said = false;
+    for (const Problem& p : diagnostics.problems())
+        said = said || p.text().find("there is no model") != std::string::npos;
+    EXPECT_TRUE(said);
+    session::Plan plan = session::make_plan(files.request());
+    session::sit_down(plan, person::median_person(person::Objects::device));
+    const session::RunResult result = files.run(plan);
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    ASSERT_EQ(trials.rows(), 3u);
+    EXPECT_FALSE(trials.has("next_size_mm"));
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(trials.text(i, "outcome"), "rated");
+        const double size = trials.number(i, "size_mm");
+        EXPECT_GE(size, 1);
+        EXPECT_LE(size, 9);
+        EXPECT_NEAR(size, std::round(size), 1e-9);
+    }
+    EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
+}
+
+class BrokenRating : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(BrokenRating, IsRefusedWithFileLineAndRemedy) {
+    Ratings files;
+    session::expect_refused(files, GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(
+    Mistakes, BrokenRating,
+    ::testing::Values(
+        Mistake{"name: heaviness, ", "", "name: is missing"},
+        Mistake{"name: heaviness", "name: high", "is the name of something else"},
+        Mistake{"name: heaviness", "name: how heavy", "cannot be named in a formula"},
+        Mistake{"name: heaviness", "name: outcome", "is the name of something else"},
+        Mistake{"scale: numbers, ", "", "scale: is missing"},
+        Mistake{"scale: numbers", "scale: number", "is not known"},
+        Mistake{"from: 1, ", "", "from: is missing"}, Mistake{"to: 9", "to: 1", "not above 1"},
+        Mistake{"to: 9", "to: nine", "must be a number"},
+        Mistake{"labels: [light, heavy]", "labels: [light, middle, heavy]", "a scale has two ends"},
+        Mistake{"scale: numbers,", "scale: likert,", "numbered from 1"},
+        Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
+                "scale: likert, labels: [one]", "2 to 9"},
+        Mistake{"scale: numbers, from: 1", "scale: magnitude, from: -1", "a magnitude is not"},
+        Mistake{"labels: [light", "by: cursor, labels: [light", "which two regions"},
+        Mistake{"labels: [light", "by: eye, labels: [light", "by"},
+        Mistake{"labels: [light", "by: cursor, between: [low, hihg], labels: [light",
+                "Did you mean high?"},
+        Mistake{"labels: [light", "by: cursor, between: [low, high], labels: [light",
+                "has always an answer"},
+        Mistake{"labels: [light", "between: [low, high], labels: [light", "no use"},
+        Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
+                "scale: magnitude, by: cursor, between: [low, high]", "no end"},
+        Mistake{"      ask: { name: heaviness, scale: numbers, from: 1, to: 9, labels: [light, "
+                "heavy] }\n",
+                "", "asks for no number"},
+        Mistake{"when: answered,", "when: answered, hold_s: 1,", "given at once"},
+        Mistake{"when: answered,", "when: answered, count: 2,", "count"},
+        Mistake{"      ask:", "      lines: [a, b]\n      ask:", "2 are the most"}));
+
+}  // namespace
+}  // namespace dihaptic::task::rating_test
