@@ -134,13 +134,14 @@ TEST(Levels, GoOnWhereASessionWasInterrupted) {
 
 TEST(Levels, StandInTheTablesAndTheFit) {
     Intervals files("trials: 12\n      constant: { levels: [0.1, 0.3, 0.5] }");
-    files.replace("hold_s: 5, outcome: late, redo: yes", "hold_s: 0.05, outcome: late");
+    files.replace("after_s: 5, outcome: late, redo: yes", "after_s: 0.05, outcome: late");
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
     const CsvFile trials(result.folder + "/trials.csv");
     const CsvFile list(result.folder + "/trial-list.csv");
     ASSERT_GT(trials.rows(), 0u);
+    ASSERT_LE(trials.rows(), list.rows());
     EXPECT_FALSE(trials.has("next_more"));
     for (size_t i = 0; i < trials.rows(); ++i) {
         const double level = trials.number(i, "more");
