@@ -101,6 +101,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
 OperatorWindow::~OperatorWindow() = default;
 
 void OperatorWindow::connect_scene() {
+    connect(&scene_->rating(), &RatingView::clicked, this, &OperatorWindow::click);
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
@@ -457,6 +458,10 @@ void OperatorWindow::skip() {
     log("trial skipped");
 }
 
+void OperatorWindow::click(double share) {
+    if (runner_.running() && runner_.plan().task) runner_.click(share);
+}
+
 void OperatorWindow::press(char key) {
     if (key != 0 && runner_.running() && runner_.plan().task) runner_.press(key);
 }
@@ -538,6 +543,7 @@ void OperatorWindow::refresh() {
 void OperatorWindow::show_frame(const servo::Frame& frame) {
     scene_->show_frame(frame);
     if (subject_) subject_->scene().show_frame(frame);
+    show_question();
     devices_->show_frame(frame);
     if (runner_.finishing()) return;
     const QString said = texts_of(runner_.plan(), frame);
@@ -547,6 +553,21 @@ void OperatorWindow::show_frame(const servo::Frame& frame) {
         update_state();
     }
     show_progress(frame);
+}
+
+/// The question that a click may answer now; null: there is none.
+const task::AskSpec* OperatorWindow::asked_by_mouse() {
+    if (state() != SessionPanel::State::running || !has_trials()) return nullptr;
+    const servo::Frame& frame = runner_.frame();
+    if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return nullptr;
+    const auto& ask = runner_.plan().task->task.states[static_cast<size_t>(frame.phase) - 1].ask;
+    return ask && ask->by == task::AnswerBy::mouse ? &*ask : nullptr;
+}
+
+void OperatorWindow::show_question() {
+    const task::AskSpec* question = asked_by_mouse();
+    scene_->rating().set_question(question);
+    if (subject_) subject_->scene().rating().set_question(question);
 }
 
 bool OperatorWindow::has_trials() const {
@@ -578,6 +599,7 @@ void OperatorWindow::show_subject_window(bool shown) {
         subject_->scene().set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
     }
     connect(subject_.get(), &SubjectWindow::key_pressed, this, &OperatorWindow::press);
+    connect(&subject_->scene().rating(), &RatingView::clicked, this, &OperatorWindow::click);
     connect(&subject_->scene(), &SceneWidget::presented, this,
             [this](qint64 tick) { runner_.note_shown(tick); });
     connect(
@@ -633,6 +655,7 @@ void OperatorWindow::update_state() {
     session_->set_state(now, has_trials());
     scene_->set_banner(banner());
     show_page(*scene_);
+    show_question();
     if (!subject_) return;
     subject_->scene().set_banner(message());
     show_page(subject_->scene());

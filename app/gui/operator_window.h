@@ -80,6 +80,9 @@ class OperatorWindow : public QMainWindow {
     void skip();
     /// Passes on a key that a task may wait for.
     void press(char key);
+    void click(double share);
+    const task::AskSpec* asked_by_mouse();
+    void show_question();
     /// Turns the workspaces to the camera, if they are to follow it.
     void turn_workspaces();
     void pause(bool paused);

@@ -19,6 +19,7 @@ constexpr size_t kPath = 300;     // length of the path [pictures]: five seconds
 SceneWidget::SceneWidget(QWidget* parent)
     : QOpenGLWidget(parent),
       page_(new PageView(this)),
+      rating_(new RatingView(this)),
       banner_(new QLabel(this)),
       help_(new QLabel(this)) {
     setAccessibleName("Scene");
@@ -141,6 +142,7 @@ void SceneWidget::set_page(const QString& text, const QString& picture) {
 
 void SceneWidget::place_labels() {
     page_->setGeometry(rect());
+    rating_->setGeometry(width() / 10, height() * 7 / 10, width() * 8 / 10, height() * 2 / 10);
     // legible from a chair's distance, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "

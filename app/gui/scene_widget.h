@@ -8,6 +8,7 @@
 
 #include "mouse_hand.h"
 #include "page_view.h"
+#include "rating_view.h"
 #include "servo/workspace_turn.h"
 #include "view/scene_view.h"
 
@@ -57,6 +58,8 @@ class SceneWidget : public QOpenGLWidget {
     void set_help(const QString& text);
     /// Sets the page in place of the scene (page_view.h); empty: none.
     void set_page(const QString& text, const QString& picture);
+    /// The line of a question that is answered by mouse.
+    RatingView& rating() { return *rating_; }
 
     QSize sizeHint() const override { return {900, 640}; }
 
@@ -104,6 +107,7 @@ class SceneWidget : public QOpenGLWidget {
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
     PageView* page_;
+    RatingView* rating_;
     QLabel* banner_;
     QLabel* help_;
 };

@@ -73,6 +73,8 @@ class SessionRunner : public QObject {
     }
     /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }
+    /// Passes on where on a question's line the mouse clicked, from 0 to 1.
+    void click(double share) { session_->live.clicked = share; }
     /// Ends the session in order, even while the hand holds something.
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.

@@ -68,7 +68,9 @@ std::string kind_and_size(const task::LoadSpec& load) {
         case task::LoadKind::spring:
             return fmt::format("spring of {} N/m", in_words(load.stiffness));
         case task::LoadKind::channel:
-            return fmt::format("force channel of {} N/m", in_words(load.stiffness));
+            return fmt::format("force channel{} of {} N/m",
+                               load.normal || load.free ? " (a plane)" : "",
+                               in_words(load.stiffness));
     }
     return "";
 }
@@ -106,47 +108,42 @@ void collect(const std::vector<task::PerturbationSpec>& perturbations, Unmeasure
 
 }  // namespace
 
-std::optional<task::Task> read_frozen_task(const std::string& file) {
-    if (!is_there(file)) return std::nullopt;
+task::Task read_frozen_task(const std::string& file) {
+    if (!is_there(file)) return {};
     task::Task task;
     try {
         Diagnostics ignored(UnknownKeys::are_left_out);  // what can be read of it tells enough
         read_fields(task, read_yaml(file), ignored);
     } catch (const Error&) {
-        return std::nullopt;
+        return {};
     }
     return task;
 }
 
-std::string column_of_errors(const std::string& task_file) {
-    const std::optional<task::Task> task = read_frozen_task(task_file);
-    if (!task || !task->movement || task->movement->error.empty()) return "";
-    return task::error_column(task->measures, task->movement->error);
+std::string column_of_errors(const task::Task& task) {
+    if (!task.movement || task.movement->error.empty()) return "";
+    return task::error_column(task.measures, task.movement->error);
 }
 
-Unmeasured unmeasured_perturbations(const std::string& task_file) {
-    const std::optional<task::Task> task = read_frozen_task(task_file);
-    if (!task) return {};
+Unmeasured unmeasured_perturbations(const task::Task& task) {
     Unmeasured out;
-    collect(task->perturbations, out);
+    collect(task.perturbations, out);
     // with these they are replaced
-    for (const auto* list : {&task->rounds, &task->conditions}) {
+    for (const auto* list : {&task.rounds, &task.conditions}) {
         for (const task::Condition& condition : *list) collect(condition.perturbations, out);
     }
     return out;
 }
 
-Table perturbation_table(const std::string& task_file) {
+Table perturbation_table(const task::Task& task) {
     Table out{{{"perturbation", ""}, {"in", "round or condition"}, {"kind and size", "in full"}},
               {}};
-    const std::optional<task::Task> task = read_frozen_task(task_file);
-    if (!task) return out;
     const auto add = [&](const std::vector<task::PerturbationSpec>& list, const std::string& in) {
         for (const task::PerturbationSpec& p : list)
             out.rows.push_back({p.name, in, kind_and_size(p)});
     };
-    add(task->perturbations, "");
-    for (const auto* list : {&task->rounds, &task->conditions}) {
+    add(task.perturbations, "");
+    for (const auto* list : {&task.rounds, &task.conditions}) {
         for (const task::Condition& condition : *list) add(condition.perturbations, condition.name);
     }
     return out;

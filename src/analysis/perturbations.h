@@ -1,9 +1,8 @@
-// Finds a session's perturbations for whose learning there is no measure yet, from its frozen
-// task.yaml: their figures are left empty, with a reason, rather than wrong.
+// Tells from a session's frozen task what its perturbations are, and for the learning of which
+// there is no measure yet: their figures are left empty, with a reason, rather than wrong.
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "base/table.h"
@@ -12,25 +11,24 @@
 namespace dihaptic::analysis {
 
 /// A session's frozen task, as far as it can be read: keys that another version had are left out.
-/// Nullopt if the file is missing or is no YAML.
-std::optional<task::Task> read_frozen_task(const std::string& file);
+/// A task of nothing if the file is missing or is no YAML.
+task::Task read_frozen_task(const std::string& file);
 
 /// Maps the name of each perturbation whose learning is not measured to a description: "a force
 /// field (curl)", "a force channel", "a mass that differs by direction". The others are measured by
-/// reaches, by lifts or by thresholds. Empty if the file is missing or cannot be read.
+/// reaches, by lifts or by thresholds.
 using Unmeasured = std::map<std::string, std::string>;
 inline constexpr const char* kForceChannel = "a force channel";
-Unmeasured unmeasured_perturbations(const std::string& task_file);
+Unmeasured unmeasured_perturbations(const task::Task& task);
 /// The column of trials.csv to whose errors adaptation is fitted; "" if the task names none.
-std::string column_of_errors(const std::string& task_file);
+std::string column_of_errors(const task::Task& task);
 
 /// Kind and size of each perturbation, as a report states them: a row for each, and for each of a
-/// round or condition that replaces it. No rows without a task.
-Table perturbation_table(const std::string& task_file);
+/// round or condition that replaces it.
+Table perturbation_table(const task::Task& task);
 
 /// What the perturbation of a trial is, if its learning is not measured; otherwise "". Several are
-/// in the order of their names. `named`: the
-/// column of trials.csv, where several perturbations of one trial are joined by " + ".
+/// in the order of their names. `named`: as trials.csv has it, several joined by " + ".
 std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured);
 
 /// The kind of a trial with these cells of trials.csv. Earlier versions called both kinds of clamp

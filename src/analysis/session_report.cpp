@@ -102,12 +102,12 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
 /// no condition has one.
 std::vector<std::string> objects_of_trials(const recording::SessionFolder& folder,
                                            const std::string& usual) {
-    const std::optional<task::Task> task = read_frozen_task(folder.file("task.yaml"));
+    const task::Task task = read_frozen_task(folder.file("task.yaml"));
     std::map<std::string, std::string> by_round, by_condition;
-    for (const task::Condition& c : task ? task->rounds : std::vector<task::Condition>{}) {
+    for (const task::Condition& c : task.rounds) {
         if (!c.object.empty()) by_round[c.name] = c.object;
     }
-    for (const task::Condition& c : task ? task->conditions : std::vector<task::Condition>{}) {
+    for (const task::Condition& c : task.conditions) {
         if (!c.object.empty()) by_condition[c.name] = c.object;
     }
     std::vector<std::string> out;

@@ -249,19 +249,31 @@ void FieldReader::operator()(std::string_view name, Formula& value, Field field)
 }
 
 void FieldReader::operator()(std::string_view name, FormulaVec3& value, Field field) {
-    const Given given = take(name, field);
-    if (given.node == nullptr || !is_triple(given)) return;
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = formulas(given, field)) value = *read;
+    }
+}
+
+void FieldReader::operator()(std::string_view name, std::optional<FormulaVec3>& value,
+                             Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = formulas(given, field)) value = *read;
+    }
+}
+
+std::optional<FormulaVec3> FieldReader::formulas(const Given& given, const Field& field) {
+    if (!is_triple(given)) return std::nullopt;
     FormulaVec3 components;
     bool computed = false;
     for (size_t i = 0; i < components.size(); ++i) {
         const auto component = formula(given, given.node->items[i], field);
-        if (!component) return;
+        if (!component) return std::nullopt;
         components[i] = *component;
         computed = computed || component->computed();
     }
     for (size_t i = 0; computed && i < components.size(); ++i)
         components[i].text = given.node->items[i].scalar;
-    value = components;
+    return components;
 }
 
 void FieldReader::operator()(std::string_view name, Mat3& value, Field field) {
@@ -438,6 +450,11 @@ void FieldReader::finish() {
                 bare ? "needs its unit in the key"
                      : fmt::format("is not a unit of {}", dihaptic::name(field->quantity)),
                 fmt::format("Write {}.", alternatives(keys_of(field->name, field->quantity))));
+            continue;
+        }
+        if (key.find_first_of("()") != std::string::npos) {
+            diagnostics_.error(node.place, key, "was cut off from the text before it by a comma",
+                               "Put that text in quotes, e.g. when: \"gripped(block, hand)\".");
             continue;
         }
         const std::string guess = nearest(key, known);

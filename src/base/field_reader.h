@@ -33,6 +33,7 @@ class FieldReader {
     void operator()(std::string_view name, std::optional<Vec3>& value, Field field = {});
     void operator()(std::string_view name, Formula& value, Field field = {});
     void operator()(std::string_view name, FormulaVec3& value, Field field = {});
+    void operator()(std::string_view name, std::optional<FormulaVec3>& value, Field field = {});
     /// Three rows of three numbers.
     void operator()(std::string_view name, Mat3& value, Field field = {});
     void operator()(std::string_view name, int& value, Field field = {});
@@ -130,6 +131,7 @@ class FieldReader {
     std::optional<Formula> formula(const Given& given, const Node& scalar, const Field& field);
     bool is_triple(const Given& given);
     std::optional<Vec3> vector(const Given& given, const Field& field);
+    std::optional<FormulaVec3> formulas(const Given& given, const Field& field);
     std::optional<std::string> word(const Given& given, const Field& field);
     void note_origin(std::string_view name, const Node& node);
 

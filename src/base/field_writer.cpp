@@ -63,6 +63,11 @@ void FieldWriter::operator()(std::string_view name, const FormulaVec3& value, Fi
     mapping_.set(computed ? value[0].key : si_key(name, field.quantity), list);
 }
 
+void FieldWriter::operator()(std::string_view name, const std::optional<FormulaVec3>& value,
+                             Field field) {
+    if (value) (*this)(name, *value, field);
+}
+
 void FieldWriter::operator()(std::string_view name, const int& value, Field) {
     mapping_.set(std::string(name), Node::of(std::to_string(value)));
 }

@@ -23,6 +23,8 @@ class FieldWriter {
     void operator()(std::string_view name, const std::optional<Vec3>& value, Field field = {});
     void operator()(std::string_view name, const Formula& value, Field field = {});
     void operator()(std::string_view name, const FormulaVec3& value, Field field = {});
+    void operator()(std::string_view name, const std::optional<FormulaVec3>& value,
+                    Field field = {});
     void operator()(std::string_view name, const Mat3& value, Field field = {});
     void operator()(std::string_view name, const int& value, Field field = {});
     void operator()(std::string_view name, const bool& value, Field field = {});

@@ -117,6 +117,8 @@ void World::activate() {
     w.problem.reserve(std::move(torsion_radii), max_contacts);
     w.solvers.reserve(static_cast<int>(count), max_contacts, torsion);
     w.awake.reserve(count);
+    w.placed.reserve(count);
+    w.stepped.reserve(count);
     w.can_move.reserve(count);
     w.inverse_mass.resize(count);
     w.bodies_of_islands.reserve(count);
@@ -181,7 +183,7 @@ double World::friction(BodyIndex a, BodyIndex b) const {
 }
 
 std::span<const size_t> World::stepped() const {
-    return impl_->awake;
+    return impl_->stepped;
 }
 
 bool World::diverged() const noexcept {
@@ -294,7 +296,11 @@ void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     item.body->setLinearVelocity({0, 0, 0});
     item.body->setAngularVelocity({0, 0, 0});
     if (!impl_->is_sound(i)) impl_->diverged = true;  // steps do not check fixed bodies
-    if (item.can_move) impl_->wake(i, states_);
+    if (item.can_move) {
+        impl_->wake(i, states_);
+    } else {
+        impl_->place_fixed(i, states_);
+    }
     impl_->read_state(i, states_[i]);
 }
 

@@ -91,7 +91,8 @@ class World {
     const BodyState& state(BodyIndex body) const {
         return states_[static_cast<size_t>(body.value)];
     }
-    /// Bodies that took part in the last step; all others are where they were.
+    /// Bodies that took part in the last step, and fixed ones that were put elsewhere before it;
+    /// all others are where they were.
     std::span<const size_t> stepped() const;
     /// Contacts of the last step, except those of sleeping bodies.
     std::span<const contact::Contact> contacts() const { return contacts_; }
@@ -120,7 +121,7 @@ class World {
     /// Turns a proxy that cannot turn by itself: sets its orientation, and the angular velocity at
     /// which it keeps turning, whatever it touches. P keeps its velocity.
     void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
-    /// Puts a body somewhere else, at rest.
+    /// Puts a body somewhere else, at rest. If it is fixed, all others wake.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Adds to the loads of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;

@@ -55,6 +55,8 @@ struct World::Impl {
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;
+    std::vector<size_t> placed;   // fixed bodies that were put elsewhere since the last step
+    std::vector<size_t> stepped;  // what took part in the last step, and was placed before it
     std::vector<contact::Mat6> inverse_mass;  // of each body that is awake
     std::vector<OfIsland<btCollisionObject*>> bodies_of_islands;
     std::vector<OfIsland<btPersistentManifold*>> contacts_of_islands;
@@ -84,12 +86,15 @@ struct World::Impl {
     }
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     void wake(size_t i, std::vector<BodyState>& states);
+    /// Makes a fixed body's new pose known to what rests on it, and to the search for contacts.
+    void place_fixed(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
     /// At its present orientation. Joints to the world take away what the body cannot do.
     contact::Mat6 inverse_mass_of(const Item& item) const;
+    void note_stepped();
     void integrate_loads(double h, const Vec3& gravity);
     void update_bounds(double h);
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds);

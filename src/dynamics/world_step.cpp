@@ -30,6 +30,7 @@ StepStatus World::step(double h) noexcept {
     w.integrate_loads(h, gravity_);
     if (!w.all_sound()) {  // before anything is looked up by its position
         for (const size_t i : w.awake) w.read_state(i, states_[i]);
+        w.note_stepped();
         return diverge();
     }
     w.update_bounds(h);
@@ -43,6 +44,7 @@ StepStatus World::step(double h) noexcept {
         w.give_to(*of_point);
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
+    w.note_stepped();
     if (stats_.refused || !w.all_sound()) return diverge();
 
     StepStatus status = w.collision->overflowed() ? StepStatus::contacts_full : StepStatus::ok;
@@ -83,6 +85,19 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].v_before = items[i].body->getLinearVelocity();
     items[i].w_before = items[i].body->getAngularVelocity();
     inverse_mass[i] = inverse_mass_of(items[i]);
+}
+
+void World::Impl::place_fixed(size_t i, std::vector<BodyState>& states) {
+    if (!collision) return;  // not yet activated
+    for (const auto& part : items[i].parts) collision->update_bounds(*part, 0);
+    for (const size_t k : can_move) wake(k, states);
+    if (std::find(placed.begin(), placed.end(), i) == placed.end()) placed.push_back(i);
+}
+
+void World::Impl::note_stepped() {
+    stepped.assign(awake.begin(), awake.end());
+    stepped.insert(stepped.end(), placed.begin(), placed.end());
+    placed.clear();
 }
 
 void World::Impl::collect_awake(std::vector<BodyState>& states) {

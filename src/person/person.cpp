@@ -599,7 +599,8 @@ bool Person::correct(const Sight& sight) noexcept {
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
     const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
-    if (stage.question && stage.question->by_key) return rate(*stage.question);
+    if (stage.question && stage.question->by != task::AnswerBy::cursor)
+        return rate(*stage.question);
     const double felt = (centre_ - felt_from_).norm();
     const double shown = (sight.hand - shown_from_).norm();
     const double evidence = felt > 0 && shown > 0 ? std::log(shown / felt) : 0;

@@ -12,6 +12,7 @@
 #include "recording/showings.h"
 #include "servo/servo.h"
 #include "task/clearance.h"
+#include "task/rating.h"
 
 namespace dihaptic::session {
 
@@ -39,7 +40,9 @@ struct Live {
     std::atomic<bool> paused{false};
     std::atomic<bool> ended{false};  ///< asks the session to end in an orderly way
     std::atomic<bool> skip{false};   ///< asks the running trial to end in the next tick
-    std::atomic<double> done{0};     ///< share of the trials that are over
+    /// Share of a question's line that was clicked, until a tick takes it.
+    std::atomic<double> clicked{task::Rating::kNowhere};
+    std::atomic<double> done{0};  ///< share of the trials that are over
     /// Knobs to reach; unset: those of the session stay. Some ease toward it, so that what is held
     /// stays held. Another kind of proxy is taken, if settings.proxy.changeable, once all fingers
     /// are clear of all bodies, so that no finger lets go of what it holds or pushes away what it

@@ -87,6 +87,10 @@ void SessionDirector::be_steered(const servo::Frame& last, servo::Commands& comm
     live_->turn_knobs(last, plan_.settings.tick(), commands.knobs);
     if (task_) {
         if (live_->skip.exchange(false, std::memory_order_relaxed)) task_->skip();
+        const double nowhere = task::Rating::kNowhere;
+        if (const double at = live_->clicked.exchange(nowhere, std::memory_order_relaxed);
+            at != nowhere)
+            task_->click(at);
         live_->done.store(task_->share(), std::memory_order_relaxed);
     }
 }

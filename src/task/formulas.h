@@ -29,16 +29,16 @@ class FormulaVisitor {
   public:
     explicit FormulaVisitor(F f) : f_(std::move(f)) {}
 
-    void operator()(std::string_view, Formula& value, Field = {}) { f_(value); }
-    void operator()(std::string_view, FormulaVec3& value, Field = {}) {
-        for (Formula& component : value) f_(component);
-    }
     template <class T>
     void operator()(std::string_view, T& value, Field = {}) {
         look_into(value);
     }
 
   private:
+    void look_into(Formula& value) { f_(value); }
+    void look_into(FormulaVec3& value) {
+        for (Formula& component : value) f_(component);
+    }
     template <class T>
     void look_into(T& value) {
         if constexpr (Described<T, FormulaVisitor>) value.visit(*this);

@@ -5,8 +5,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -19,6 +21,14 @@ std::vector<std::string> names_of(const std::vector<T>& list) {
     std::vector<std::string> out;
     for (const T& item : list) out.push_back(item.name);
     return out;
+}
+
+/// Whether the text is nothing but letters, digits and _, and not empty.
+inline bool is_word(std::string_view text) {
+    const auto letter = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
+    return !text.empty() && std::all_of(text.begin(), text.end(), letter);
 }
 
 /// Index of the name in `names`, or -1 with the error "'x' is `what`".

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/unmeasured.h"
@@ -18,10 +17,7 @@ void check_name(const OwnMeasure& measure, const TaskPlan& plan, Diagnostics& di
     for (const auto& more : {own_columns(plan.task), measure_columns()})
         columns.insert(columns.end(), more.begin(), more.end());
     const auto is_name = [&](const Table::Column& c) { return c.name == measure.name; };
-    const auto letter = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-    };
-    if (!std::all_of(measure.name.begin(), measure.name.end(), letter)) {
+    if (!is_word(measure.name)) {
         diagnostics.error(measure.place, "name",
                           fmt::format("'{}' cannot be a column", measure.name),
                           "Use letters, digits and _, with the unit at the end, e.g. squeeze_N.");
@@ -48,12 +44,7 @@ void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics) {
             if (i >= 0) out.states |= uint64_t{1} << i;
         }
         if (measure.during.empty()) out.states = ~uint64_t{0};
-        Formula of;
-        of.text = measure.of;
-        of.to_si = split_unit(measure.name).si;
-        of.key = "of";
-        of.place = measure.place;
-        of.field = Field::of(split_unit(measure.name).quantity);
+        const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
             out.value = std::move(*compiled);
             plan.own_measures.push_back(std::move(out));

@@ -16,11 +16,7 @@ namespace dihaptic::task {
 namespace {
 
 bool is_identifier(std::string_view text) {
-    const auto letter = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-    };
-    return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) == 0 &&
-           std::all_of(text.begin(), text.end(), letter);
+    return is_word(text) && std::isdigit(static_cast<unsigned char>(text.front())) == 0;
 }
 
 /// Defines what a task names itself, and reports names that cannot be used.
@@ -59,9 +55,10 @@ class Definer {
         std::string what;
         if (!is_identifier(plain) || ignored.has_errors()) {
             what = "cannot be named in a formula";
-        } else if (plain == "outcome" || plan_.quantities.find(plain) ||
-                   std::any_of(columns.begin(), columns.end(), in_table)) {
-            what = "is the name of something else";
+        } else if (plain == "outcome" || plan_.quantities.find(plain)) {
+            what = fmt::format("cannot be told from the quantity {}, which formulas know", plain);
+        } else if (std::any_of(columns.begin(), columns.end(), in_table)) {
+            what = "is another column of trial-list.csv";
         } else {
             return true;
         }
@@ -182,9 +179,7 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
     };
     size_t begin = 0;
     for (size_t i = 0; i <= text.size(); ++i) {
-        if (i < text.size() &&
-            (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_'))
-            continue;
+        if (i < text.size() && is_word(text.substr(i, 1))) continue;
         if (i > begin && is_angle(text.substr(begin, i - begin))) return true;
         begin = i + 1;
     }
@@ -237,6 +232,18 @@ std::optional<Expression> condition(const std::string& text, Quantities& quantit
 }
 
 }  // namespace
+
+Formula formula_of(const std::string& text, const std::string& name, const char* key,
+                   const Place& place) {
+    const NameInUnit unit = split_unit(name);
+    Formula out;
+    out.text = text;
+    out.to_si = unit.si;
+    out.key = key;
+    out.place = place;
+    out.field = Field::of(unit.quantity);
+    return out;
+}
 
 std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,
                                                Quantities& quantities, Diagnostics& diagnostics) {
@@ -294,13 +301,7 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
                                      "no variable", diagnostics);
         if (variable < 0) continue;
         change.variable = static_cast<size_t>(variable);
-        const NameInUnit unit = split_unit(rule.set);
-        Formula to;
-        to.text = rule.to;
-        to.to_si = unit.si;
-        to.key = "to";
-        to.place = rule.place;
-        to.field = Field::of(unit.quantity);
+        const Formula to = formula_of(rule.to, rule.set, "to", rule.place);
         if (auto compiled = compile_formula(to, plan, plan.quantities, diagnostics)) {
             change.to = std::move(*compiled);
             plan.changes.push_back(std::move(change));

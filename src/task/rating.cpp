@@ -49,7 +49,7 @@ void check_ends(const AskSpec& spec, Diagnostics& diagnostics) {
 
 void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
     const bool cursor = spec.by == AnswerBy::cursor;
-    if (cursor && spec.scale == Scale::magnitude)
+    if (spec.by != AnswerBy::key && spec.scale == Scale::magnitude)
         diagnostics.error(spec.place, "by", "a magnitude has no end that a line could have",
                           "Use by: key, or scale: vas.");
     if (cursor && spec.between.size() != 2)
@@ -57,7 +57,8 @@ void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
                           "which two regions the line leads between is missing",
                           "Add e.g. between: [low, high].");
     if (!cursor && !spec.between.empty())
-        diagnostics.error(spec.place, "between", "has no use for an answer by key",
+        diagnostics.error(spec.place, "between",
+                          fmt::format("has no use for an answer by {}", enum_name(spec.by)),
                           "Leave it out, or write by: cursor.");
 }
 
@@ -142,9 +143,17 @@ void Rating::point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W,
                    const Question& question) noexcept {
     const Vec3 way = to_W - from_W;
     const double square = way.squaredNorm();
-    const double share = square > 0 ? std::clamp((p_W - from_W).dot(way) / square, 0.0, 1.0) : 0;
-    answer_ = question.least + share * (question.most - question.least);
-    if (question.whole) answer_ = std::round(answer_);
+    answer_ = at(square > 0 ? (p_W - from_W).dot(way) / square : 0, question);
+}
+
+void Rating::click(double share, const Question& question) noexcept {
+    if (std::isnan(answer_)) answer_ = at(share, question);
+}
+
+double Rating::at(double share, const Question& question) noexcept {
+    const double answer =
+        question.least + std::clamp(share, 0.0, 1.0) * (question.most - question.least);
+    return question.whole ? std::round(answer) : answer;
 }
 
 }  // namespace dihaptic::task

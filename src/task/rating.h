@@ -1,6 +1,6 @@
-// Ratings: a state asks for a number on a scale, which is typed, or shown by the hand's place on a
-// line between two regions. The number is recorded in each tick, and is a quantity that expressions
-// can name.
+// Ratings: a state asks for a number on a scale, which is typed, clicked on a line in the window,
+// or shown by the hand's place on a line between two regions. The number is recorded in each tick,
+// and is a quantity that expressions can name.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ enum class Scale { numbers, vas, likert, magnitude };
 constexpr auto enum_names(Scale) {
     return std::array{"numbers", "vas", "likert", "magnitude"};
 }
-enum class AnswerBy { key, cursor };
+enum class AnswerBy { key, mouse, cursor };
 constexpr auto enum_names(AnswerBy) {
-    return std::array{"key", "cursor"};
+    return std::array{"key", "mouse", "cursor"};
 }
 
 /// A question as an experiment file has it.
@@ -46,7 +46,10 @@ struct AskSpec {
         v("to", to, end.says("Largest answer."));
         v("labels", labels,
           says("Texts at the ends of the scale, or, on a likert scale, of all its numbers."));
-        v("by", by, says("How it is answered: typed, or pointed at with the haptic cursor."));
+        v("by", by,
+          says("How it is answered: typed, clicked with the mouse on a line in the window (or "
+               "typed all the "
+               "same), or pointed at with the haptic cursor."));
         v("between", between,
           says("Regions at the ends of the line that the cursor points at; of cursor alone."));
         if constexpr (requires { v.place(); }) place = v.place();
@@ -67,7 +70,7 @@ struct Question {
     double least = 0;  ///< in the unit of the answer's name, as `most`
     double most = 1;
     bool whole = true;
-    bool by_key = true;
+    AnswerBy by = AnswerBy::key;
     int from = -1;  ///< regions of the line
     int to = -1;
     size_t variable = 0;  ///< index of the answer among the variables of frames
@@ -79,11 +82,14 @@ class Rating {
   public:
     static constexpr char kEnter = '\r';
     static constexpr char kBack = '\b';
+    static constexpr double kNowhere = -1;  ///< there was no click
 
     void begin() noexcept;
     /// Takes a key: digits, a point, a minus, back or enter. A number is over by enter, or when no
     /// other digit could follow it.
     void press(char key, const Question& question) noexcept;
+    /// Takes a place on the scale's line, from 0 to 1, which is the answer.
+    void click(double share, const Question& question) noexcept;
     /// Takes the hand's place on the line from `from_W` to `to_W`.
     void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W,
                const Question& question) noexcept;
@@ -97,6 +103,7 @@ class Rating {
     static constexpr size_t kLongest = 8;
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double typed() const noexcept;
+    static double at(double share, const Question& question) noexcept;
 
     std::array<char, kLongest + 1> text_{};
     size_t length_ = 0;

@@ -212,9 +212,9 @@ struct HandStep {
 /// Where a state puts a body as it begins.
 struct StatePlace {
     std::string body;
-    std::optional<Vec3> position;  ///< unset: where it is [m]
-    bool held = false;             ///< it is held still there while the state lasts
-    bool removed = false;          ///< it is out of reach and sight while the state lasts
+    std::optional<FormulaVec3> position;  ///< unset: where it is [m]
+    bool held = false;                    ///< it is held still there while the state lasts
+    bool removed = false;                 ///< it is out of reach and sight while the state lasts
     Place place;
 
     template <class Visitor>

@@ -92,7 +92,8 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
     // taken in every tick, so that input between trials counts for no trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
-                      trigger_.exchange(0, std::memory_order_relaxed)};
+                      trigger_.exchange(0, std::memory_order_relaxed),
+                      clicked_.exchange(Rating::kNowhere, std::memory_order_relaxed)};
     if (queue_.empty()) {
         order_end(now, commands);
         return;
@@ -101,7 +102,7 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
         finish(plan_.skipped, false, now, commands);
         return;
     }
-    ask(handles, input.key);
+    ask(handles, input);
     if (state_ < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
@@ -368,11 +369,13 @@ void TaskDirector::follow_rules(int outcome) noexcept {
     }
 }
 
-void TaskDirector::ask(std::span<const haptics::Handle> handles, char key) noexcept {
+void TaskDirector::ask(std::span<const haptics::Handle> handles, const Input& input) noexcept {
     if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
     const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
-    if (question.by_key) {
-        rating_.press(key, question);
+    if (question.by != AnswerBy::cursor) {
+        rating_.press(input.key, question);
+        if (question.by == AnswerBy::mouse && input.clicked != Rating::kNowhere)
+            rating_.click(input.clicked, question);
     } else {
         Vec3 middle_W = Vec3::Zero();
         for (const haptics::Handle& handle : handles)
@@ -432,10 +435,12 @@ void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& command
         const int body = wanted.home.body;
         if (is_put_[i] && !wanted.stays) continue;
         if (!is_put_[i]) {
+            TaskPlan::Home home = wanted.home;
+            home.X_WB.p = numbers_.of(home.position_as_given);
             // before the first Frame nobody knows where fingers are
-            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home))) continue;
+            if (wanted.moves && (last.sequence < 0 || !clear(last, home))) continue;
             is_put_[i] = 1;
-            put_at_[i] = wanted.moves ? wanted.home.X_WB : pose_of(body, last, commands);
+            put_at_[i] = wanted.moves ? home.X_WB : pose_of(body, last, commands);
         }
         put(body, put_at_[i], commands);
     }

@@ -24,6 +24,8 @@ class TaskDirector {
 
     /// The operator pressed a key; from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    /// A question's line was clicked at a share of its length; from any thread.
+    void click(double share) noexcept { clicked_.store(share, std::memory_order_relaxed); }
     /// A trigger came from outside; from any thread. `code`: 1 to 255, or kAnyTrigger.
     void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
     static constexpr int kAnyTrigger = -1;  ///< counts as any code that is waited for
@@ -54,6 +56,7 @@ class TaskDirector {
     struct Input {
         char key;     // 0: none
         int trigger;  // 0: none
+        double clicked;
     };
     bool holds(const TaskPlan::Way& way, const servo::Frame& last,
                const Input& input) const noexcept;
@@ -63,7 +66,7 @@ class TaskDirector {
     void order(double now, servo::Commands& commands) const noexcept;
     void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
     /// Takes what was typed, or where the hands are, as the answer that the state asks for.
-    void ask(std::span<const haptics::Handle> handles, char key) noexcept;
+    void ask(std::span<const haptics::Handle> handles, const Input& input) noexcept;
 
     /// As operator(), but for how things look and what texts say.
     void direct(const servo::Frame& last, std::span<const haptics::Handle> handles, double now,
@@ -119,6 +122,7 @@ class TaskDirector {
     Displayer displayer_;
     Opening opening_;
     std::atomic<char> key_{0};
+    std::atomic<double> clicked_{Rating::kNowhere};
     std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};
     std::atomic<double> share_{0};

@@ -1,11 +1,11 @@
 #include "task/task_plan.h"
 
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <set>
 
 #include "base/unmeasured.h"
+#include "task/check_blocks.h"
 #include "task/clearance.h"
 #include "task/factors.h"
 #include "task/levels.h"
@@ -18,9 +18,6 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr size_t kMostStates = 64;
-constexpr size_t kMostTrials = 100000;
-constexpr size_t kMostPerturbations = 8;  // of a trial
 /// Where bodies are that a state removes: beyond any plane, and far from each other [m].
 constexpr double kAway = 1000;
 constexpr double kApart = 100;
@@ -40,6 +37,10 @@ std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
 
 Vec3 vector(const FormulaVec3& v) {
     return {v[0].value, v[1].value, v[2].value};
+}
+
+FormulaVec3 as_formula(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
 }
 
 /// A name as an expression has it.
@@ -95,7 +96,7 @@ class Planner {
           plan_(plan_of(task)),
           seen_(plan_, scene, diagnostics) {
         plan_.quantities = Quantities({fingers_, bodies_, regions_, hands()});
-        // fixed bodies stay there; a trial sets where the others begin
+        // what no trial places stays there
         for (size_t i = 0; i < bodies_.size(); ++i)
             plan_.quantities.set(plan_.quantities.start(i), scene.bodies[i].pose().p);
         plan_.bodies = scene.bodies.size();
@@ -114,9 +115,7 @@ class Planner {
         check_ways();
         make_cells();
         seen_.plan_task();
-        for (const ProcedureSpec& procedure : plan_.task.procedures) check_procedure(procedure);
-        for (const Block& block : plan_.task.blocks) check_block(block);
-        check_levels_named();
+        check_blocks(plan_, diagnostics_);
         check_reach();
         plan_rules(plan_, diagnostics_);
         check_measures(plan_, scene_, diagnostics_);
@@ -156,8 +155,9 @@ class Planner {
                   "Let conditions move one region about.");
         }
         if (task.states.empty()) error(task.place, "states", "there are none", "Add one at least.");
-        if (task.states.size() > kMostStates)
-            error(task.place, "states", fmt::format("there are more than {}", kMostStates), "");
+        if (task.states.size() > TaskPlan::kMostStates)
+            error(task.place, "states",
+                  fmt::format("there are more than {}", TaskPlan::kMostStates), "");
         if (task.blocks.empty())
             error(task.place, "blocks", "there are none", "Add one at least, with its trials.");
         for (const auto* list : {&task.conditions, &task.rounds}) {
@@ -171,16 +171,31 @@ class Planner {
                                    plan_.task.place, "draws", "no draw", diagnostics_);
     }
 
-    void check_movable(const std::string& name, const Place& place, const char* key) {
-        const int body = look_up(bodies_, name, place, key, "no body", diagnostics_);
-        if (body >= 0 && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
+    int body(const std::string& name, const Place& place, const char* key) {
+        return look_up(bodies_, name, place, key, "no body", diagnostics_);
+    }
+
+    /// A body that something is to move.
+    int movable(const std::string& name, const Place& place, const char* key) {
+        const int index = body(name, place, key);
+        if (index >= 0 && !scene_.bodies[static_cast<size_t>(index)].moves_at_all())
             error(place, key, fmt::format("'{}' cannot move", name), "Name a body that can.");
+        return index;
+    }
+
+    /// A body that can be put somewhere.
+    int placeable(const std::string& name, const Place& place) {
+        const int index = body(name, place, "body");
+        if (index >= 0 &&
+            scene_.bodies[static_cast<size_t>(index)].shape.kind == scene::ShapeKind::plane)
+            error(place, "body", fmt::format("'{}' is a plane, which has no other place", name),
+                  "Name another body, e.g. a box.");
+        return index;
     }
 
     void check_condition(const Condition& condition) {
-        if (!condition.object.empty()) check_movable(condition.object, condition.place, "object");
-        for (const BodyPlace& place : condition.places)
-            check_movable(place.body, place.place, "body");
+        if (!condition.object.empty()) movable(condition.object, condition.place, "object");
+        for (const BodyPlace& place : condition.places) placeable(place.body, place.place);
         for (const Region& region : condition.regions)
             look_up(regions_, region.name, region.place, "name", "no region of the task",
                     diagnostics_);
@@ -234,11 +249,11 @@ class Planner {
         out.least = ask.least();
         out.most = ask.most();
         out.whole = ask.whole();
-        out.by_key = ask.by == AnswerBy::key;
+        out.by = ask.by;
         out.variable =
             plan_.task.variables.size() + plan_.levels.size() + static_cast<size_t>(index);
         out.si = split_unit(ask.name).si;
-        if (!out.by_key && ask.between.size() == 2) {
+        if (ask.by == AnswerBy::cursor && ask.between.size() == 2) {
             out.from = region(ask.between[0], ask.place, "between");
             out.to = region(ask.between[1], ask.place, "between");
         }
@@ -277,13 +292,9 @@ class Planner {
     }
 
     void add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
-        const int index =
-            look_up(bodies_, place.body, place.place, "body", "no body", diagnostics_);
+        const int index = placeable(place.body, place.place);
         if (index < 0) return;
         const scene::Body& body = scene_.bodies[static_cast<size_t>(index)];
-        if (!body.moves_at_all())
-            error(place.place, "body", fmt::format("'{}' cannot move", place.body),
-                  "Name a body that can.");
         if (!place.position && !place.held && !place.removed)
             error(place.place, "position", "what becomes of the body is missing",
                   "Add position_mm, held: yes or removed: yes.");
@@ -295,12 +306,14 @@ class Planner {
                 error(place.place, "body", fmt::format("'{}' is put twice", place.body),
                       "Keep one of the two.");
         }
-        Pose X_WB = body.pose();
-        if (place.position) X_WB.p = *place.position;
-        if (place.removed) X_WB.p = {kApart * index, 0, kAway};
-        puts.push_back({{index, X_WB, scene::bounds(body.shape), {}},
-                        place.position || place.removed,
-                        place.held || place.removed});
+        if (place.held && body.fixed)
+            error(place.place, "held", fmt::format("'{}' is fixed: it stays anyway", place.body),
+                  "Leave it out.");
+        const Vec3 away(kApart * index, 0, kAway);
+        const FormulaVec3 position =
+            place.removed ? as_formula(away) : place.position.value_or(as_formula(body.position));
+        puts.push_back(
+            {home(index, position), place.position || place.removed, place.held || place.removed});
     }
 
     TaskPlan::Way way(const Exit& exit) {
@@ -355,10 +368,7 @@ class Planner {
     /// A single word that is no quantity was meant as one of the table's.
     void check_word(const Exit& exit) {
         const std::string& text = exit.condition;
-        const auto letter = [](char c) {
-            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-        };
-        if (!std::all_of(text.begin(), text.end(), letter) || plan_.quantities.find(text)) return;
+        if (!is_word(text) || plan_.quantities.find(text)) return;
         std::vector<std::string> words;
         for (size_t i = 0; i < static_cast<size_t>(When::expression); ++i)
             words.emplace_back(kWhenTable[i].name);
@@ -371,10 +381,14 @@ class Planner {
     /// Looks up the names in the exit's condition.
     void check_condition(const Exit& exit) {
         if (exit.has(WhenRow::region)) region(exit.region, exit.place, "region");
-        if (exit.has(WhenRow::body)) {
-            check_body(exit,
-                       look_up(bodies_, exit.body, exit.place, "body", "no body", diagnostics_));
+        if (exit.when == When::lifted) {
+            movable(exit.body, exit.place, "body");
+        } else if (exit.has(WhenRow::body)) {
+            body(exit.body, exit.place, "body");
         }
+        if (exit.when == When::gripped && fingers_.size() < 2)
+            error(exit.place, "when", "a grip takes two fingers, and the scene has one",
+                  "Use when: touched.");
         if (exit.has(WhenRow::any_finger)) check_who(exit);
         if (exit.has(WhenRow::key) && !is_key(exit.key)) {
             error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
@@ -407,16 +421,6 @@ class Planner {
             error(exit.place, "finger",
                   fmt::format("a grip takes two fingers, and '{}' is one", exit.finger),
                   "Name a hand, or use when: touched.");
-    }
-
-    void check_body(const Exit& exit, int body) {
-        if (body < 0) return;
-        if (exit.when == When::lifted && !scene_.bodies[static_cast<size_t>(body)].moves_at_all())
-            error(exit.place, "body", fmt::format("'{}' cannot move", exit.body),
-                  "Name a body that can.");
-        if (exit.when == When::gripped && fingers_.size() < 2)
-            error(exit.place, "when", "a grip takes two fingers, and the scene has one",
-                  "Use when: touched.");
     }
 
     int outcome(const Exit& exit) {
@@ -510,204 +514,18 @@ class Planner {
             plan_.longest_delay = std::max(plan_.longest_delay, load.longest_delay());
         uint64_t& during = cell.during.emplace_back(0);
         const std::vector<State>& states = plan_.task.states;
-        for (size_t i = 0; i < std::min(states.size(), kMostStates); ++i) {
+        for (size_t i = 0; i < std::min(states.size(), TaskPlan::kMostStates); ++i) {
             if (spec.during.empty() && states[i].perturbed) during |= uint64_t{1} << i;
         }
         for (const std::string& name : spec.during) {
             const int i = look_up(names_of(states), name, spec.place, "during", "no state", found);
-            if (i < 0 || i >= static_cast<int>(kMostStates)) continue;
+            if (i < 0 || i >= static_cast<int>(TaskPlan::kMostStates)) continue;
             during |= uint64_t{1} << i;
             if (!states[static_cast<size_t>(i)].perturbed)
                 found.error(spec.place, "during",
                             fmt::format("nothing acts in '{}', which says perturbed: no", name),
                             "Leave out one of the two.");
         }
-    }
-
-    void check_procedure(const ProcedureSpec& procedure) {
-        check(procedure, diagnostics_);
-        check_perturbations(procedure.perturb, procedure.place);
-        for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
-            if (name->empty()) continue;
-            const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
-                                  "no outcome", diagnostics_);
-            if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
-                error(procedure.place, key, fmt::format("'{}' is done again", *name),
-                      "Leave out redo where an answer ends the trial.");
-        }
-    }
-
-    void check_block(const Block& block) {
-        for (const std::string& name : block.conditions)
-            look_up(names_of(plan_.task.conditions), name, block.place, "conditions",
-                    "no condition", diagnostics_);
-        check_perturbations(block.perturb, block.place);
-        const size_t answers = most_answers(block);
-        check_ways_to_perturb(block);
-        const size_t conditions = block.conditions.empty()
-                                      ? std::max<size_t>(1, plan_.task.conditions.size())
-                                      : block.conditions.size();
-        if (block.order == Order::counterbalanced && conditions > 8)
-            error(block.place, "order", "more than 8 conditions have too many orders",
-                  "Use latin_square.");
-        const size_t trials =
-            block.procedures.empty() ? conditions * static_cast<size_t>(block.repeats) : answers;
-        for (const Insert& insert : block.insert) {
-            check_perturbations(insert.perturb, insert.place);
-            check_clamp(insert.kind, insert.perturb, insert.place);
-            if (static_cast<size_t>(insert.count) > trials)
-                error(insert.place, "count",
-                      fmt::format("is {}, more than the block's {} trials", insert.count, trials),
-                      "Insert fewer, or raise the block's repeats.");
-            else if ((insert.count - 1.0) * insert.gap + 1 > static_cast<double>(trials))
-                error(insert.place, "gap",
-                      fmt::format("of {} between {} trials takes more than the block's {}",
-                                  insert.gap, insert.count, trials),
-                      "Insert fewer, lower it, or raise the block's repeats.");
-        }
-        trials_ += trials * std::max<size_t>(1, plan_.task.rounds.size());
-        if (trials_ > kMostTrials)
-            error(block.place, "repeats",
-                  fmt::format("makes more than {} trials in all", kMostTrials), "Lower it.");
-    }
-
-    /// Checks the perturbations of a trial, each and together.
-    void check_perturbations(const std::vector<std::string>& names, const Place& place) {
-        std::vector<int> which;
-        for (const std::string& name : names) {
-            const int i = look_up(names_of(plan_.task.perturbations), name, place, "perturb",
-                                  "no perturbation", diagnostics_);
-            if (i < 0) continue;
-            if (std::find(which.begin(), which.end(), i) != which.end())
-                error(place, "perturb", fmt::format("'{}' is named twice", name),
-                      "Name it once, and make it stronger if it should be.");
-            which.push_back(i);
-        }
-        for (const PerturbationSpec& spec : plan_.task.perturbations) {
-            if (names.size() > 1 && spec.name.find(kBetweenNames) != std::string::npos)
-                error(spec.place, "name",
-                      fmt::format("'{}' cannot be told from several, which trial-list.csv joins by "
-                                  "'{}'",
-                                  spec.name, kBetweenNames),
-                      "Call it something else.");
-        }
-        if (names.size() > kMostPerturbations) {
-            error(place, "perturb",
-                  fmt::format("names {} perturbations, where {} are the most", names.size(),
-                              kMostPerturbations),
-                  "Put several into one: each may have a visual map, a body and loads.");
-        }
-        check_together(which, place);
-    }
-
-    /// One visual map and a number of loads are the most that act in a tick. Reports the first
-    /// state that has more.
-    void check_together(const std::vector<int>& which, const Place& place) {
-        for (const TaskPlan::Cell& cell : plan_.cells) {
-            for (size_t s = 0; s < std::min(plan_.task.states.size(), kMostStates); ++s) {
-                if (!fit_together(cell, which, static_cast<int>(s), place)) return;
-            }
-        }
-    }
-
-    bool fit_together(const TaskPlan::Cell& cell, const std::vector<int>& which, int state,
-                      const Place& place) {
-        const std::string& where = plan_.task.states[static_cast<size_t>(state)].name;
-        const std::string* map = nullptr;  // name of the perturbation
-        size_t loads = 0;
-        for (const int i : which) {
-            if (!cell.acts(i, state)) continue;
-            const Perturbation& perturbation = cell.perturbations[static_cast<size_t>(i)];
-            const std::string& name = plan_.task.perturbations[static_cast<size_t>(i)].name;
-            for (const Load& load : perturbation.loads()) loads += load.on().size();
-            if (!perturbation.has_map()) continue;
-            if (map != nullptr) {
-                error(place, "perturb",
-                      fmt::format("'{}' and '{}' both change what is shown in state '{}'", *map,
-                                  name, where),
-                      "Give them different states by during, or make them one perturbation.");
-                return false;
-            }
-            map = &name;
-        }
-        if (loads <= servo::TaskFrame::kMostLoads) return true;
-        error(place, "perturb",
-              fmt::format("makes {} loads act in state '{}', where {} are the most", loads, where,
-                          servo::TaskFrame::kMostLoads),
-              "Leave some out, or sum loads on one thing up in one of kind general.");
-        return false;
-    }
-
-    /// Largest number of trials that the block's procedures may ask for in all.
-    size_t most_answers(const Block& block) {
-        size_t out = 0;
-        for (const std::string& name : block.procedures) {
-            const int i = look_up(names_of(plan_.task.procedures), name, block.place, "procedures",
-                                  "no procedure", diagnostics_);
-            if (i >= 0)
-                out += static_cast<size_t>(plan_.task.procedures[static_cast<size_t>(i)].trials);
-        }
-        return out;
-    }
-
-    /// A block has either a perturbation, ramped or not, or procedures that choose one, or neither.
-    void check_ways_to_perturb(const Block& block) {
-        if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
-            error(block.place, "procedures", "choose the perturbation and its share by themselves",
-                  "Leave out perturb and ramp.");
-        if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
-            error(block.place, "perturb", "is missing in a perturbed block",
-                  "Name a perturbation, or make it a baseline block.");
-        check_clamp(block.kind, block.perturb, block.place);
-        if (block.ramp > 0 && block.perturb.empty())
-            error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
-    }
-
-    /// Trials are analysed by their kind, which must say what their perturbation does.
-    void check_clamp(TrialKind kind, const std::vector<std::string>& perturb, const Place& place) {
-        const bool channels = kind == TrialKind::force_channel;
-        if (!channels && kind != TrialKind::visual_clamp) return;
-        const char* const remedy = channels ? "Name a perturbation whose field is a channel."
-                                            : "Name a perturbation with a line (visual: toward).";
-        if (perturb.empty()) {
-            error(place, "perturb", fmt::format("is missing in a {}", enum_name(kind)), remedy);
-            return;
-        }
-        const std::vector<PerturbationSpec>& all = plan_.task.perturbations;
-        const bool has_channel = std::any_of(all.begin(), all.end(), [&](const auto& spec) {
-            return is_channel(spec) &&
-                   std::find(perturb.begin(), perturb.end(), spec.name) != perturb.end();
-        });
-        if (has_channel == channels) return;
-        error(place, "kind",
-              fmt::format("is {}, and '{}' {} a force channel", enum_name(kind),
-                          fmt::join(perturb, kBetweenNames), channels ? "is not" : "is"),
-              channels ? remedy : "Write kind: force_channel.");
-    }
-
-    /// A number that a procedure chooses must change something.
-    void check_levels_named() {
-        if (diagnostics_.has_errors()) return;
-        for (size_t i = 0; i < plan_.task.procedures.size(); ++i) {
-            if (plan_.level_of_procedure[i] < 0) continue;
-            const auto level = static_cast<size_t>(plan_.level_of_procedure[i]);
-            const int slot = plan_.symbols.variables[plan_.levels[level].variable].slot;
-            if (is_named(slot)) continue;
-            const ProcedureSpec& procedure = plan_.task.procedures[i];
-            error(procedure.place, "level",
-                  fmt::format("no formula names {}", split_unit(procedure.level).name),
-                  "Name it in what it is to change, e.g. friction_scale: friction / 0.5.");
-        }
-    }
-
-    bool is_named(int slot) const {
-        const auto in_way = [&](const TaskPlan::Way& way) { return way.condition.names(slot); };
-        return std::any_of(plan_.formulas.begin(), plan_.formulas.end(),
-                           [&](const CompiledFormula& f) { return f.expression.names(slot); }) ||
-               std::any_of(plan_.stages.begin(), plan_.stages.end(),
-                           [&](const TaskPlan::Stage& stage) {
-                               return std::any_of(stage.ways.begin(), stage.ways.end(), in_way);
-                           });
     }
 
     void check_reach() {
@@ -738,22 +556,39 @@ class Planner {
         }
     }
 
+    TaskPlan::Home home(int index, const FormulaVec3& position) const {
+        const scene::Body& body = scene_.bodies[static_cast<size_t>(index)];
+        Pose X_WB = body.pose();
+        X_WB.p = vector(position);
+        return {index, X_WB, scene::bounds(body.shape), numbers(position)};
+    }
+
+    /// Whether any trial puts the body elsewhere than the scene has it.
+    bool is_placed(const std::string& body) const {
+        const auto among = [&](const auto& places) {
+            return std::any_of(places.begin(), places.end(),
+                               [&](const auto& place) { return place.body == body; });
+        };
+        const auto any = [&](const auto& list) {
+            return std::any_of(list.begin(), list.end(),
+                               [&](const auto& item) { return among(item.places); });
+        };
+        return any(plan_.task.conditions) || any(plan_.task.rounds) || any(plan_.task.states);
+    }
+
     /// Where bodies begin a trial; places of later conditions replace those of earlier ones.
     std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const {
         std::vector<TaskPlan::Home> out;
         for (size_t i = 0; i < scene_.bodies.size(); ++i) {
             const scene::Body& body = scene_.bodies[i];
-            if (!body.moves_at_all()) continue;
-            Pose X_WB = body.pose();
-            FormulaVec3 position{X_WB.p.x(), X_WB.p.y(), X_WB.p.z()};
+            if (!body.moves_at_all() && !is_placed(body.name)) continue;
+            FormulaVec3 position = as_formula(body.position);
             for (const Condition* condition : conditions) {
                 for (const BodyPlace& place : condition->places) {
                     if (place.body == body.name) position = place.position;
                 }
             }
-            X_WB.p = vector(position);
-            out.push_back(
-                {static_cast<int>(i), X_WB, scene::bounds(body.shape), numbers(position)});
+            out.push_back(home(static_cast<int>(i), position));
         }
         return out;
     }
@@ -763,7 +598,6 @@ class Planner {
     std::vector<std::string> regions_;
     std::vector<std::string> bodies_;
     std::vector<std::string> fingers_;
-    size_t trials_ = 0;
     TaskPlan plan_;
     SeenPlanner seen_;
 };

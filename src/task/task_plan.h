@@ -37,6 +37,8 @@ struct TextNumber {
 };
 
 struct TaskPlan {
+    static constexpr size_t kMostStates = 64;  ///< sets of states are one bit each
+
     Task task;
     std::vector<Trial> trials;
     std::vector<std::string> messages;

@@ -27,6 +27,9 @@ class TrialNumbers {
 
     const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
     double of(const Formula& formula) const noexcept { return Number(formula).in(resolved_); }
+    Vec3 of(const std::array<Number, 3>& n) const noexcept {
+        return {n[0].in(resolved_), n[1].in(resolved_), n[2].in(resolved_)};
+    }
     /// What a formula gave before its bounds.
     double unbounded(size_t index) const noexcept { return given_[index]; }
     /// Whether the trial's block ends before it. `trial`: index among the plan's.

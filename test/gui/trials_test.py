@@ -41,6 +41,32 @@ class Trials(Participants):
             pass
         self.assertEqual(self.outcomes(), ["ready", "ready"])
 
+    def test_get_ratings_by_mouse_on_a_line(self):
+        def rated(text):
+            return text[:text.index("task:")] + """task:
+  states:
+    - name: rate
+      message: How heavy was it?
+      ask: { name: heaviness, scale: vas, labels: [light, heavy], by: mouse }
+      exits: [{ when: answered, outcome: rated, feedback: Thank you }]
+  blocks: [{ name: all, repeats: 3 }]
+"""
+        self.open(self.experiment("visuomotor-rotation", rated))
+        self.start()
+        time.sleep(1)
+        for x in (120, 520, 890):  # left of the line, on it, right of it
+            self.xdotool("mousemove", str(x), "600")
+            time.sleep(0.5)
+            self.screenshot(f"rating-{x}")
+            self.xdotool("click", "1")
+            time.sleep(2)
+        with self.ended("complete"):
+            pass
+        with open(self.recording() + "trials.csv") as file:
+            answers = [float(row["heaviness"]) for row in csv.DictReader(file)]
+        self.assertEqual((answers[0], answers[2]), (0, 100))
+        self.assertTrue(20 < answers[1] < 80, answers)
+
     def test_that_were_not_finished_are_offered_before_new_ones(self):
         """Three reaches by mouse, of which one is skipped; the rest is done in a second session."""
         def short(text):

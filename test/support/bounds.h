@@ -27,6 +27,9 @@ class BoundsFinder {
     void operator()(std::string_view name, Vec3&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, Formula&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, FormulaVec3&, Field field = {}) { number(name, field); }
+    void operator()(std::string_view name, std::optional<FormulaVec3>&, Field field = {}) {
+        number(name, field);
+    }
     void operator()(std::string_view name, Mat3&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, std::optional<double>&, Field field = {}) {
         number(name, field);

@@ -10,6 +10,7 @@
 
 #include "analysis/lifts.h"
 #include "analysis/measures/measures.h"
+#include "analysis/perturbations.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/regular_file.h"
@@ -58,7 +59,8 @@ std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lif
         if (trials.has(name)) out.push_back(known[name]);
     // what happened or was measured in a trial: only the trial's own row has it
     std::vector<Table::Column> measured = list_figures(TrialMeasures{}).columns;
-    for (Table::Column& c : measure_columns_of(session)) measured.push_back(std::move(c));
+    const task::Task task = read_frozen_task(session.file("task.yaml"));
+    for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
     for (const Table::Column& c : measured)
         if (c.name != "attempt" && trials.has(c.name)) out.push_back(c);
     if (lifts == nullptr) return out;

@@ -40,27 +40,25 @@ std::unique_ptr<task::OwnMeasures> own_measures(const task::Task& task,
 
 }  // namespace
 
-std::vector<Table::Column> measure_columns_of(const recording::SessionFolder& folder) {
+std::vector<Table::Column> measure_columns_of(const task::Task& task) {
     std::vector<Table::Column> out = task::measure_columns();
-    if (const auto task = read_frozen_task(folder.file("task.yaml"))) {
-        const auto own = task::columns_of(task->own_measures);
-        out.insert(out.end() - 1, own.begin(), own.end());
-    }
+    const auto own = task::columns_of(task.own_measures);
+    out.insert(out.end() - 1, own.begin(), own.end());
     return out;
 }
 
 std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& folder,
                                                const recording::LogHead& head,
                                                const std::vector<std::string>& phases) try {
-    const std::optional<task::Task> task = read_frozen_task(folder.file("task.yaml"));
+    const task::Task task = read_frozen_task(folder.file("task.yaml"));
     MeasureFinder out;
-    for (const std::string& name : task ? task->measures : std::vector<std::string>{}) {
+    for (const std::string& name : task.measures) {
         if (const task::MeasureRow* row = task::measure_row(name)) out.measures_.push_back(row);
     }
-    if (task) out.own_measures_ = task->own_measures;
-    if (!out.own_measures_.empty()) out.own_ = own_measures(*task, folder);
+    out.own_measures_ = task.own_measures;
+    if (!out.own_measures_.empty()) out.own_ = own_measures(task, folder);
     if (out.measures_.empty() && !out.own_) return std::nullopt;
-    out.options_ = movement_of(*task, head.fingers.empty() ? "" : head.fingers.front());
+    out.options_ = movement_of(task, head.fingers.empty() ? "" : head.fingers.front());
     const std::vector<std::string>& during = out.options_.during;
     for (const std::string& name : during) out.phases_.during.push_back(index_of(phases, name));
     const std::string go = !out.options_.go.empty() ? out.options_.go

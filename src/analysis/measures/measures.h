@@ -13,9 +13,9 @@
 
 namespace dihaptic::analysis {
 
-/// Columns of all measures that trials.csv of the session may have: those that have names, those of
-/// its task's own, and what is not measured.
-std::vector<Table::Column> measure_columns_of(const recording::SessionFolder& folder);
+/// Columns of all measures that trials.csv of a session with this task may have: those that have
+/// names, those of the task's own, and what is not measured.
+std::vector<Table::Column> measure_columns_of(const task::Task& task);
 
 class MeasureFinder {
   public:

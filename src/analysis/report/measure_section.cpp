@@ -19,7 +19,7 @@ namespace {
 /// Columns of the task's measures that are in the trials.
 std::vector<Table::Column> measured_columns(const SessionData& session) {
     const CsvFile& trials = session.trials;
-    std::vector<Table::Column> out = measure_columns_of(session.folder);
+    std::vector<Table::Column> out = measure_columns_of(session.task);
     out.pop_back();  // what is not measured
     std::erase_if(out, [&](const Table::Column& c) { return !trials.has(c.name); });
     // of a session without the measures, a column of the same name is another
@@ -80,12 +80,10 @@ Chart measure_chart(const SessionData& session, const Table::Column& column) {
 
 /// Names of the task's factors, as the trials' columns are named.
 std::vector<std::string> factors_of(const SessionData& session) {
-    const std::optional<task::Task> task = read_frozen_task(session.folder.file("task.yaml"));
     std::vector<std::string> out;
-    for (const task::Factor& factor : task ? task->cross : std::vector<task::Factor>{})
-        out.push_back(factor.factor);
-    if (task && out.empty() && !task->conditions.empty()) {
-        for (const Node::Entry& factor : task->conditions.front().factors.entries)
+    for (const task::Factor& factor : session.task.cross) out.push_back(factor.factor);
+    if (out.empty() && !session.task.conditions.empty()) {
+        for (const Node::Entry& factor : session.task.conditions.front().factors.entries)
             out.push_back(factor.key);
     }
     return out;

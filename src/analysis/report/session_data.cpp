@@ -20,9 +20,16 @@ SessionData SessionData::read(const std::string& path) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
                     "If it was killed, run: dihaptic recover " + folder.path());
     }
-    SessionData data{folder, info, CsvFile(folder.file("trials.csv")), std::nullopt, {}, {},
-                     {},     {}};
-    for (const auto& [name, what] : unmeasured_perturbations(folder.file("task.yaml"))) {
+    SessionData data{folder,
+                     info,
+                     read_frozen_task(folder.file("task.yaml")),
+                     CsvFile(folder.file("trials.csv")),
+                     std::nullopt,
+                     {},
+                     {},
+                     {},
+                     {}};
+    for (const auto& [name, what] : unmeasured_perturbations(data.task)) {
         for (size_t i = 0; i < data.trials.rows(); ++i) {
             if (!task::names_perturbation(data.trials.text(i, "perturbation"), name)) continue;
             data.unmeasured[name] = what;
@@ -39,7 +46,7 @@ SessionData SessionData::read(const std::string& path) {
         std::erase_if(data.unmeasured,
                       [](const auto& of) { return of.second.starts_with("a force"); });
     data.curves = adaptation_curves(data.trials, data.unmeasured);
-    const std::string errors = column_of_errors(folder.file("task.yaml"));
+    const std::string errors = column_of_errors(data.task);
     const bool in_errors = !errors.empty() && data.trials.has(errors);
     if (in_errors) {
         data.curves = error_curves(data.trials, errors);

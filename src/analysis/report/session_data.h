@@ -16,6 +16,7 @@ namespace dihaptic::analysis {
 struct SessionData {
     recording::SessionFolder folder;
     recording::SessionInfo info;
+    task::Task task;  ///< frozen
     CsvFile trials;
     std::optional<CsvFile> lifts;
     std::vector<AdaptationCurve> curves;

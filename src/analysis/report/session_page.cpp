@@ -502,7 +502,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     out.page.heading("Trials");
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
-    if (const Table all = perturbation_table(session.folder.file("task.yaml")); !all.rows.empty())
+    if (const Table all = perturbation_table(session.task); !all.rows.empty())
         out.page.table(all, "Perturbations; share in trials.csv says how much of one acts. " +
                                 origin_of(session));
     if (!session.unmeasured.empty()) {

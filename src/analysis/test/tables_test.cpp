@@ -27,6 +27,7 @@ SessionData session_in(const testing::TemporaryFolder& folder) {
     curve.trials.resize(1);
     return {recording::SessionFolder::open_tables(folder.path()),
             {},
+            {},
             CsvFile(folder.write("trials.csv", "trial_num,attempt\n1,1\n")),
             CsvFile(folder.write("lifts.csv", "trial_num,attempt,preload_s\n1,1,0.1\n")),
             {curve},

@@ -262,6 +262,34 @@ TEST(Sleep, RestingBodiesSleepAndStayExactlyWhereTheyAre) {
     EXPECT_TRUE(world.stepped().empty());
 }
 
+TEST(World, AFixedBodyThatIsPutElsewhereNoLongerCarriesAndLaterDoes) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    scene::Body shelf = box("shelf", {0.1, 0.1, 0.02}, {0, 0, 0.19}, 0);
+    shelf.fixed = true;
+    World world = make({table(), shelf, block({0, 0, 0.22})});
+    run(world, 1.5);
+    ASSERT_FALSE(world.states()[2].awake);
+    const testing::AllocationGuard guard;
+    world.set_pose({1}, {Quat::Identity(), {0.5, 0, 0.19}});
+    world.step(kStep);
+    const auto noted = [&] {
+        return std::count(world.stepped().begin(), world.stepped().end(), 1u);
+    };
+    EXPECT_EQ(noted(), 1);
+    EXPECT_EQ(world.states()[1].X_WB.p, Vec3(0.5, 0, 0.19));
+    for (int i = 2; i <= 50; ++i) {
+        world.step(kStep);
+        EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.22 - kGravity * kStep * kStep * i * (i + 1) / 2,
+                    1e-9);
+    }
+    EXPECT_EQ(noted(), 0);
+    // in the way of the fall, it carries again
+    world.set_pose({1}, {Quat::Identity(), {0, 0, 0.13}});
+    run(world, 0.5);
+    EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.16, 1e-5);
+    EXPECT_EQ(guard.count(), 0u);
+}
+
 TEST(Sleep, ALoadWakesABodyAndAllThatItTouches) {
     World world =
         make({table(), block({0, 0, 0.02}), box("other", Vec3::Constant(0.04), {0, 0, 0.06}, 0.1)});

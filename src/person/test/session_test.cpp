@@ -13,7 +13,7 @@
 #include "base/field_reader.h"
 #include "person/test/sitting.h"
 #include "session/replay.h"
-#include "testing/allocation_guard.h"
+#include "session/test/allocations.h"
 
 namespace dihaptic::person::session_test {
 namespace {
@@ -134,25 +134,12 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
 TEST(Session, OfAPersonAllocatesNothingInTheTick) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     for (const char* name : {"rotation-reversal", "directional-mass"}) {
+        SCOPED_TRACE(name);
         Sitting sitting(name);
         sitting.end_with("  blocks:", "  blocks: [{ name: some, repeats: 2 }]\n");
         session::Plan plan = sitting.plan();
         sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
-        const auto servo = session::make_servo(plan);
-        task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
-        plan.seeing->restart();
-        servo->activate();
-        const servo::Director director =
-            [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-                servo::Commands& commands) { task(last, handles, commands); };
-        Time now{0};
-        const testing::AllocationGuard guard;
-        while (!servo->stopped() && seconds(now) < 60) {
-            plan.seeing->see(servo->tick(now, director));
-            now += servo->period();
-        }
-        EXPECT_EQ(guard.count(), 0u);
-        EXPECT_EQ(task.share(), 1) << name;
+        session::expect_no_allocation(plan, 60);
     }
 }
 

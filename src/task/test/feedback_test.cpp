@@ -6,7 +6,7 @@
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/test/resting_hand.h"
 
 namespace dihaptic::task::feedback_test {
 namespace {
@@ -97,21 +97,13 @@ TEST(Feedback, WhatIsPressedMeanwhileAnswersNoLaterTrial) {
     files.replace("- { when: outside, region: shell, outcome: reached, feedback: Good }",
                   "- { when: key, key: y, outcome: reached, feedback: Good }");
     const session::Plan plan = session::make_plan(files.request());
-    TaskDirector director(*plan.task, 1, 1e-3);
-    servo::Frame last;
-    last.fingers.resize(1);
-    last.bodies.resize(plan.scene.bodies.size());
-    std::vector<haptics::Handle> handles(1);
-    last.fingers[0].p_WP = handles[0].p_WH = Vec3(0, 0, 0.12);
-    servo::Commands commands;
+    test::RestingHand hand(plan);
+    const servo::Commands& commands = hand.commands;
     int tick = 0;
     const auto run = [&](double time, const char key) {
         for (; tick < time * 1e3; ++tick) {
-            last.sequence = tick;
-            last.time = from_seconds(tick * 1e-3);
-            if (key != 0) director.press(key);
-            commands = {};
-            director(last, handles, commands);
+            if (key != 0) hand.director.press(key);
+            hand.tick();
         }
     };
     run(0.5, 0);

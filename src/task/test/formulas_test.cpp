@@ -8,9 +8,8 @@
 #include "base/field_writer.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
+#include "session/test/allocations.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
-#include "testing/allocation_guard.h"
 
 namespace dihaptic::task::formulas_test {
 namespace {
@@ -252,22 +251,7 @@ TEST(Formulas, AreKeptWithinBoundsWhereVariablesLeaveThem) {
 TEST(Formulas, AllocateNothingInTheTick) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Formulas files;
-    const session::Plan plan = session::make_plan(files.request());
-    const auto servo = session::make_servo(plan);
-    TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
-    plan.seeing->restart();
-    servo->activate();
-    const servo::Director director =
-        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-            servo::Commands& commands) { task(last, handles, commands); };
-    Time now{0};
-    const testing::AllocationGuard guard;
-    while (!servo->stopped() && seconds(now) < 30) {
-        plan.seeing->see(servo->tick(now, director));
-        now += servo->period();
-    }
-    EXPECT_EQ(guard.count(), 0u);
-    EXPECT_EQ(task.share(), 1);
+    session::expect_no_allocation(session::make_plan(files.request()), 30);
 }
 
 TEST(Formulas, AnAngleIsInRadiansWhereItNamesOneAndElseInTheUnitOfItsKey) {
@@ -335,13 +319,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kSide, "{ name: side, choice: [-1, 1], weights: [1] }", "there are 1 for 2"},
         Mistake{kSide, "{ name: side, choice: [-1, 1], weights: [1, some] }", "must be a number"},
         Mistake{"name: side", "name: my side", "cannot be named"},
-        Mistake{"name: side", "name: wait", "is the name of something else"},
-        Mistake{"name: side", "name: share", "is the name of something else"},
-        Mistake{"name: side", "name: grip_force_N", "is the name of something else"},
+        Mistake{"name: side", "name: wait", "cannot be told from the quantity wait"},
+        Mistake{"name: side", "name: share", "cannot be told from the quantity share"},
+        Mistake{"name: side", "name: grip_force_N", "cannot be told from the quantity grip_force"},
         Mistake{"name: side", "name: wait_s", "there are two draws 'wait_s'"},
         Mistake{kSide, "{ name: side, choice: [1] }\n    - { name: peak_grip_N, choice: [1] }",
                 "another column of trials.csv"},
-        Mistake{"name: score }", "name: outcome }", "is the name of something else"},
+        Mistake{"name: score }", "name: outcome }", "cannot be told from the quantity outcome"},
         Mistake{"start: 40", "start: far", "must be a number"},
         Mistake{"set: score", "set: scroe", "Did you mean score?"},
         Mistake{"'outcome == \"reached\"'", "score + 1", "is no condition"},

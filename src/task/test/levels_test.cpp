@@ -205,26 +205,48 @@ TEST(Levels, AreChosenWithoutAllocating) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Intervals files(kQuestPlus);
     const session::Plan plan = session::make_plan(files.request());
-    TaskDirector task(*plan.task, plan.seed, 1e-3);
-    servo::Frame last;
-    last.bodies.resize(plan.scene.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    last.fingers.resize(1);
-    const haptics::Handle handle;
-    servo::Commands commands;
-    commands.task.reserve(last.bodies.size());
-    last.task.reserve(last.bodies.size());
+    test::RestingHand hand(plan);
     const testing::AllocationGuard guard;
-    for (int i = 0; !commands.stop && i < 10000; ++i) {
-        commands.task.clear();
-        task(last, std::span(&handle, 1), commands);
-        last.sequence += 1;
-        last.time += std::chrono::milliseconds(1);
-        if (commands.phase == 4) task.press(i % 3 == 0 ? '1' : '2');
+    for (int i = 0; !hand.commands.stop && i < 10000; ++i) {
+        if (hand.tick().phase == 4) hand.director.press(i % 3 == 0 ? '1' : '2');
     }
-    EXPECT_TRUE(commands.stop);
+    EXPECT_TRUE(hand.commands.stop);
     EXPECT_EQ(guard.count(), 0u);
+}
+
+TEST(Levels, AreWhereABodyIsPutInEachInterval) {
+    Intervals files(kConstant);
+    files.replace(
+        "  perturbations:\n    - name: felt\n      body: { body: block, friction_scale: 1 + more "
+        "}\n",
+        "");
+    files.replace("      perturb: felt\n", "");
+    files.replace("{ name: first, ",
+                  "{ name: first, place: [{ body: table, position_mm: [100 * more, 0, -25] }], ");
+    files.replace("{ name: second, ",
+                  "{ name: second, place: [{ body: table, position_mm: [100 * more, 0, -25] }], ");
+    files.replace("kind: perturbed, ", "kind: baseline, ");
+    const session::Plan plan = session::make_plan(files.request());
+    test::RestingHand hand(plan);
+    std::map<int, double> x;  // by phase
+    int trials = 0;
+    for (int i = 0; !hand.commands.stop && i < 10000; ++i) {
+        const servo::TaskFrame& task = hand.tick().task;
+        for (const servo::PlacementFrame& placed : task.placements) {
+            hand.last.bodies[static_cast<size_t>(placed.body)].X_WB = placed.X_WB;
+            if (placed.body == 0) x[hand.commands.phase] = placed.X_WB.p.x();
+        }
+        if (hand.commands.phase == 4) hand.director.press('1');
+        if (task.outcome < 0) continue;
+        const Trial& trial = plan.task->trials[static_cast<size_t>(hand.commands.trial) - 1];
+        const bool first = plan.task->interval_of(trial) == 1;
+        const double more = task.variables.back().value;
+        EXPECT_NEAR(x[1], first ? 0.1 * more : 0, 1e-12) << trials;
+        EXPECT_NEAR(x[3], first ? 0 : 0.1 * more, 1e-12) << trials;
+        x.clear();
+        ++trials;
+    }
+    EXPECT_EQ(trials, 60);
 }
 
 /// Loads in place of the factor on friction.
@@ -290,7 +312,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"level: more\n      perturb: felt\n", "perturb: felt\n", "belongs to level"},
         Mistake{"level: more\n      perturb: felt\n      standard: 0\n", "sigmoid: normal\n",
                 "what the procedure chooses is missing"},
-        Mistake{"level: more", "level: block", "is the name of something else"},
+        Mistake{"level: more", "level: block", "cannot be told from the quantity block"},
         Mistake{"level: more", "level: 3 more", "cannot be named in a formula"},
         Mistake{"1 + more", "1 + mor", "Did you mean more?"},
         Mistake{"1 + more", "1.5", "no formula names more"},

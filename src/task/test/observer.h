@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "model/psychometric.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/test/resting_hand.h"
 
 namespace dihaptic::task::test {
 
@@ -65,28 +65,17 @@ inline std::vector<IntervalTrial> observe(const session::Plan& plan,
                                           const model::Psychometric& observer, Random& random,
                                           const std::vector<Attempt>& done = {},
                                           size_t most = 100000) {
-    TaskDirector director(*plan.task, plan.seed, 1e-3, done);
-    servo::Frame last;
-    last.bodies.resize(plan.scene.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    last.fingers.resize(1);
-    last.fingers[0].p_WP = {0, 0, 0.12};
-    const haptics::Handle handle{{0, 0, 0.12}};
+    RestingHand hand(plan, done);
     std::vector<IntervalTrial> out;
     std::map<int, double> felt;  // by phase
     while (out.size() < most) {
-        servo::Commands commands;
-        commands.task.reserve(last.bodies.size());
-        director(last, std::span(&handle, 1), commands);
-        last.sequence += 1;
-        last.time += std::chrono::milliseconds(1);
+        const servo::Commands& commands = hand.tick();
         if (!commands.task.properties.empty())
             felt[commands.phase] = commands.task.properties.front().friction_scale;
         if (commands.phase == 4 && commands.task.outcome < 0) {
             const double more = std::abs(felt[1] - felt[3]);
             const bool right = random.uniform(0, 1) < observer.probability(more);
-            director.press((felt[1] > felt[3]) == right ? '1' : '2');
+            hand.director.press((felt[1] > felt[3]) == right ? '1' : '2');
         }
         if (commands.task.outcome >= 0) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(commands.trial) - 1];
@@ -100,7 +89,6 @@ inline std::vector<IntervalTrial> observe(const session::Plan& plan,
             now.attempt = {commands.trial - 1, commands.task.attempt, commands.task.outcome};
             felt.clear();
         }
-        last.task = commands.task;
         if (commands.stop) break;
     }
     return out;

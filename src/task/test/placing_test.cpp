@@ -1,6 +1,8 @@
 // Tests bodies that states put somewhere, hold, let go, remove and exchange.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
@@ -99,6 +101,79 @@ TEST(Placing, WaitsForAFingerThatIsInTheWay) {
     EXPECT_LT(put, 600u);
 }
 
+/// A scene with a fixed wall.
+struct Walled : session::Files {
+    Walled() {
+        scene.insert(scene.find("  - { name: block"),
+                     "  - { name: wall, shape: box, size_mm: [10, 100, 100], position_mm: [200, 0, "
+                     "50], fixed: yes }\n");
+    }
+};
+
+TEST(Placing, PutsAFixedBodyWhereAConditionHasItAndBackWhereTheOtherDoesNot) {
+    Walled files;
+    files.experiment =
+        "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n"
+        "  draws: [{ name: gap_mm, uniform: { from: 40, to: 90 } }]\n"
+        "  states:\n" +
+        state("wait", "outcome: done", ", simulated_hand: [{ duration_s: 0.1 }]") +
+        "  conditions:\n    - name: near\n      places: [{ body: wall, position_mm: [-gap, 0, 50] "
+        "}]\n    - name: far\n"
+        "  blocks: [{ name: all, repeats: 3, order: sequential }]\n";
+    const session::Plan plan = session::make_plan(files.request());
+    const session::RunResult result = files.run(plan);
+    EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
+    std::map<std::string, int> ticks;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    while (const servo::Frame* frame = log.next()) {
+        if (frame->trial < 1 || frame->phase == 0) continue;
+        const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial) - 1];
+        const bool near =
+            plan.task->task.conditions[static_cast<size_t>(trial.condition)].name == "near";
+        const Vec3 expected(near ? -1e-3 * trial.draws[0] : 0.2, 0, 0.05);
+        EXPECT_LT((frame->bodies[1].X_WB.p - expected).norm(), 1e-9) << frame->trial;
+        ++ticks[near ? "near" : "far"];
+    }
+    EXPECT_GT(ticks["near"], 250);
+    EXPECT_GT(ticks["far"], 250);
+}
+
+TEST(Placing, IsByFormulasOfTheTrialAndOfFixedBodiesToo) {
+    Walled files;
+    files.experiment =
+        "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n"
+        "  draws: [{ name: gap_mm, uniform: { from: 40, to: 90 } }]\n"
+        "  states:\n" +
+        state(
+            "out", "to: back",
+            ", place: [{ body: wall, position_mm: [0, gap, 50] }, { body: block, removed: yes }], "
+            "simulated_hand: [{ duration_s: 0.1 }]") +
+        state("back", "outcome: done",
+              ", place: [{ body: wall, removed: yes }, { body: block, position_mm: [0, 2 * gap, "
+              "20] }]") +
+        "  blocks: [{ name: all, repeats: 3 }]\n";
+    const session::Plan plan = session::make_plan(files.request());
+    const session::RunResult result = files.run(plan);
+    EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
+    recording::RawLogReader log(result.folder + "/raw.log");
+    int seen = 0;
+    while (const servo::Frame* frame = log.next()) {
+        if (frame->trial < 1 || frame->phase == 0 || frame->sequence < 2) continue;
+        const double gap = 1e-3 * plan.task->trials[static_cast<size_t>(frame->trial) - 1].draws[0];
+        const Vec3& wall = frame->bodies[1].X_WB.p;
+        const Vec3& block = frame->bodies[2].X_WB.p;
+        if (frame->phase == 1) {
+            EXPECT_LT((wall - Vec3(0, gap, 0.05)).norm(), 1e-9);
+            EXPECT_GT(block.z(), 900);
+        } else {
+            EXPECT_GT(wall.z(), 900);
+            EXPECT_LT((block - Vec3(0, 2 * gap, 0.02)).norm(), 1e-4);
+        }
+        ++seen;
+    }
+    EXPECT_GT(seen, 550);
+}
+
 class BrokenPlace : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BrokenPlace, IsRefusedWithFileLineAndRemedy) {
@@ -112,7 +187,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{kMarker, "      place: [{ position_mm: [0, 0, 90] }]\n", "body: is missing"},
         Mistake{kMarker, "      place: [{ body: blok, held: yes }]\n", "Did you mean block?"},
-        Mistake{kMarker, "      place: [{ body: table, held: yes }]\n", "'table' cannot move"},
+        Mistake{kMarker, "      place: [{ body: table, held: yes }]\n", "it stays anyway"},
+        Mistake{kMarker, "      place: [{ body: block, position_mm: [1, 0, index.x] }]\n",
+                "names what changes within a trial"},
         Mistake{kMarker, "      place: [{ body: block }]\n", "what becomes of the body"},
         Mistake{kMarker, "      place: [{ body: block, position: [0, 0, 9] }]\n", "needs its unit"},
         Mistake{kMarker, "      place: [{ body: block, removed: yes, held: yes }]\n",

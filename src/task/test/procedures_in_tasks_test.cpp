@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/test/resting_hand.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::task::procedures_in_tasks_test {
@@ -70,34 +70,23 @@ struct Answered {
 /// Answers a director's questions at once, until it stops or `most` trials are over.
 std::vector<Answered> answer(const session::Plan& plan, const std::vector<Attempt>& done,
                              Random& observer, size_t most = 100000) {
-    TaskDirector task(*plan.task, plan.seed, 1e-3, done);
-    servo::Frame last;
-    last.bodies.resize(plan.scene.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    last.fingers.resize(1);
-    last.fingers[0].p_WP = {0, 0, 0.12};
-    const haptics::Handle handle{{0, 0, 0.12}};
+    test::RestingHand hand(plan, done);
     std::vector<Answered> out;
     while (out.size() < most) {
-        servo::Commands commands;
-        task(last, std::span(&handle, 1), commands);
-        last.sequence += 1;
-        last.time += std::chrono::milliseconds(1);
+        const servo::Commands& commands = hand.tick();
         if (commands.task.outcome >= 0) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(commands.trial) - 1];
             out.push_back(
                 {trial.procedure < 0
                      ? ""
                      : plan.task->task.procedures[static_cast<size_t>(trial.procedure)].name,
-                 last.task.share,
+                 hand.last.task.share,
                  {commands.trial - 1, commands.task.attempt, commands.task.outcome}});
         } else {
             const double z = (commands.task.share - kThreshold) / kSpread;
             const bool yes = observer.uniform(0, 1) < std::erfc(-z / std::sqrt(2)) / 2;
-            task.press(yes ? 'y' : 'n');
+            hand.director.press(yes ? 'y' : 'n');
         }
-        last.task = commands.task;
         if (commands.stop) break;
     }
     return out;
@@ -152,24 +141,9 @@ TEST(ProceduresInTasks, TakeUpAnswersWithoutAllocating) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Thresholds files;
     const session::Plan plan = session::make_plan(files.request());
-    TaskDirector task(*plan.task, plan.seed, 1e-3);
-    servo::Frame last;
-    last.bodies.resize(plan.scene.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    last.fingers.resize(1);
-    const haptics::Handle handle;
-    servo::Commands commands;
-    commands.task.reserve(last.bodies.size());
-    last.task.reserve(last.bodies.size());
+    test::RestingHand hand(plan);
     const testing::AllocationGuard guard;
-    for (int i = 0; !commands.stop; ++i) {
-        commands.task.clear();
-        task(last, std::span(&handle, 1), commands);
-        last.sequence += 1;
-        last.time += std::chrono::milliseconds(1);
-        task.press(i % 3 == 0 ? 'n' : 'y');
-    }
+    for (int i = 0; !hand.tick().stop; ++i) hand.director.press(i % 3 == 0 ? 'n' : 'y');
     EXPECT_EQ(guard.count(), 0u);
 }
 

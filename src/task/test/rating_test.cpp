@@ -9,7 +9,7 @@
 #include "person/population.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/test/resting_hand.h"
 
 namespace dihaptic::task::rating_test {
 namespace {
@@ -92,29 +92,34 @@ TEST(Rating, IsWhereTheHandIsOnALine) {
     EXPECT_EQ(rating.answer(), 7);
 }
 
+TEST(Rating, ByMouseIsTheFirstClickOnTheLine) {
+    Question question = numbers(0, 100, false);
+    question.by = AnswerBy::mouse;
+    Rating rating;
+    rating.begin();
+    rating.click(0.25, question);
+    EXPECT_NEAR(rating.answer(), 25, 1e-12);
+    rating.click(0.75, question);
+    EXPECT_NEAR(rating.answer(), 25, 1e-12);
+    rating.begin();
+    rating.click(1.5, numbers(1, 9));
+    EXPECT_EQ(rating.answer(), 9);
+    rating.begin();
+    rating.click(0.31, numbers(1, 9));
+    EXPECT_EQ(rating.answer(), 3);
+}
+
 /// Runs the director, with the hand at `p_WH`, and presses the keys one after the other.
 std::vector<servo::TaskFrame> run(const session::Plan& plan, const std::string& keys,
                                   const Vec3& p_WH = {0, 0, 0.12}) {
-    TaskDirector director(*plan.task, plan.seed, 1e-3);
-    servo::Frame last;
-    last.bodies.resize(plan.scene.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    last.fingers.resize(1);
-    last.fingers[0].p_WP = p_WH;
-    const haptics::Handle handle{p_WH};
+    test::RestingHand hand(plan, {}, p_WH);
     std::vector<servo::TaskFrame> out;
     size_t at = 0;
     for (int i = 0; i < 20000; ++i) {
-        servo::Commands commands;
-        commands.task.reserve(last.bodies.size());
-        director(last, std::span(&handle, 1), commands);
-        last.sequence += 1;
-        last.time += std::chrono::milliseconds(1);
+        const servo::Commands& commands = hand.tick();
         out.push_back(commands.task);
         if (commands.phase == 1 && commands.task.outcome < 0 && at < keys.size())
-            director.press(keys[at++]);
-        last.task = commands.task;
+            hand.director.press(keys[at++]);
         if (commands.stop) break;
     }
     return out;
@@ -139,6 +144,21 @@ TEST(Rating, IsAVariableOfTheTrialAndANumberInItsLine) {
     EXPECT_NE(std::find(plan.task->messages.begin(), plan.task->messages.end(),
                         "1 light ... 9 heavy: {answer}"),
               plan.task->messages.end());
+}
+
+TEST(Rating, ByMouseIsTakenInATrialAndBetweenTrialsNot) {
+    Ratings files;
+    files.replace("scale: numbers, from: 1, to: 9,", "scale: vas, by: mouse,");
+    const session::Plan plan = session::make_plan(files.request());
+    test::RestingHand hand(plan);
+    std::vector<double> answers;
+    for (int i = 0; !hand.commands.stop && i < 20000; ++i) {
+        const servo::Commands& commands = hand.tick();
+        if (commands.task.outcome >= 0) answers.push_back(commands.task.variables[1].value);
+        const bool asked = commands.phase == 1 && commands.task.outcome < 0;
+        hand.director.click(asked ? 0.4 : 0.9);
+    }
+    EXPECT_EQ(answers, (std::vector<double>{40, 40, 40}));
 }
 
 TEST(Rating, ByTheCursorIsWhereTheHandIsWhenTheStateEnds) {
@@ -196,9 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
     Mistakes, BrokenRating,
     ::testing::Values(
         Mistake{"name: heaviness, ", "", "name: is missing"},
-        Mistake{"name: heaviness", "name: high", "is the name of something else"},
+        Mistake{"name: heaviness", "name: high", "cannot be told from the quantity high"},
         Mistake{"name: heaviness", "name: how heavy", "cannot be named in a formula"},
-        Mistake{"name: heaviness", "name: outcome", "is the name of something else"},
+        Mistake{"name: heaviness", "name: outcome", "cannot be told from the quantity outcome"},
         Mistake{"scale: numbers, ", "", "scale: is missing"},
         Mistake{"scale: numbers", "scale: number", "is not known"},
         Mistake{"from: 1, ", "", "from: is missing"}, Mistake{"to: 9", "to: 1", "not above 1"},

@@ -161,6 +161,10 @@ class Lister {
     void operator()(std::string_view name, const FormulaVec3& value, Field field = {}) {
         add(name, "3 x " + kind(field) + " or formula", field, value);
     }
+    void operator()(std::string_view name, const std::optional<FormulaVec3>& value,
+                    Field field = {}) {
+        add(name, "3 x " + kind(field) + " or formula", field, value);
+    }
     void operator()(std::string_view name, const Mat3& value, Field field = {}) {
         add(name, "3 rows of 3 x " + kind(field), field, value);
     }

@@ -13,7 +13,7 @@
 #include "servo/shown_texts.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/test/resting_hand.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::task::seen_test {
@@ -280,27 +280,12 @@ TEST(Seen, NothingIsAllocatedInTheTick) {
     files.replace("{ name: before, kind: baseline, repeats: 1 }",
                   "{ name: before, kind: perturbed, perturb: rotation, pages: [{ text: Hello }] }");
     const session::Plan plan = session::make_plan(files.request());
-    TaskDirector director(*plan.task, 1, 1e-3);
-    servo::Frame last;
-    last.fingers.resize(1);
-    last.bodies.resize(plan.scene.bodies.size());
-    last.task.reserve(last.bodies.size());
-    for (size_t i = 0; i < last.bodies.size(); ++i)
-        last.bodies[i].X_WB = plan.scene.bodies[i].pose();
-    std::vector<haptics::Handle> handles(1);
-    last.fingers[0].p_WP = handles[0].p_WH = Vec3(0, 0, 0.12);
-    servo::Commands commands;
-    commands.task.reserve(last.bodies.size());
+    test::RestingHand hand(plan);
     bool displaced = false;
     const testing::AllocationGuard guard;
     for (int tick = 0; tick < 1000; ++tick) {
-        last.sequence = tick;
-        last.time = from_seconds(tick * 1e-3);
-        if (tick == 50) director.press('x');
-        commands.clear();
-        director(last, handles, commands);
-        last.task = commands.task;
-        displaced = displaced || !commands.task.displaced.empty();
+        if (tick == 50) hand.director.press('x');
+        displaced = displaced || !hand.tick().task.displaced.empty();
     }
     EXPECT_EQ(guard.count(), 0u);
     EXPECT_TRUE(displaced);

@@ -10,10 +10,10 @@
 #include "recording/raw_log.h"
 #include "session/record.h"
 #include "session/replay.h"
+#include "session/test/allocations.h"
 #include "session/test/reaches.h"
 #include "task/task_director.h"
 #include "task/task_hand.h"
-#include "testing/allocation_guard.h"
 
 namespace dihaptic::task::task_test {
 namespace {
@@ -292,22 +292,7 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
 TEST(Task, AllocatesNothingInTheTick) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     session::Files files;
-    const session::Plan plan = session::make_plan(files.request());
-    const auto servo = session::make_servo(plan);
-    TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
-    plan.seeing->restart();
-    servo->activate();
-    const servo::Director director =
-        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-            servo::Commands& commands) { task(last, handles, commands); };
-    Time now{0};
-    const testing::AllocationGuard guard;
-    while (!servo->stopped() && seconds(now) < 30) {
-        plan.seeing->see(servo->tick(now, director));
-        now += servo->period();
-    }
-    EXPECT_EQ(guard.count(), 0u);
-    EXPECT_EQ(task.share(), 1);
+    session::expect_no_allocation(session::make_plan(files.request()), 30);
 }
 
 TEST(Task, AKeyEndsAState) {

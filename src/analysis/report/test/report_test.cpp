@@ -340,7 +340,7 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
 
 TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     testing::TemporaryFolder folder;
-    const std::string task = folder.write(
+    const task::Task task = read_frozen_task(folder.write(
         "task.yaml",
         "perturbations:\n"
         "  - { name: turn, visual: { moves: [proxies], about: a, angle_deg: 30 } }\n"
@@ -350,7 +350,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
         "    loads: [{ kind: channel, on: finger }, { kind: constant, on: finger }]\n"
         "  - { name: heavy, body: { body: block, mass_scale: [2, 2, 2] } }\n"
         "rounds:\n"
-        "  - perturbations: [{ name: side, body: { body: block, mass_scale: [3, 3, 1] } }]\n");
+        "  - perturbations: [{ name: side, body: { body: block, mass_scale: [3, 3, 1] } }]\n"));
     const Unmeasured unmeasured = unmeasured_perturbations(task);
     EXPECT_EQ(unmeasured, (Unmeasured{{"curl", "a force field (curl)"},
                                       {"push", "a force field (constant)"},
@@ -382,7 +382,8 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     curve.list_landmarks(landmarks);
     const double perturbation = std::get<double>(landmarks.cells[2]);
     EXPECT_TRUE(std::isnan(perturbation));
-    EXPECT_TRUE(unmeasured_perturbations(folder.file("none.yaml")).empty());
+    const task::Task none = read_frozen_task(folder.file("none.yaml"));
+    EXPECT_TRUE(unmeasured_perturbations(none).empty());
     const Table all = perturbation_table(task);
     ASSERT_EQ(all.rows.size(), 6u);
     const auto what = [&](size_t i) { return std::get<std::string>(all.rows[i][2]); };
@@ -390,7 +391,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_EQ(what(1), "curl field of 0 N*s/m");  // the file above has no unit
     EXPECT_EQ(what(2), "force channel of 0 N/m");
     EXPECT_EQ(what(5), "inertia (3, 3, 1) times");
-    EXPECT_TRUE(perturbation_table(folder.file("none.yaml")).rows.empty());
+    EXPECT_TRUE(perturbation_table(none).rows.empty());
     EXPECT_EQ(curve.trials[14].kind, "force_channel");
     EXPECT_EQ(kind_of("error_clamp", "turn", unmeasured), "visual_clamp");
     EXPECT_EQ(kind_of("error_clamp", "turn + rail", unmeasured), "force_channel");

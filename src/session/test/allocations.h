@@ -1,0 +1,31 @@
+// Plays a session's task in its servo loop, and expects that no tick allocates.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "session/plan.h"
+#include "task/task_director.h"
+#include "testing/allocation_guard.h"
+
+namespace dihaptic::session {
+
+/// Expects as well that the task is done within `longest` [s].
+inline void expect_no_allocation(const Plan& plan, double longest) {
+    const auto servo = make_servo(plan);
+    task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
+    plan.seeing->restart();
+    servo->activate();
+    const servo::Director director =
+        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+            servo::Commands& commands) { task(last, handles, commands); };
+    Time now{0};
+    const testing::AllocationGuard guard;
+    while (!servo->stopped() && seconds(now) < longest) {
+        plan.seeing->see(servo->tick(now, director));
+        now += servo->period();
+    }
+    EXPECT_EQ(guard.count(), 0u);
+    EXPECT_EQ(task.share(), 1);
+}
+
+}  // namespace dihaptic::session
