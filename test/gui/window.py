@@ -8,6 +8,7 @@ import csv
 import glob
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -137,6 +138,22 @@ class Window(unittest.TestCase):
 
     def series(self, file, name):
         return file[f"acquisition/{name}/data"][:]
+
+    def recorded(self, what, condition, seconds=60):
+        """Waits until the session that runs has recorded this; `condition` is asked of a file of what there is so far.
+        How long a picture takes differs by machine, so no time is long enough for what a mouse does."""
+        copy = self.folder.name + "/so-far"
+
+        def holds():
+            shutil.rmtree(copy, ignore_errors=True)
+            shutil.copytree(self.recording(), copy)
+            made = subprocess.run([PROGRAM, "recover", copy], capture_output=True)
+            if made.returncode != 0:
+                return False
+            with h5py.File(copy + "/session.nwb", "r") as file:
+                return "status" in file["acquisition"] and condition(file)  # at first it has no ticks
+
+        self.wait(what, holds, seconds)
 
     def status(self, file, bit):
         """Whether each tick has that bit."""
