@@ -42,6 +42,9 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
         track.number = procedures.text(p, "level");
         track.logarithmic = procedures.text(p, "logarithmic") == "yes";
         track.model.sigmoid = sigmoid_of(procedures.text(p, "sigmoid"));
+        // recordings before version 0.2 have no such column
+        const double shape = procedures.number(p, "shape");
+        if (std::isfinite(shape)) track.model.shape = shape;
         track.model.guess = procedures.number(p, "guess");
         track.model.guess_is_lapse = procedures.text(p, "guess_is_lapse") == "yes";
         const std::string yes = procedures.text(p, "yes");
@@ -85,9 +88,12 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     return out;
 }
 
-PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
-                                          uint64_t seed) {
-    return bootstrap(count(track.answers), fit, track.model, kResamples, seed);
+PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit) {
+    return profile_intervals(count(track.answers), fit, track.model);
+}
+
+double deviance_share(const ThresholdTrack& track, const PsychometricFit& fit, uint64_t seed) {
+    return deviance_share(count(track.answers), fit, track.model, kResamples, seed);
 }
 
 model::Psychometric ThresholdFit::function() const {

@@ -44,8 +44,8 @@ struct ThresholdFit {
 /// There is no fit for fewer than ten answers, for a single level, or for levels that the sigmoid
 /// cannot take.
 ThresholdFit fit_threshold(const ThresholdTrack& track);
-/// Intervals of a fit, from 500 bootstrap samples.
-PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit,
-                                          uint64_t seed);
+PsychometricIntervals threshold_intervals(const ThresholdTrack& track, const PsychometricFit& fit);
+/// How well the fitted function describes the answers, from 500 resamples.
+double deviance_share(const ThresholdTrack& track, const PsychometricFit& fit, uint64_t seed);
 
 }  // namespace dihaptic::analysis

@@ -108,7 +108,7 @@ void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
 /// Warns of levels with which the experiment runs but its answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = spec.least();
-    if (model::takes(spec.sigmoid, lowest)) return;
+    if (model::takes(spec.fitted(), lowest)) return;
     diagnostics.warning(
         spec.place, fmt::format("{}.sigmoid", spec.name),
         fmt::format("levels may go to {:g}, where a Weibull function has no value: answers there "
@@ -160,7 +160,7 @@ Procedure make_procedure(const ProcedureSpec& spec, uint64_t seed) {
         return {Constant(spec.constant->levels, spec.trials, random)};
     }
     const QuestPlusSpec& s = spec.quest_plus.value();
-    return {QuestPlus({spec.sigmoid, s.levels.values(), s.thresholds.values(), s.shapes.values(),
+    return {QuestPlus({spec.fitted(), s.levels.values(), s.thresholds.values(), s.shapes.values(),
                        s.lapses.values(), spec.guess, spec.guess_is_lapse, spec.trials})};
 }
 
@@ -195,6 +195,11 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(spec.place, "logarithmic", "quest's levels are logarithms",
                           "Add logarithmic: yes.");
     warn_of_levels(spec, diagnostics);
+    if (spec.quest && !spec.known_shape())
+        diagnostics.warning(spec.place, fmt::format("{}.sigmoid", spec.name),
+                            "quest's answers, near the threshold alone, cannot tell the shape of "
+                            "another function than its own: the interval would be too narrow",
+                            "Leave out sigmoid.");
     try {
         make_procedure(spec, 0);
     } catch (const Error& e) {

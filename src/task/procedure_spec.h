@@ -172,7 +172,7 @@ struct ProcedureSpec {
     std::string yes;                 ///< the outcome that grows likelier with the level
     std::string no;
     int trials = 40;  ///< largest number
-    model::Sigmoid sigmoid = model::Sigmoid::normal;
+    std::optional<model::Sigmoid> sigmoid;
     std::optional<Design> design;
     double guess = 0.5;           ///< probability of "yes" far below the threshold
     bool guess_is_lapse = false;  ///< the guess rate is the lapse rate, instead
@@ -196,7 +196,9 @@ struct ProcedureSpec {
         v("yes", yes, says("Outcome that becomes likelier with the level."));
         v("no", no, says("The other outcome."));
         v("trials", trials, Field::number().within(1, 1000).says("Largest number of trials."));
-        v("sigmoid", sigmoid, says("Psychometric function of the fit."));
+        v("sigmoid", sigmoid,
+          says("Psychometric function of the fit: normal, but for quest that of the "
+               "procedure, weibull_log10 with its slope."));
         v("design", design, says("What is asked in a trial; guess follows from it."));
         visit_guess(v);
         v("staircase", staircase, says("A staircase chooses the level."));
@@ -211,6 +213,15 @@ struct ProcedureSpec {
     double least() const;
     /// The share, or the number in the unit of its name.
     double share(double at) const;
+    /// Function that is fitted to the answers.
+    model::Sigmoid fitted() const {
+        return sigmoid.value_or(quest ? model::Sigmoid::weibull_log10 : model::Sigmoid::normal);
+    }
+    /// Its shape, if the procedure takes it as known: its answers then do not tell.
+    std::optional<double> known_shape() const {
+        if (quest && fitted() == model::Sigmoid::weibull_log10) return quest->slope;
+        return std::nullopt;
+    }
     /// The procedure's key in the file.
     const char* kind() const;
 

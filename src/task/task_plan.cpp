@@ -662,6 +662,7 @@ Table procedure_table(const TaskPlan& plan) {
         {"yes", "outcome that grows likelier with the level"},
         {"no", "the other"},
         {"sigmoid", "of the psychometric function"},
+        {"shape", "its shape, where the procedure takes it as known; empty: it is fitted"},
         {"guess", "its lower end"},
         {"guess_is_lapse", "or the lapse rate is"},
         {"level", "column of trials.csv with the number that it chooses; empty: share"},
@@ -670,8 +671,9 @@ Table procedure_table(const TaskPlan& plan) {
     for (const ProcedureSpec& p : plan.task.procedures) {
         table.rows.push_back(
             {p.name, std::string(p.kind()), fmt::format("{}", fmt::join(p.perturb, kBetweenNames)),
-             yes_no(p.logarithmic), p.yes, p.no, std::string(enum_name(p.sigmoid)), p.guess,
-             yes_no(p.guess_is_lapse), p.level, p.standard.value_or(kUnmeasured)});
+             yes_no(p.logarithmic), p.yes, p.no, std::string(enum_name(p.fitted())),
+             p.known_shape().value_or(kUnmeasured), p.guess, yes_no(p.guess_is_lapse), p.level,
+             p.standard.value_or(kUnmeasured)});
     }
     return table;
 }

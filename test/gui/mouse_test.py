@@ -162,7 +162,9 @@ class Mouse(Window):
         self.settle()
         self.screenshot("recorded")
         self.key("ctrl+r")
-        self.wait("the report", lambda: os.path.exists(self.recording() + "report.html"))
+        self.wait("the report", self.opened)
+        self.assertIn("report.html", self.opened()[0])
+        self.assertTrue(os.path.exists(self.recording() + "report.html"))
         self.quit()
 
 

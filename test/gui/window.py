@@ -50,11 +50,25 @@ class Window(unittest.TestCase):
         os.close(write)
         with os.fdopen(read) as pipe:
             number = pipe.readline().strip()
-        self.environment = dict(os.environ, DISPLAY=":" + number, HOME=self.folder.name, XDG_RUNTIME_DIR=self.folder.name)
+        self.environment = dict(os.environ, DISPLAY=":" + number, HOME=self.folder.name, XDG_RUNTIME_DIR=self.folder.name,
+                                PATH=f"{self.folder.name}/bin:{os.environ['PATH']}")
+        self.keep_browsers_away()
         self.scene = self.folder.name + "/block.yaml"
         pathlib.Path(self.scene).write_text(SCENE)
         self.out = self.folder.name + "/sessions"
         self.window = None
+
+    def keep_browsers_away(self):
+        """A page that the window opens goes to a list. A browser would write into the test's home while it is deleted."""
+        opener = pathlib.Path(self.folder.name, "bin", "xdg-open")
+        opener.parent.mkdir()
+        opener.write_text(f'#!/bin/sh\necho "$1" >> {self.folder.name}/opened\n')
+        opener.chmod(0o755)
+
+    def opened(self):
+        """Addresses of the pages that the window had opened."""
+        list = pathlib.Path(self.folder.name, "opened")
+        return list.read_text().split() if list.exists() else []
 
     def open(self, file=None):
         self.log = open(self.folder.name + "/log", "w+")

@@ -19,6 +19,8 @@ using model::Sigmoid;
 /// searched in log10 of the level, where threshold and slope hardly depend on each other.
 class Search {
   public:
+    enum : size_t { kThreshold, kSpread, kLapse, kVariables };
+
     Search(std::span<const LevelCount> counts, const PsychometricFitSettings& settings)
         : counts_(counts.begin(), counts.end()), settings_(settings) {
         if (linear_weibull())
@@ -28,9 +30,10 @@ class Search {
                                 [](const auto& a, const auto& b) { return a.level < b.level; });
         low_ = low->level;
         span_ = high->level - low->level;
-        variables_ = {{low_ - span_, low_ + 2 * span_},
-                      {std::log(span_ / 1000), std::log(span_ * 10)}};
-        if (settings_.max_lapse > 0) variables_.push_back({0, settings_.max_lapse});
+        ranges_ = {Variable{low_ - span_, low_ + 2 * span_},
+                   Variable{std::log(span_ / 1000), std::log(span_ * 10)},
+                   Variable{0, settings_.max_lapse}};
+        free_ = {true, !settings_.shape, settings_.max_lapse > 0};
         for (double share = -0.5; share < 1.55; share += 0.1)
             coarse_places_.push_back(low_ + share * span_);
         // a step function fits equally well at any place between two levels
@@ -42,16 +45,34 @@ class Search {
         const size_t step = 1 + levels.size() / kMost;
         for (size_t i = step; i < levels.size(); i += step)
             places_.push_back((levels[i - 1] + levels[i]) / 2);
+        for (const double spread : kSpreads) spreads_.push_back(std::log(spread * span_));
+        if (settings_.shape)
+            spreads_ = {std::log(slope() ? 1 / *settings_.shape : *settings_.shape)};
+        for (const double share : kLapses) lapses_.push_back(share * settings_.max_lapse);
+        if (!free_[kLapse]) lapses_ = {0};
     }
 
     std::vector<LevelCount>& counts() { return counts_; }
 
     /// The least of the minima found from the best point of a grid at each spread, since flat and
     /// steep functions have minima of their own.
-    Minimum run() const { return run(Effort::full); }
+    Minimum run() const {
+        constexpr double kFine = 1e-7;
+        const Minimum least = least_of(starts(places_, spreads_, lapses_), free_);
+        return descend(least.x, free_, kFine);
+    }
     /// For a resample: searches from the two best points of a coarser grid, with a precision far
     /// finer than the differences between resamples.
-    Minimum run_quickly() const { return run(Effort::quick); }
+    Minimum run_quickly() const {
+        return least_of(few(starts(coarse_places_, spreads_, {lapses_.data(), 1})), free_);
+    }
+    /// Where the profile of one variable, the others searched anew, rises by half of the 95 % point
+    /// of chi-squared.
+    Interval interval(size_t variable, const std::vector<double>& best) const {
+        if (!free_[variable]) return {best[variable], best[variable]};
+        return profile_interval([&](double v) { return profile(variable, v); }, best[variable],
+                                ranges_[variable], cost(best) + kChiSquared95 / 2);
+    }
 
     /// The function in the unit of the data.
     Psychometric function(std::span<const double> x) const {
@@ -62,53 +83,96 @@ class Search {
         }
         return f;
     }
+    /// The variables of a function, the other way round.
+    std::vector<double> variables(const Psychometric& f) const {
+        return {linear_weibull() ? std::log10(f.threshold) : f.threshold,
+                std::log(slope() ? 1 / f.shape : f.shape), f.lapse};
+    }
     /// Whether a function with its spread at an end of the range fits as well as the best.
     bool shape_unknown(const Minimum& best) const {
         std::vector<double> x = best.x;
-        for (const double end : {variables_[1].low, variables_[1].high}) {
-            x[1] = end;
-            if (cost(x) < best.value + 0.01) return true;
+        for (const double end : {ranges_[kSpread].low, ranges_[kSpread].high}) {
+            x[kSpread] = end;
+            if (free_[kSpread] && cost(x) < best.value + 0.01) return true;
         }
         return false;
     }
 
   private:
-    enum class Effort { full, quick };
+    using Free = std::array<bool, kVariables>;
 
-    Minimum run(Effort effort) const {
-        constexpr double kFine = 1e-7;
-        constexpr size_t kQuickStarts = 2;
-        const bool fine = effort == Effort::full;
+    /// The best point of a grid at each spread, the best first.
+    std::vector<Minimum> starts(std::span<const double> places, std::span<const double> spreads,
+                                std::span<const double> lapses) const {
         std::vector<Minimum> best;
-        for (const double spread : kSpreads) {
+        for (const double spread : spreads) {
             Minimum& here = best.emplace_back(Minimum{{}, std::numeric_limits<double>::max()});
-            for (const double place : fine ? places_ : coarse_places_) {
-                for (const double lapse : fine ? kLapses : kLapses.first(1)) {
-                    std::vector<double> x = {place, std::log(spread * span_)};
-                    if (variables_.size() > 2) x.push_back(lapse * settings_.max_lapse);
+            for (const double place : places) {
+                for (const double lapse : lapses) {
+                    std::vector<double> x = {place, spread, lapse};
                     const double value = cost(x);
                     if (value < here.value) here = {std::move(x), value};
-                    if (variables_.size() == 2) break;
                 }
             }
         }
-        const auto less = [](const Minimum& a, const Minimum& b) { return a.value < b.value; };
         std::stable_sort(best.begin(), best.end(), less);
-        if (!fine) best.resize(std::min(kQuickStarts, best.size()));
-        const Cost all = [this](std::span<const double> x) { return cost(x); };
-        for (Minimum& m : best) m = minimise(all, variables_, m.x, kCoarse);
-        const Minimum& least = *std::min_element(best.begin(), best.end(), less);
-        return fine ? minimise(all, variables_, least.x, kFine) : least;
+        return best;
+    }
+    static std::vector<Minimum> few(std::vector<Minimum> starts) {
+        constexpr size_t kFew = 2;
+        starts.resize(std::min(kFew, starts.size()));
+        return starts;
     }
 
+    /// Downhill from x in those variables that are free.
+    Minimum descend(std::vector<double> x, const Free& free, double tolerance) const {
+        std::vector<Variable> ranges;
+        std::vector<double> start;
+        for (size_t i = 0; i < kVariables; ++i) {
+            if (!free[i]) continue;
+            ranges.push_back(ranges_[i]);
+            start.push_back(x[i]);
+        }
+        const auto fill = [&](std::span<const double> values) {
+            for (size_t i = 0, j = 0; i < kVariables; ++i)
+                if (free[i]) x[i] = values[j++];
+        };
+        const Cost of_free = [&](std::span<const double> values) {
+            fill(values);
+            return cost(x);
+        };
+        const Minimum found = minimise(of_free, ranges, std::move(start), tolerance);
+        fill(found.x);
+        return {std::move(x), found.value};
+    }
+    Minimum least_of(std::vector<Minimum> starts, const Free& free) const {
+        constexpr double kCoarse = 1e-4;
+        for (Minimum& m : starts) m = descend(m.x, free, kCoarse);
+        return *std::min_element(starts.begin(), starts.end(), less);
+    }
+
+    /// The least cost with one variable held at v.
+    double profile(size_t held, double v) const {
+        const std::array at = {v};
+        Free free = free_;
+        free[held] = false;
+        return least_of(few(held == kThreshold ? starts(at, spreads_, lapses_)
+                            : held == kSpread  ? starts(places_, at, lapses_)
+                                               : starts(coarse_places_, spreads_, at)),
+                        free)
+            .value;
+    }
+
+    static bool less(const Minimum& a, const Minimum& b) { return a.value < b.value; }
     bool linear_weibull() const { return settings_.sigmoid == Sigmoid::weibull; }
+    /// Whether the shape is a slope, so one over the spread.
+    bool slope() const { return linear_weibull() || settings_.sigmoid == Sigmoid::weibull_log10; }
 
     Psychometric searched(std::span<const double> x) const {
-        const double spread = std::exp(x[1]);
-        const double lapse = x.size() > 2 ? x[2] : 0;
-        const bool slope = linear_weibull() || settings_.sigmoid == Sigmoid::weibull_log10;
-        return {linear_weibull() ? Sigmoid::weibull_log10 : settings_.sigmoid, x[0],
-                slope ? 1 / spread : spread, settings_.guess_is_lapse ? lapse : settings_.guess,
+        const double spread = std::exp(x[kSpread]);
+        const double lapse = x[kLapse];
+        return {linear_weibull() ? Sigmoid::weibull_log10 : settings_.sigmoid, x[kThreshold],
+                slope() ? 1 / spread : spread, settings_.guess_is_lapse ? lapse : settings_.guess,
                 lapse};
     }
 
@@ -123,15 +187,15 @@ class Search {
         return sum;
     }
 
+    static constexpr std::array kLapses = {0.4, 0.0, 1.0};
+    static constexpr std::array kSpreads = {0.002, 0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 2.0, 8.0};
     std::vector<LevelCount> counts_;
     PsychometricFitSettings settings_;
-    static constexpr double kCoarse = 1e-4;
-    static constexpr double kLapseShares[] = {0.4, 0.0, 1.0};
-    static constexpr std::span<const double> kLapses{kLapseShares};
-    static constexpr std::array kSpreads = {0.002, 0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 2.0, 8.0};
     double low_ = 0, span_ = 0;
-    std::vector<double> places_, coarse_places_;  // thresholds of the grid
-    std::vector<Variable> variables_;
+    std::array<Variable, kVariables> ranges_;
+    Free free_{};
+    // the grid
+    std::vector<double> places_, coarse_places_, spreads_, lapses_;
 };
 
 void check(std::span<const LevelCount> counts, const PsychometricFitSettings& settings) {
@@ -151,6 +215,8 @@ void check(std::span<const LevelCount> counts, const PsychometricFitSettings& se
           settings.guess + settings.max_lapse < 1))
         throw Error("guess and lapse rates leave nothing between them",
                     "give a guess rate and a max_lapse in [0, 0.5), below 1 together");
+    if (settings.shape && !(*settings.shape > 0))
+        throw Error("a known shape is not above 0", "give the slope or spread of the sigmoid");
 }
 
 /// Negative log likelihood when each level has the share of "yes" that was counted.
@@ -162,19 +228,6 @@ double saturated(std::span<const LevelCount> counts) {
         if (no > 0) sum -= no * std::log(static_cast<double>(no) / c.trials);
     }
     return sum;
-}
-
-/// Interval of the middle 95 % of the values, between ranks 0.025 (n + 1) and 0.975 (n + 1).
-Interval middle_95(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto last = static_cast<double>(values.size() - 1);
-    const auto at = [&](double share) {
-        const double place = std::clamp(share * (last + 2) - 1, 0.0, last);
-        const auto i = static_cast<size_t>(place);
-        const double part = place - static_cast<double>(i);
-        return values[i] + part * (values[std::min(i + 1, values.size() - 1)] - values[i]);
-    };
-    return {at(0.025), at(0.975)};
 }
 
 }  // namespace
@@ -205,14 +258,35 @@ PsychometricFit fit_psychometric(std::span<const LevelCount> counts,
             search.shape_unknown(best)};
 }
 
-PsychometricIntervals bootstrap(std::span<const LevelCount> counts, const PsychometricFit& fit,
-                                const PsychometricFitSettings& settings, int resamples,
-                                uint64_t seed) {
+PsychometricIntervals profile_intervals(std::span<const LevelCount> counts,
+                                        const PsychometricFit& fit,
+                                        const PsychometricFitSettings& settings) {
     check(counts, settings);
-    if (resamples < 1) throw Error("there are no resamples", "1000 are usual for an interval");
+    const Search search(counts, settings);
+    const std::vector<double> best = search.variables(fit.function);
+    // the function with one variable at the ends of its interval
+    const auto ends = [&](size_t variable) {
+        const Interval found = search.interval(variable, best);
+        std::vector<double> x = best;
+        x[variable] = found.low;
+        const Psychometric low = search.function(x);
+        x[variable] = found.high;
+        return std::pair(low, search.function(x));
+    };
+    const auto [left, right] = ends(Search::kThreshold);
+    const auto [one, other] = ends(Search::kSpread);
+    const auto [sure, lapsing] = ends(Search::kLapse);
+    return {{left.threshold, right.threshold},
+            {std::min(one.shape, other.shape), std::max(one.shape, other.shape)},
+            {sure.lapse, lapsing.lapse}};
+}
+
+double deviance_share(std::span<const LevelCount> counts, const PsychometricFit& fit,
+                      const PsychometricFitSettings& settings, int resamples, uint64_t seed) {
+    check(counts, settings);
+    if (resamples < 1) throw Error("there are no resamples", "500 are usual");
     Random random(seed, "bootstrap");
     Search search(counts, settings);
-    std::vector<double> thresholds, shapes, lapses;
     int worse = 0;
     for (int i = 0; i < resamples; ++i) {
         for (size_t j = 0; j < counts.size(); ++j) {
@@ -220,15 +294,9 @@ PsychometricIntervals bootstrap(std::span<const LevelCount> counts, const Psycho
             int& yes = search.counts()[j].yes = 0;
             for (int k = 0; k < counts[j].trials; ++k) yes += random.uniform(0, 1) < p ? 1 : 0;
         }
-        const Minimum best = search.run_quickly();
-        const Psychometric f = search.function(best.x);
-        thresholds.push_back(f.threshold);
-        shapes.push_back(f.shape);
-        lapses.push_back(f.lapse);
-        if (2 * (best.value - saturated(search.counts())) >= fit.deviance) ++worse;
+        if (2 * (search.run_quickly().value - saturated(search.counts())) >= fit.deviance) ++worse;
     }
-    return {middle_95(std::move(thresholds)), middle_95(std::move(shapes)),
-            middle_95(std::move(lapses)), (worse + 1.0) / (resamples + 1.0)};
+    return (worse + 1.0) / (resamples + 1.0);
 }
 
 }  // namespace dihaptic::analysis

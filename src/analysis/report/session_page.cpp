@@ -242,13 +242,12 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
                            const ThresholdFit& threshold) {
     const model::Psychometric f = threshold.function();
     std::optional<std::string> threshold_95, shape_95;
-    double deviance_share = kUnmeasured;
+    double deviance = kUnmeasured;
     if (threshold.fit) {
-        const PsychometricIntervals intervals =
-            threshold_intervals(track, *threshold.fit, session.folder.seed_of(session.info));
+        const PsychometricIntervals intervals = threshold_intervals(track, *threshold.fit);
         threshold_95 = in_words(intervals.threshold);
         shape_95 = in_words(intervals.shape);
-        deviance_share = intervals.deviance_share;
+        deviance = deviance_share(track, *threshold.fit, session.folder.seed_of(session.info));
     }
     FigureLister row;
     row("procedure", track.procedure, "", "name");
@@ -257,13 +256,13 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
     row("chooses", track.what(), "", "what the levels are of");
     row("trials", track.answers.size(), "1", "answers");
     row("threshold", f.threshold, "1", "level");
-    row("threshold_95", threshold_95, "", "its bootstrap interval");
+    row("threshold_95", threshold_95, "", "its interval, of the profile likelihood");
     row("threshold_share", track.share(f.threshold), "1",
         "of the perturbation; or the number, in the unit of its name");
     row("shape", f.shape, "1", "of the sigmoid");
-    row("shape_95", shape_95, "", "its bootstrap interval");
+    row("shape_95", shape_95, "", "its interval, of the profile likelihood");
     row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
-    row("deviance_share", deviance_share, "1", "below 0.05: the function does not fit");
+    row("deviance_share", deviance, "1", "below 0.05: the function does not fit");
     row("note", threshold.note, "", "why there is no fit, or what is to be known of it");
     return row;
 }
@@ -273,8 +272,11 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
     out.page.text(
         "Each procedure chose the share of its perturbation, or a number, as a rule by the answers "
         "before. The function is "
-        "fitted to all of its answers by maximum likelihood, with lapses up to 5 %; intervals are "
-        "those of 500 bootstrap samples.");
+        "fitted to all of its answers by maximum likelihood, with lapses up to 5 %. A 95 % "
+        "interval "
+        "holds the values with which the others, fitted anew, make the answers hardly less likely "
+        "(twice the log likelihood falls by 3.84 at its ends). The share of the deviance is of 500 "
+        "bootstrap samples.");
     for (const ThresholdTrack& track : session.tracks) {
         const ThresholdFit threshold = fit_threshold(track);
         const auto& fitted = threshold.fit;

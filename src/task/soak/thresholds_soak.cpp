@@ -53,12 +53,11 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
             answers.push_back({level, yes});
             procedure.answer(level, yes);
         }
-        const analysis::PsychometricFitSettings settings{.sigmoid = spec.sigmoid,
+        const analysis::PsychometricFitSettings settings{.sigmoid = spec.fitted(),
                                                          .guess = spec.guess};
         const auto counts = analysis::count(answers);
         const auto fit = analysis::fit_psychometric(counts, settings);
-        const auto interval =
-            analysis::bootstrap(counts, fit, settings, 500, static_cast<uint64_t>(i)).threshold;
+        const auto interval = analysis::profile_intervals(counts, fit, settings).threshold;
         const double truth = observer.threshold(scale);
         const double error = fit.function.threshold - truth;
         bias += error / truth / kObservers;

@@ -176,32 +176,47 @@ TEST(PsychometricFit, CountsAnswersByLevel) {
     EXPECT_EQ(counts[1].trials, 3);
 }
 
-TEST(Bootstrap, HoldsTheFitAndRepeats) {
+TEST(PsychometricFit, IntervalsHoldTheFit) {
     const PsychometricFitSettings settings;
     const auto fit = fit_psychometric(kExample, settings);
-    const auto first = bootstrap(kExample, fit, settings, 200, 1);
-    const auto again = bootstrap(kExample, fit, settings, 200, 1);
-    EXPECT_EQ(first.threshold.low, again.threshold.low);
-    EXPECT_LT(first.threshold.low, fit.function.threshold);
-    EXPECT_GT(first.threshold.high, fit.function.threshold);
-    EXPECT_LT(first.shape.low, fit.function.shape);
-    EXPECT_GT(first.shape.high, fit.function.shape);
-    EXPECT_GE(first.lapse.low, 0);
-    EXPECT_LE(first.lapse.high, 0.05);
-    EXPECT_NE(bootstrap(kExample, fit, settings, 200, 2).threshold.low, first.threshold.low);
+    const auto found = profile_intervals(kExample, fit, settings);
+    EXPECT_LT(found.threshold.low, fit.function.threshold);
+    EXPECT_GT(found.threshold.high, fit.function.threshold);
+    EXPECT_LT(found.shape.low, fit.function.shape);
+    EXPECT_GT(found.shape.high, fit.function.shape);
+    EXPECT_GE(found.lapse.low, 0);
+    EXPECT_LE(found.lapse.high, 0.05);
 }
 
-TEST(Bootstrap, DevianceTellsGoodFitsFromBad) {
+/// Of answers far from the threshold, no lapse rate above the share of wrong ones can be made good
+/// by the other parameters: there the profile is the likelihood of the binomial.
+TEST(PsychometricFit, AnIntervalEndsWhereTheLikelihoodHasFallenByHalfOfChiSquared) {
+    constexpr int kTrials = 1000;
+    constexpr int kRight = 980;
+    const std::vector<LevelCount> sure = {{-10, 0, kTrials}, {10, kRight, kTrials}};
+    const PsychometricFitSettings settings{.guess = 0, .max_lapse = 0.1};
+    const auto likelihood = [](double lapse) {
+        return kRight * std::log1p(-lapse) + (kTrials - kRight) * std::log(lapse);
+    };
+    const auto fit = fit_psychometric(sure, settings);
+    const double end = profile_intervals(sure, fit, settings).lapse.high;
+    EXPECT_NEAR(2 * (likelihood(0.02) - likelihood(end)), kChiSquared95, 0.05) << end;
+}
+
+TEST(PsychometricFit, DevianceTellsGoodFitsFromBad) {
     const PsychometricFitSettings settings{.guess = 0, .max_lapse = 0.02};
     Random random(4, "observers");
+    const auto share = [&](const std::vector<LevelCount>& counts, uint64_t seed) {
+        return deviance_share(counts, fit_psychometric(counts, settings), settings, 200, seed);
+    };
     const auto good = answers({Sigmoid::normal, 0, 1, 0, 0.01}, 100, random);
-    EXPECT_GT(bootstrap(good, fit_psychometric(good, settings), settings, 200, 1).deviance_share,
-              0.05);
+    EXPECT_GT(share(good, 1), 0.05);
+    EXPECT_EQ(share(good, 1), share(good, 1));
+    EXPECT_NE(share(good, 1), share(good, 2));
     // an observer who answers the other way at one level in the middle
     auto bad = good;
     bad[2].yes = bad[2].trials - bad[2].yes;
-    EXPECT_LT(bootstrap(bad, fit_psychometric(bad, settings), settings, 200, 1).deviance_share,
-              0.01);
+    EXPECT_LT(share(bad, 1), 0.01);
 }
 
 TEST(PsychometricFit, RefusesWhatCannotBeFitted) {

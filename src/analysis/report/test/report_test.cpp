@@ -241,7 +241,7 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     const auto& fitted = found.fit;
     ASSERT_TRUE(fitted);
     EXPECT_EQ(found.note, "");
-    const auto intervals = threshold_intervals(tracks[0], *fitted, 1);
+    const auto intervals = threshold_intervals(tracks[0], *fitted);
     EXPECT_NEAR(fitted->function.threshold, -0.5, 0.05);
     EXPECT_LT(intervals.threshold.low, -0.5);
     EXPECT_GT(intervals.threshold.high, -0.5);

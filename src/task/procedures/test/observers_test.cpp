@@ -77,8 +77,7 @@ TEST(Observers, StaircasesFittedByMaximumLikelihood) {
         const auto counts = analysis::count(run(staircase, truth, random));
         const analysis::PsychometricFitSettings settings;
         const auto fit = analysis::fit_psychometric(counts, settings);
-        const auto interval =
-            analysis::bootstrap(counts, fit, settings, 100, static_cast<uint64_t>(i)).threshold;
+        const auto interval = analysis::profile_intervals(counts, fit, settings).threshold;
         fitted.add(truth, fit.function.threshold, interval.low, interval.high);
         const double settles = truth.level(settling_probability(2, 0.5));
         reversal_bias += (staircase.estimate().threshold - settles) / truth.sd() / kObservers;
