@@ -29,12 +29,13 @@ Mat6 root(const Mat6& A) noexcept {
 }  // namespace
 
 template <int Dim>
-void BodySystem<Dim>::reserve(int bodies, int contacts) {
-    rows_.reserve(static_cast<size_t>(contacts));
+void BodySystem<Dim>::reserve(int bodies, int contacts, int joints) {
+    rows_.reserve(static_cast<size_t>(contacts) + static_cast<size_t>(joints));
+    joints_.reserve(static_cast<size_t>(joints));
     root_.reserve(static_cast<size_t>(bodies));
     y_.reserve(static_cast<size_t>(bodies));
-    edges_.reserve(static_cast<size_t>(contacts));
-    lu_.reserve(bodies, contacts);
+    edges_.reserve(static_cast<size_t>(contacts) + static_cast<size_t>(joints));
+    lu_.reserve(bodies, contacts + joints);
 }
 
 template <int Dim>
@@ -42,14 +43,18 @@ void BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
     const size_t bodies = problem.bodies.size();
     root_.resize(bodies);
     y_.resize(bodies);
-    rows_.resize(problem.contacts.size());
+    const size_t contacts = problem.contacts.size();
+    rows_.resize(contacts + problem.joints.size());
+    joints_.resize(problem.joints.size());
     finite_ = true;
     for (size_t i = 0; i < bodies; ++i) {
         root_[i] = root(problem.bodies[i].inverse_mass);
         // a root hides values that are not numbers
         finite_ = finite_ && std::isfinite(problem.bodies[i].inverse_mass.sum());
     }
-    for (size_t j = 0; j < rows_.size(); ++j) assemble_row(problem, problem.contacts[j], rows_[j]);
+    for (size_t j = 0; j < contacts; ++j) assemble_row(problem, problem.contacts[j], rows_[j]);
+    for (size_t j = 0; j < joints_.size(); ++j)
+        assemble_joint(problem, problem.joints[j], rows_[contacts + j], joints_[j]);
 }
 
 template <int Dim>
@@ -105,6 +110,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     row.Ht_a *= row.unit;
     row.Ht_b *= row.unit;
     row.q *= row.unit;
+    row.law.joint = nullptr;
     row.law.mu = contact.friction;
     // the sum is not finite if any part is not a number or would overflow
     finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
@@ -112,6 +118,51 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
     row.law.a_n = normal > 0 ? 1 / normal : 1;
     row.law.a_t = tangent > 0 ? 1 / tangent : 1;
+}
+
+/// Assembles a joint's rows, scaled so that the mean diagonal of those that can move is 1.
+template <int Dim>
+void BodySystem<Dim>::assemble_joint(const ContactProblem& problem, const ProblemJoint& joint,
+                                     ContactRows& row, JointScale& scale) noexcept {
+    constexpr int kRows = ProblemJoint::kRows;
+    row.a = joint.a;
+    row.b = joint.b;
+    row.Ht_a.setZero();
+    row.Ht_b.setZero();
+    row.q.setZero();
+    Vec3 diagonal = Vec3::Zero();
+    const auto fill = [&](Ht& H_t, int index, const ProblemJoint::Rows& J) {
+        if (index == kFixed) return;
+        const ProblemBody& body = problem.bodies[static_cast<size_t>(index)];
+        H_t.template leftCols<kRows>().noalias() =
+            root_[static_cast<size_t>(index)].transpose() * J.transpose();
+        diagonal += H_t.template leftCols<kRows>().colwise().squaredNorm().transpose();
+        row.q.template head<kRows>() +=
+            J.template leftCols<3>() * body.v_W + J.template rightCols<3>() * body.w_W;
+    };
+    fill(row.Ht_a, joint.a, joint.J_a);
+    fill(row.Ht_b, joint.b, joint.J_b);
+    row.q.template head<kRows>() += joint.bias;
+    const auto moving = (diagonal.array() > 0).count();
+    const double mean = moving > 0 ? diagonal.sum() / static_cast<double>(moving) : 0;
+    row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
+    row.Ht_a *= row.unit;
+    row.Ht_b *= row.unit;
+    row.q *= row.unit;
+    row.law = {};
+    row.law.joint = &scale;
+    scale.compliance = joint.compliance * row.unit * row.unit;
+    scale.low = joint.low / row.unit;
+    scale.high = joint.high / row.unit;
+    scale.W.setZero();
+    for (const Ht* H_t : {&row.Ht_a, &row.Ht_b})
+        scale.W.noalias() +=
+            H_t->template leftCols<kRows>().transpose() * H_t->template leftCols<kRows>();
+    const Vec3 stiffness = scale.W.diagonal() + scale.compliance;
+    for (int i = 0; i < kRows; ++i) scale.a[i] = stiffness[i] > 0 ? 1 / stiffness[i] : 1;
+    finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + scale.compliance.sum()) &&
+              !(joint.low.array() > joint.high.array()).any() && !joint.low.hasNaN() &&
+              !joint.high.hasNaN();
 }
 
 template <int Dim>

@@ -25,13 +25,15 @@ class BodySystem {
     static constexpr int D = Dim;
     using Vec = Eigen::Matrix<double, D, 1>;
 
-    void reserve(int bodies, int contacts);
+    void reserve(int bodies, int contacts, int joints);
     /// Allocates if the problem is larger than reserved.
     void assemble(const ContactProblem& problem) noexcept;
     /// Finds the matrix for newton_step(). False if it is larger than reserved.
     bool prepare_newton() noexcept;
 
+    /// Contacts, then joints.
     size_t size() const noexcept { return rows_.size(); }
+    bool has_joints() const noexcept { return !joints_.empty(); }
     /// Whether everything in the problem is a number that can be computed with.
     bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
@@ -71,7 +73,7 @@ class BodySystem {
             Vec u = row.q;
             add_velocity(row, u);
             const Vec before = r[j];
-            law.template relax<D>(row.law, r[j], u, j);
+            law::relax<D>(law, row.law, r[j], u, j);
             const Vec change = r[j] - before;
             apply(row, change);
             most = std::max(most, change.squaredNorm() / (row.unit * row.unit));
@@ -98,6 +100,8 @@ class BodySystem {
 
     void assemble_row(const ContactProblem& problem, const ProblemContact& contact,
                       ContactRows& row) noexcept;
+    void assemble_joint(const ContactProblem& problem, const ProblemJoint& joint, ContactRows& row,
+                        JointScale& scale) noexcept;
     void find_blocks(ContactRows& row) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
     /// Adds one contact's H' r to y.
@@ -112,6 +116,7 @@ class BodySystem {
     }
 
     std::vector<ContactRows> rows_;
+    std::vector<JointScale> joints_;
     std::vector<Mat6> root_;  // of the inverse mass matrix, by body
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;

@@ -26,6 +26,7 @@ class DelassusSystem {
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
     static bool prepare_newton() noexcept { return true; }
+    static bool has_joints() noexcept { return false; }
     /// As BodySystem::sweep().
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {

@@ -16,21 +16,39 @@
 //                   [ mu z/rho     beta (I - z z') ]  beta = a_T s / (1 - s + rho a_T s),
 //                                                    s = mu g / |r_T - a_T u^_T|
 //
+// A joint's rows each have r = clamp(r - a (u + gamma r)) between their bounds, with gamma the
+// compliance:
+//
+//     between   G = 1 / (gamma + rho)                c = (u^ + gamma r) / (gamma + rho)
+//     at a bound  G = 0                              c = r - bound
+//
 // rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
 // r_k. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W have
 // a mean of 1.
 #pragma once
+
+#include <algorithm>
 
 #include "contact/polygon.h"
 #include "contact/problem.h"
 
 namespace dihaptic::contact {
 
-/// Scaling of one contact in a scaled system.
+/// The rows of a joint in a scaled system.
+struct JointScale {
+    Mat3 W = Mat3::Zero();
+    Vec3 a = Vec3::Ones();  ///< 1 / (W_ii + compliance)
+    Vec3 compliance = Vec3::Zero();
+    Vec3 low = Vec3::Zero();
+    Vec3 high = Vec3::Zero();
+};
+
+/// Scaling of one contact, or of a joint's rows, in a scaled system.
 struct Scale {
     double mu = 0;
-    double a_n = 1;  ///< 1 / W_NN
-    double a_t = 1;  ///< 1 / mean diagonal of W_TT
+    double a_n = 1;                     ///< 1 / W_NN
+    double a_t = 1;                     ///< 1 / mean diagonal of W_TT
+    const JointScale* joint = nullptr;  ///< null: a contact
 };
 
 /// One contact's share of a Newton step.
@@ -42,6 +60,65 @@ struct Linearised {
 };
 
 namespace law {
+
+/// The rows of a joint, whatever the law of contacts is.
+struct Joint {
+    template <int D>
+    static double linearise(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
+                            const Eigen::Matrix<double, D, 1>& u, double rho,
+                            Linearised<D>& out) noexcept {
+        out.G.setZero();
+        out.c = r;  // rows beyond the joint's are zero
+        out.open = true;
+        double error = 0;
+        for (int i = 0; i < ProblemJoint::kRows; ++i) {
+            const double w = u[i] + joint.compliance[i] * r[i];
+            const double z = r[i] - joint.a[i] * w;
+            const double nearest = std::clamp(z, joint.low[i], joint.high[i]);
+            error += (r[i] - nearest) * (r[i] - nearest);
+            if (z <= joint.low[i] || z >= joint.high[i]) {
+                out.c[i] = r[i] - nearest;
+                continue;
+            }
+            out.open = false;
+            out.G(i, i) = 1 / (joint.compliance[i] + rho);
+            out.c[i] = w * out.G(i, i);
+        }
+        return error;
+    }
+    /// |r - clamp(r - (u + compliance r))|^2, of impulses and velocities `unit` and 1 / `unit`
+    /// times the scaled ones.
+    template <int D>
+    static double residual(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
+                           const Eigen::Matrix<double, D, 1>& u, double unit = 1) noexcept {
+        double sum = 0;
+        for (int i = 0; i < ProblemJoint::kRows; ++i) {
+            const double w = (u[i] + joint.compliance[i] * r[i]) / unit;
+            const double impulse = unit * r[i];
+            const double error =
+                impulse - std::clamp(impulse - w, unit * joint.low[i], unit * joint.high[i]);
+            sum += error * error;
+        }
+        return sum;
+    }
+    /// Row after row, each with what the rows before it have changed.
+    template <int D>
+    static void relax(const JointScale& joint, Eigen::Matrix<double, D, 1>& r,
+                      const Eigen::Matrix<double, D, 1>& u) noexcept {
+        Vec3 now = u.template head<3>();
+        for (int i = 0; i < ProblemJoint::kRows; ++i) {
+            const double before = r[i];
+            const double w = now[i] + joint.compliance[i] * before;
+            r[i] = std::clamp(before - joint.a[i] * w, joint.low[i], joint.high[i]);
+            now += (r[i] - before) * joint.W.col(i);
+        }
+    }
+    template <int D>
+    static void project(const JointScale& joint, Eigen::Matrix<double, D, 1>& r) noexcept {
+        for (int i = 0; i < ProblemJoint::kRows; ++i)
+            r[i] = std::clamp(r[i], joint.low[i], joint.high[i]);
+    }
+};
 
 /// Linearises sliding or sticking on the disc of radius `radius`: returns |Phi_T|^2 and fills the
 /// tangential part of G and c, without coupling to the normal. `slides` is set to whether the
@@ -278,6 +355,33 @@ struct Polygonal {
         r.template tail<T>() = polygon[contact].project(x, scale.mu * r[0]).point;
     }
 };
+
+/// What follows is by the law for a contact, and by the joint's own for a joint.
+template <int D, class Law>
+double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                 const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
+                 size_t j) noexcept {
+    if (scale.joint != nullptr) return Joint::linearise<D>(*scale.joint, r, u, rho, out);
+    return law.template linearise<D>(scale, r, u, rho, out, j);
+}
+template <int D, class Law>
+double residual(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
+                const Eigen::Matrix<double, D, 1>& u, size_t j) noexcept {
+    if (scale.joint != nullptr) return Joint::residual<D>(*scale.joint, r, u);
+    return law.template residual<D>(scale, r, u, j);
+}
+template <int D, class Law>
+void relax(const Law& law, const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+           const Eigen::Matrix<double, D, 1>& u, size_t j) noexcept {
+    if (scale.joint != nullptr) return Joint::relax<D>(*scale.joint, r, u);
+    law.template relax<D>(scale, r, u, j);
+}
+template <int D, class Law>
+void project(const Law& law, const Scale& scale, Eigen::Matrix<double, D, 1>& r,
+             size_t j) noexcept {
+    if (scale.joint != nullptr) return Joint::project<D>(*scale.joint, r);
+    law.template project<D>(scale, r, j);
+}
 
 }  // namespace law
 }  // namespace dihaptic::contact

@@ -1,8 +1,9 @@
-// The contact problem of one step: which impulses keep bodies from passing through each other and
-// obey Coulomb's law. README.md has the equations.
+// The contact problem of one step: which impulses keep bodies from passing through each other, obey
+// Coulomb's law, and hold joints together. README.md has the equations.
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -48,16 +49,41 @@ struct ProblemContact {
 /// [N*m*s].
 using Impulse = Eigen::Vector4d;
 
-/// Bodies and contacts of one step. Find impulses r so that for each contact, with u the velocity
-/// of b relative to a plus the bias along the normal, at the end of the step: r_N >= 0, u_N >= 0,
-/// r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides.
+/// Up to three rows of a joint. Along each, with u = J_a (v_a, w_a) + J_b (v_b, w_b) + bias at the
+/// end of the step and r the impulse of the row,
+///
+///     low <= r <= high      u + compliance r  is 0 between the bounds, >= 0 at low, <= 0 at high
+///
+/// Without bounds and compliance bodies do not move against each other; with low = 0 the row is a
+/// stop, with low = -high dry friction, with a compliance an implicit spring. A row without J, and
+/// with bounds of 0, is none.
+struct ProblemJoint {
+    static constexpr int kRows = 3;
+    using Rows = Eigen::Matrix<double, kRows, 6>;
+
+    int a = kFixed;
+    int b = kFixed;
+    Rows J_a = Rows::Zero();  ///< of the linear, then the angular velocity; signs are in it
+    Rows J_b = Rows::Zero();
+    Vec3 bias = Vec3::Zero();        ///< [m/s] or [rad/s], as u
+    Vec3 compliance = Vec3::Zero();  ///< [m/s per N*s] or [rad/s per N*m*s]
+    Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< [N*s] or [N*m*s]
+    Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
+};
+
+/// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
+/// velocity of b relative to a plus the bias along the normal, at the end of the step: r_N >= 0,
+/// u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides; and for each
+/// joint what its rows ask for.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;
+    std::vector<ProblemJoint> joints;
 
     void clear() noexcept {
         bodies.clear();
         contacts.clear();
+        joints.clear();
     }
     bool has_torsion() const noexcept;
 };
@@ -69,7 +95,7 @@ struct DelassusProblem {
     Eigen::VectorXd q;   ///< velocities without contact impulses [m/s]
     Eigen::VectorXd mu;  ///< by contact
 };
-/// The problem without bodies; torsion is left out.
+/// The problem without bodies; torsion and joints are left out.
 DelassusProblem delassus(const ContactProblem& problem);
 
 /// |F|^2 of the error with which one contact satisfies Coulomb's law, zero if exactly: the natural
@@ -99,7 +125,7 @@ double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
     return sum;
 }
 
-/// Norm of the natural map over 1 + |q|, in the units of the problem as given.
+/// Norm of the natural map over 1 + |q|, in the units of the problem as given, which has no joints.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r);
 /// As above, without allocating: `scratch` has as many elements as the problem has bodies.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r,

@@ -1,5 +1,7 @@
 #include "contact/solver.h"
 
+#include <cassert>
+
 #include "contact/body_system.h"
 #include "contact/delassus_system.h"
 #include "contact/hand_over.h"
@@ -171,7 +173,7 @@ class Solve {
 
     void project() {
         for (size_t j = 0; j < r_.size(); ++j)
-            law::Coulomb::project<System::D>(system_.scale(j), r_[j], j);
+            law::project<System::D>(law::Coulomb{}, system_.scale(j), r_[j], j);
     }
 
     Residual cone_residual() {
@@ -195,18 +197,20 @@ struct BodyMemory {
     BodySystem<D> system;
     SolverMemory<BodySystem<D>> solver;
 
-    void reserve(int bodies, int contacts) {
-        system.reserve(bodies, contacts);
-        solver.reserve(static_cast<size_t>(contacts),
+    void reserve(int bodies, int contacts, int joints) {
+        system.reserve(bodies, contacts, joints);
+        solver.reserve(static_cast<size_t>(contacts) + static_cast<size_t>(joints),
                        static_cast<size_t>(std::min(contacts, ContactSolvers::kLemkeContacts)));
     }
 
     void solve(Solver kind, const SolveSettings& settings, const ContactProblem& problem,
-               std::span<Impulse> r, SolveStats& stats, SolveDetail* detail) {
+               std::span<Impulse> r, std::span<Vec3> joints, SolveStats& stats,
+               SolveDetail* detail) {
         system.assemble(problem);
-        solver.r.resize(r.size());
+        solver.r.resize(r.size() + joints.size());
         if (!system.is_finite()) {
             for (Impulse& impulse : r) impulse.setZero();
+            for (Vec3& impulse : joints) impulse.setZero();
             for (auto& impulse : solver.r) impulse.setZero();
             system.body_velocity(solver.r);
             stats.missed = stats.refused = true;
@@ -220,7 +224,15 @@ struct BodyMemory {
                 solver.r[j][3] = spin_unit(j) > 0 ? r[j][3] / (spin_unit(j) * system.unit(j)) : 0;
             }
         }
+        for (size_t j = 0; j < joints.size(); ++j) {
+            auto& start = solver.r[r.size() + j];
+            start.setZero();
+            if (joints[j].allFinite())
+                start.template head<3>() = joints[j] / system.unit(r.size() + j);
+        }
         Solve<BodySystem<D>>(system, solver, stats).run(kind, settings, detail);
+        for (size_t j = 0; j < joints.size(); ++j)
+            joints[j] = solver.r[r.size() + j].template head<3>() * system.unit(r.size() + j);
         for (size_t j = 0; j < r.size(); ++j) {
             r[j].setZero();
             r[j].head<3>() = solver.r[j].template head<3>() * system.unit(j);
@@ -244,21 +256,23 @@ ContactSolvers::~ContactSolvers() = default;
 ContactSolvers::ContactSolvers(ContactSolvers&&) noexcept = default;
 ContactSolvers& ContactSolvers::operator=(ContactSolvers&&) noexcept = default;
 
-void ContactSolvers::reserve(int bodies, int contacts, bool torsion) {
-    memory_->plain.reserve(bodies, contacts);
+void ContactSolvers::reserve(int bodies, int contacts, bool torsion, int joints) {
+    memory_->plain.reserve(bodies, contacts, joints);
     memory_->torsion = torsion;
-    if (torsion) memory_->torsional.reserve(bodies, contacts);
+    if (torsion) memory_->torsional.reserve(bodies, contacts, joints);
 }
 
 void ContactSolvers::solve(Solver solver, const SolveSettings& settings,
-                           const ContactProblem& problem, std::span<Impulse> r, SolveStats& stats,
+                           const ContactProblem& problem, std::span<Impulse> r,
+                           std::span<Vec3> joints, SolveStats& stats,
                            SolveDetail* detail) noexcept {
+    assert(r.size() == problem.contacts.size() && joints.size() == problem.joints.size());
     stats = {};
     memory_->last_torsion = memory_->torsion && problem.has_torsion();
     if (memory_->last_torsion) {
-        memory_->torsional.solve(solver, settings, problem, r, stats, detail);
+        memory_->torsional.solve(solver, settings, problem, r, joints, stats, detail);
     } else {
-        memory_->plain.solve(solver, settings, problem, r, stats, detail);
+        memory_->plain.solve(solver, settings, problem, r, joints, stats, detail);
     }
 }
 

@@ -69,17 +69,23 @@ class ContactSolvers {
     ContactSolvers(ContactSolvers&&) noexcept;
     ContactSolvers& operator=(ContactSolvers&&) noexcept;
 
-    /// Reserves memory for problems of this many bodies and contacts, with or without torsion.
-    /// Lemke's method, Stewart-Trinkle's last resort, is kept for problems up to about
+    /// Reserves memory for problems of this many bodies, contacts and joints, with or without
+    /// torsion. Lemke's method, Stewart-Trinkle's last resort, is kept for problems up to about
     /// `kLemkeContacts`, with the default eight directions.
-    void reserve(int bodies, int contacts, bool torsion);
+    void reserve(int bodies, int contacts, bool torsion, int joints = 0);
     static constexpr int kLemkeContacts = 60;
 
-    /// Solves from the start in r, and leaves the impulses in r. A problem that is larger than
-    /// reserved allocates, and is left to sweeps. One with values that are not numbers is refused
-    /// before any solver starts: SolveStats::refused.
+    /// Solves from the start in r, and in `joints` by rows of joints, and leaves the impulses
+    /// there. A problem that is larger than reserved allocates, and is left to sweeps. One with
+    /// values that are not numbers is refused before any solver starts: SolveStats::refused.
     void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
-               std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept;
+               std::span<Impulse> r, std::span<Vec3> joints, SolveStats& stats,
+               SolveDetail* detail = nullptr) noexcept;
+    /// Of a problem without joints.
+    void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
+               std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept {
+        solve(solver, settings, problem, r, {}, stats, detail);
+    }
     /// Change of a body's velocity by the impulses of the last solve: linear [m/s], then angular
     /// [rad/s].
     Vec6 velocity_change(int body) const noexcept;

@@ -46,6 +46,21 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     items.push_back(std::move(item));
 }
 
+void World::Impl::add(const scene::Joint& joint) {
+    const auto side = [&](size_t i) -> Joints::Side {
+        const int at = scene.find(joint.between[i]);
+        Item& item = items[static_cast<size_t>(at)];
+        return {item.body.get(), !item.can_move, at};
+    };
+    const bool to_world = joint.between.size() == 1;
+    const Joints::Side a = to_world ? Joints::Side{} : side(0);
+    const Joints::Side b = side(to_world ? 0 : 1);
+    joints.add(joint, a, b);
+    if (a.body == nullptr || joint.collide) return;
+    a.body->setIgnoreCollisionCheck(b.body, true);
+    b.body->setIgnoreCollisionCheck(a.body, true);
+}
+
 World::World(const scene::Scene& scene, const Settings& settings)
     : impl_(std::make_unique<Impl>()), gravity_(scene.gravity) {
     impl_->scene = scene;
@@ -56,6 +71,7 @@ World::World(const scene::Scene& scene, const Settings& settings)
                    body.torsion_radius, body.pose(), fixed ? Vec3::Zero() : factors(body.moves),
                    fixed ? Vec3::Zero() : factors(body.turns));
     }
+    for (const scene::Joint& joint : scene.joints) impl_->add(joint);
 }
 
 World::~World() = default;
@@ -101,6 +117,20 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool t
     return {size() - 1};
 }
 
+void World::Impl::reserve_bodies(size_t count) {
+    awake.reserve(count);
+    placed.reserve(count);
+    stepped.reserve(count);
+    can_move.reserve(count);
+    inverse_mass.resize(count);
+    bodies_of_islands.reserve(count);
+    holds_finger.resize(count);
+    island_bodies.reserve(count);
+    island_change.reserve(count);
+    joints_of_islands.reserve(joints.size());
+    island_joints.reserve(joints.size());
+}
+
 void World::activate() {
     Impl& w = *impl_;
     const size_t count = w.items.size();
@@ -114,16 +144,10 @@ void World::activate() {
     std::vector<double> torsion_radii;
     for (const Impl::Item& item : w.items) torsion_radii.push_back(item.torsion_radius);
     const bool torsion = *std::max_element(torsion_radii.begin(), torsion_radii.end()) > 0;
-    w.problem.reserve(std::move(torsion_radii), max_contacts);
-    w.solvers.reserve(static_cast<int>(count), max_contacts, torsion);
-    w.awake.reserve(count);
-    w.placed.reserve(count);
-    w.stepped.reserve(count);
-    w.can_move.reserve(count);
-    w.inverse_mass.resize(count);
-    w.bodies_of_islands.reserve(count);
-    w.holds_finger.resize(count);
-    w.island_bodies.reserve(count);
+    const size_t elements = w.joints.elements();
+    w.problem.reserve(std::move(torsion_radii), max_contacts, elements);
+    w.solvers.reserve(static_cast<int>(count), max_contacts, torsion, static_cast<int>(elements));
+    w.reserve_bodies(count);
     const auto points =
         static_cast<int>(std::count_if(w.items.begin(), w.items.end(), [](const Impl::Item& item) {
             return item.is_point || item.may_be_point;
@@ -205,6 +229,7 @@ void World::mend() noexcept {
     for (const size_t i : w.can_move) w.wake(i, states_);
     w.collision->forget();
     w.point_contacts.forget();
+    w.joints.forget();
 }
 
 void World::set_solver(Solver solver) noexcept {
@@ -217,6 +242,10 @@ Solver World::solver() const noexcept {
 
 void World::watch_problems(ProblemWatcher watcher) {
     impl_->watcher = std::move(watcher);
+}
+
+std::span<const JointState> World::joints() const noexcept {
+    return impl_->joints.states();
 }
 
 double World::held_residual() const noexcept {
@@ -302,6 +331,7 @@ void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
         impl_->place_fixed(i, states_);
     }
     impl_->read_state(i, states_[i]);
+    impl_->joints.read();
 }
 
 void World::apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept {

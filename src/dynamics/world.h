@@ -32,6 +32,15 @@ struct BodyState {
     bool awake = true;         ///< false: asleep or fixed; the state does not change
 };
 
+/// A joint of the scene. A body that a hinge turns, or a slider moves, has a coordinate against the
+/// other one, 0 at the start.
+struct JointState {
+    double position = 0;           ///< [rad] or [m]
+    double velocity = 0;           ///< [rad/s] or [m/s]
+    Vec3 force_W = Vec3::Zero();   ///< of the first body on the second, at the joint [N]
+    Vec3 torque_W = Vec3::Zero();  ///< with those of spring, friction and stops [N*m]
+};
+
 /// Factors by which a body's properties differ from those of the scene.
 struct BodyProperties {
     Vec3 mass = Vec3::Ones();  ///< of its inertia along the world's axes
@@ -100,6 +109,8 @@ class World {
     const contact::SolveStats& solve_stats() const { return stats_; }
     /// The largest residual of the islands with a finger in the last step: 0 if there was none.
     double held_residual() const noexcept;
+    /// Joints of the scene, in its order, after the last step.
+    std::span<const JointState> joints() const noexcept;
     double mass(BodyIndex body) const;
     /// Inertia of a proxy that turns, about P [kg*m^2].
     double inertia(BodyIndex proxy) const;

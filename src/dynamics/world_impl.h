@@ -7,6 +7,7 @@
 #include "contact/solver.h"
 #include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/collision.h"
+#include "dynamics/bullet/joints.h"
 #include "dynamics/bullet/point_contacts.h"
 #include "dynamics/bullet/problem.h"
 #include "dynamics/bullet/shape.h"
@@ -67,6 +68,10 @@ struct World::Impl {
     double friction_scale = 1;
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
+    Joints joints;
+    std::vector<OfIsland<size_t>> joints_of_islands;
+    std::vector<size_t> island_joints;
+    std::vector<contact::Vec6> island_change;  // of velocities, by the problem's bodies
     CarriedPool carried_pool;
     std::unique_ptr<Groups> groups;
     std::unique_ptr<SleepKeeper> sleep;
@@ -84,11 +89,17 @@ struct World::Impl {
         return friction[a * items.size() + b] * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
     }
+    void add(const scene::Joint& joint);
+    void reserve_bodies(size_t count);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
+    /// Whether a joint moves this side in the step.
+    bool works(const Joints::Side& side) const { return !side.fixed && is_awake(side.at()); }
     void wake(size_t i, std::vector<BodyState>& states);
     /// Makes a fixed body's new pose known to what rests on it, and to the search for contacts.
     void place_fixed(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
+    /// Wakes what a joint joins to a body that is awake.
+    void wake_joined(std::vector<BodyState>& states);
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
@@ -101,10 +112,15 @@ struct World::Impl {
     /// Gives the points of a manifold something to carry.
     void give_to(const btPersistentManifold& manifold);
     void find_islands();
+    /// Joins bodies that touch or are joined to groups.
+    void join_groups();
     /// Solves island by island.
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
     contact::SolveStats solve_island(double h, bool held);
+    /// Solves the island's problem, again while its joints' rows follow from another guess of the
+    /// velocities at the end of the step.
+    contact::SolveStats solve_guessing(const contact::SolveSettings& how, double h);
     void integrate_positions(double h, std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);

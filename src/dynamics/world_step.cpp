@@ -14,6 +14,12 @@ constexpr int kMostPasses = 4;
 /// [m].
 constexpr double kKnocked = 1e-3;
 
+/// User indices of both.
+std::pair<size_t, size_t> bodies_of(const btPersistentManifold& manifold) {
+    return {static_cast<size_t>(manifold.getBody0()->getUserIndex()),
+            static_cast<size_t>(manifold.getBody1()->getUserIndex())};
+}
+
 }  // namespace
 
 StepStatus World::step(double h) noexcept {
@@ -44,6 +50,7 @@ StepStatus World::step(double h) noexcept {
         w.give_to(*of_point);
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
+    w.joints.read();
     w.note_stepped();
     if (stats_.refused || !w.all_sound()) return diverge();
 
@@ -100,7 +107,21 @@ void World::Impl::note_stepped() {
     placed.clear();
 }
 
+void World::Impl::wake_joined(std::vector<BodyState>& states) {
+    for (bool found = true; found;) {
+        found = false;
+        for (size_t i = 0; i < joints.size(); ++i) {
+            const Joints::Side& a = joints.a(i);
+            const Joints::Side& b = joints.b(i);
+            if (a.fixed || b.fixed || works(a) == works(b)) continue;
+            wake((works(a) ? b : a).at(), states);
+            found = true;
+        }
+    }
+}
+
 void World::Impl::collect_awake(std::vector<BodyState>& states) {
+    wake_joined(states);
     awake.clear();
     for (const size_t i : can_move) {
         if (!is_awake(i)) continue;
@@ -219,17 +240,21 @@ void World::Impl::give_to(const btPersistentManifold& manifold) {
     carried_pool.give(manifold);
 }
 
-void World::Impl::find_islands() {
+void World::Impl::join_groups() {
     groups->reset();
-    const std::vector<btPersistentManifold*>& manifolds = collision->manifolds();
-    const auto indices = [](const btPersistentManifold& manifold) {
-        return std::pair{static_cast<size_t>(manifold.getBody0()->getUserIndex()),
-                         static_cast<size_t>(manifold.getBody1()->getUserIndex())};
-    };
-    for (const btPersistentManifold* manifold : manifolds) {
-        const auto [a, b] = indices(*manifold);
+    for (const btPersistentManifold* manifold : collision->manifolds()) {
+        const auto [a, b] = bodies_of(*manifold);
         if (items[a].can_move && items[b].can_move) groups->join(a, b);
     }
+    for (size_t i = 0; i < joints.size(); ++i) {
+        const Joints::Side& a = joints.a(i);
+        const Joints::Side& b = joints.b(i);
+        if (works(a) && works(b)) groups->join(a.at(), b.at());
+    }
+}
+
+void World::Impl::find_islands() {
+    join_groups();
     std::fill(holds_finger.begin(), holds_finger.end(), false);
     for (const size_t i : awake) {
         if (items[i].is_proxy) holds_finger[groups->of(i)] = true;
@@ -240,13 +265,20 @@ void World::Impl::find_islands() {
     };
     bodies_of_islands.clear();
     contacts_of_islands.clear();
+    joints_of_islands.clear();
     for (const size_t i : awake)
         bodies_of_islands.push_back({island_of(i), static_cast<int>(i), items[i].body.get()});
-    for (btPersistentManifold* manifold : manifolds) {
-        const auto [a, b] = indices(*manifold);
+    for (btPersistentManifold* manifold : collision->manifolds()) {
+        const auto [a, b] = bodies_of(*manifold);
         const auto order = static_cast<int>(contacts_of_islands.size());
         contacts_of_islands.push_back({island_of(items[a].can_move ? a : b), order, manifold});
     }
+    for (size_t i = 0; i < joints.size(); ++i) {
+        const Joints::Side& side = works(joints.a(i)) ? joints.a(i) : joints.b(i);
+        if (works(side))
+            joints_of_islands.push_back({island_of(side.at()), static_cast<int>(i), i});
+    }
+    std::sort(joints_of_islands.begin(), joints_of_islands.end());
     std::sort(bodies_of_islands.begin(), bodies_of_islands.end());
     std::sort(contacts_of_islands.begin(), contacts_of_islands.end());
 }
@@ -256,15 +288,17 @@ contact::SolveStats World::Impl::solve(double h) {
     held_residual = 0;
     auto body = bodies_of_islands.begin();
     auto contact = contacts_of_islands.begin();
-    while (contact != contacts_of_islands.end()) {
-        const size_t island = contact->island;
-        island_bodies.clear();
-        island_contacts.clear();
-        while (body->island < island) ++body;  // bodies that touch nothing
-        for (; body != bodies_of_islands.end() && body->island == island; ++body)
-            island_bodies.push_back(body->item);
-        for (; contact != contacts_of_islands.end() && contact->island == island; ++contact)
-            island_contacts.push_back(contact->item);
+    auto joint = joints_of_islands.begin();
+    const auto take = [](auto& at, auto end, size_t island, auto& out) {
+        out.clear();
+        for (; at != end && at->island == island; ++at) out.push_back(at->item);
+    };
+    while (body != bodies_of_islands.end()) {
+        const size_t island = body->island;
+        take(body, bodies_of_islands.end(), island, island_bodies);
+        take(contact, contacts_of_islands.end(), island, island_contacts);
+        take(joint, joints_of_islands.end(), island, island_joints);
+        if (island_contacts.empty() && island_joints.empty()) continue;
         const bool held = island < items.size();
         const contact::SolveStats one = solve_island(h, held);
         if (held) held_residual = std::max(held_residual, one.residual);
@@ -276,13 +310,14 @@ contact::SolveStats World::Impl::solve(double h) {
 contact::SolveStats World::Impl::solve_island(double h, bool held) {
     problem.build(island_bodies, inverse_mass, island_contacts, h, settings.penetration_recovery,
                   settings.warm_start);
+    problem.add_joints(joints, island_joints, h, settings.warm_start);
     if (watcher) watcher(problem.problem(), problem.impulses());
     const contact::SolveSettings how{{settings.friction_directions, settings.friction_frame},
                                      {settings.iterations, settings.tolerance},
                                      has_fingers && !held ? kMostWork : contact::kUnbounded};
-    contact::SolveStats stats;
-    solvers.solve(settings.solver, how, problem.problem(), problem.impulses(), stats);
+    const contact::SolveStats stats = solve_guessing(how, h);
     problem.store(island_contacts);
+    joints.store(island_joints, problem.joint_impulses(), h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
         const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
@@ -290,6 +325,25 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
     }
     return stats;
+}
+
+contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
+    constexpr int kMostGuesses = 4;
+    constexpr double kSame = 1e-9;  // [m/s], [rad/s]
+    int iterations = 0;
+    int work = 0;
+    for (int guess = 1;; ++guess) {
+        contact::SolveStats stats;
+        solvers.solve(settings.solver, how, problem.problem(), problem.impulses(),
+                      problem.joint_impulses(), stats);
+        iterations = stats.iterations += iterations;
+        work = stats.work += work;
+        if (island_joints.empty() || stats.refused || guess == kMostGuesses) return stats;
+        island_change.clear();
+        for (size_t i = 0; i < island_bodies.size(); ++i)
+            island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
+        if (problem.guess(joints, island_joints, h, island_change) <= kSame) return stats;
+    }
 }
 
 void World::Impl::integrate_positions(double h, std::vector<BodyState>& states) {

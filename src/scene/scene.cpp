@@ -223,6 +223,73 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
+/// A joint's springs, dampers, friction and stops are those of a free axis.
+void check_axis(const Joint& joint, Diagnostics& diagnostics) {
+    const bool asks =
+        joint.stiffness > 0 || joint.damping > 0 || joint.friction > 0 || joint.low || joint.high;
+    if (asks && !joint.has_coordinate()) {
+        diagnostics.error(
+            joint.place, joint.name,
+            fmt::format("has a spring, damper, friction or stop, and a {} joint has no "
+                        "single axis that it could act along",
+                        enum_name(joint.kind)),
+            "Leave it out, or make it a hinge or a slider.");
+    }
+    constexpr double kShort = 1e-9;
+    if (joint.axis.norm() < kShort)
+        diagnostics.error(joint.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
+    if (joint.kind == JointKind::universal &&
+        joint.axis.cross(joint.second_axis).norm() <
+            kShort * joint.axis.norm() * joint.second_axis.norm())
+        diagnostics.error(joint.place, "second_axis", "lies along the first axis",
+                          "Let it cross the first one, best at a right angle.");
+    if (joint.low && joint.high && *joint.low > *joint.high)
+        diagnostics.error(joint.place, "low", "is above high, so that the joint has no place to be",
+                          "Exchange the two.");
+}
+
+void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
+    std::vector<std::string> bodies;
+    for (const Body& body : scene.bodies) bodies.push_back(body.name);
+    if (joint.between.empty() || joint.between.size() > 2) {
+        diagnostics.error(joint.place, "between", "must be two bodies, or one",
+                          "Write between: [cart, bob], or between: [door] for a joint to the "
+                          "world.");
+        return;
+    }
+    bool moves = false;
+    bool known = true;
+    for (const std::string& name : joint.between) {
+        const int body = scene.find(name);
+        known = known && body >= 0;
+        moves = moves || (body >= 0 && scene.bodies[static_cast<size_t>(body)].moves_at_all());
+        if (body >= 0) continue;
+        const std::string guess = nearest(name, bodies);
+        diagnostics.error(joint.place, "between", fmt::format("there is no body '{}'", name),
+                          guess.empty() ? fmt::format("There are {}.", fmt::join(bodies, ", "))
+                                        : fmt::format("Did you mean {}?", guess));
+    }
+    if (joint.between.front() == joint.between.back() && joint.between.size() == 2) {
+        diagnostics.error(joint.place, "between",
+                          fmt::format("'{}' cannot be joined to itself", joint.between[0]),
+                          "Name two different bodies.");
+    } else if (known && !moves) {
+        diagnostics.error(joint.place, "between", "joins nothing that can move",
+                          "Name a body that can, or leave the joint out.");
+    }
+}
+
+void check_joints(const Scene& scene, Diagnostics& diagnostics) {
+    std::set<std::string> names;
+    for (const Joint& joint : scene.joints) {
+        if (!names.insert(joint.name).second)
+            diagnostics.error(joint.place, "name", fmt::format("'{}' is used twice", joint.name),
+                              "Give each joint a name of its own.");
+        check_axis(joint, diagnostics);
+        check_between(joint, scene, diagnostics);
+    }
+}
+
 /// Warns of bodies that start inside a fixed one: contact forces would push or shoot them out.
 void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kDeep = 1e-3;  // [m]
@@ -309,6 +376,7 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
     }
     check_names(scene, diagnostics);
     check_references(scene, diagnostics);
+    check_joints(scene, diagnostics);
     if (!diagnostics.has_errors()) check_overlaps(scene, diagnostics);
 }
 

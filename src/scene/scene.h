@@ -9,6 +9,7 @@
 
 #include "base/field_reader.h"
 #include "scene/camera.h"
+#include "scene/joint.h"
 #include "scene/shape.h"
 
 namespace dihaptic::scene {
@@ -151,6 +152,7 @@ struct Scene {
     Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
     std::vector<Body> bodies;
     std::vector<PairFriction> pairs;
+    std::vector<Joint> joints;
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that summaries are about; empty: the first one that can move
     std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
@@ -166,6 +168,7 @@ struct Scene {
           Field::of(Quantity::acceleration).within(-1000, 1000).says("Gravity."));
         v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
         v("pairs", pairs, says("Pairs with a friction of their own."));
+        v("joints", joints, says("Joints between two bodies, or a body and the world."));
         v("fingers", fingers,
           says("Fingers, each with a device of its own in the rig; left out, thumb "
                "and index with pads for a grip along x."));

@@ -15,8 +15,7 @@ TEST(BenchSolvers, SolvesGraspsStacksAndWallsWithoutAMiss) {
     bench.budget = 0.05;
     const SolversFigures figures = bench_solvers(bench, {});
     for (const SolverCost& c : figures.costs) {
-        SCOPED_TRACE(c.family + " " + std::to_string(c.contacts) + ", " +
-                     std::string(enum_name(c.solver)));
+        SCOPED_TRACE(c.family + " " + std::to_string(c.contacts) + ", " + c.solver);
         // heaps that jam as they settle sometimes miss every solver's tolerance; the bench counts
         // them
         if (c.family != "pile") {

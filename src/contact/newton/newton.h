@@ -220,8 +220,8 @@ class ProximalNewton {
         double error = 0;
         for (size_t j = 0; j < r_.size(); ++j) {
             const Vec u = memory_.u[j] + rho_ * (r_[j] - memory_.r_k[j]);
-            error += law_.template linearise<System::D>(system_.scale(j), r_[j], u, rho_,
-                                                        memory_.linearised[j], j);
+            error += law::linearise<System::D>(law_, system_.scale(j), r_[j], u, rho_,
+                                               memory_.linearised[j], j);
         }
         return error;
     }
@@ -308,6 +308,10 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
     double given = 0;
     for (size_t j = 0; j < system.size(); ++j) {
         const double unit = system.unit(j);
+        if (const JointScale* joint = system.scale(j).joint; joint != nullptr) {
+            given += law::Joint::residual<System::D>(*joint, r[j], u[j], unit);
+            continue;
+        }
         const Vec r_given = r[j] * unit;
         const Vec u_given = u[j] * (1 / unit);
         given += natural_map_squared<System::D>(r_given, u_given, system.scale(j).mu);
@@ -316,7 +320,7 @@ Residual coulomb_residual(const System& system, std::span<const typename System:
     if (far.given > enough) return far;
     double scaled = 0;
     for (size_t j = 0; j < system.size(); ++j)
-        scaled += natural_map_squared<System::D>(r[j], u[j], system.scale(j).mu);
+        scaled += law::residual<System::D>(law::Coulomb{}, system.scale(j), r[j], u[j], j);
     return load.residual(scaled, given);
 }
 

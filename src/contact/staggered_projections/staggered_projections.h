@@ -54,10 +54,10 @@ class StaggeredProjections {
         system_.velocity(r_, memory_.newton.u);
         std::copy(r_.begin(), r_.end(), memory_.best.begin());
         judge();
-        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = std::max(0.0, r_[j][0]);
+        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = std::max(0.0, load_of(j));
         if (out_.residual > kTarget * tolerance_) {
             solve_for(law::NormalOnly{});  // a first guess of the loads, with the start's friction
-            for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = r_[j][0];
+            for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = load_of(j);
         }
         while (out_.residual > kTarget * tolerance_ && out_.iterations < most_iterations) {
             ++out_.iterations;
@@ -90,6 +90,9 @@ class StaggeredProjections {
     static constexpr int kPatience = 15;  // iterations before sweeps move on
     static constexpr int kSweeps = 200;
 
+    /// Of a contact; 0 for a joint, whose rows both problems solve.
+    double load_of(size_t j) const { return system_.scale(j).joint != nullptr ? 0 : r_[j][0]; }
+
     /// Solves one of the two convex problems exactly.
     template <class Law>
     void solve_for(const Law& law) {
@@ -99,8 +102,7 @@ class StaggeredProjections {
             [&](std::span<const Vec> impulse, std::span<const Vec> u) {
                 double error = 0;
                 for (size_t j = 0; j < impulse.size(); ++j)
-                    error +=
-                        law.template residual<System::D>(system_.scale(j), impulse[j], u[j], j);
+                    error += law::residual<System::D>(law, system_.scale(j), impulse[j], u[j], j);
                 return std::sqrt(error);
             },
             kInnerStart);
@@ -110,6 +112,7 @@ class StaggeredProjections {
     void solve_pair() {
         const law::FrictionOnly friction{memory_.normal};
         for (size_t j = 0; j < r_.size(); ++j) {
+            if (system_.scale(j).joint != nullptr) continue;
             r_[j][0] = memory_.normal[j];
             friction.template project<System::D>(system_.scale(j), r_[j], j);
         }
@@ -139,14 +142,14 @@ class StaggeredProjections {
 
     void sweep_on() {
         system_.sweep(law::Coulomb{}, r_, kSweeps);
-        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = r_[j][0];
+        for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = load_of(j);
         memory_.anderson.forget();
         plain_ = kPlainIterations;
     }
 
     /// Sets the loads that the next pair starts from.
     void accelerate() {
-        for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = r_[j][0];
+        for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = load_of(j);
         if (plain_ > 0) {
             --plain_;
             // Coulomb's law may have several solutions: start gently, to find the nearest

@@ -94,7 +94,8 @@ class StewartTrinkle {
         if (follows()) turn(r);
         if (accept(r, Route::start, out)) return out;
         solve_and_turn(r, out, [&](double enough) { newton_once(r, enough, out); });
-        if (!out.converged)
+        // a row of a joint has no sign, as Lemke's variables must have
+        if (!out.converged && !system_.has_joints())
             solve_and_turn(r, out, [&](double enough) { lemke_once(r, enough, out); });
         restore(r);
         return out;
@@ -128,6 +129,11 @@ class StewartTrinkle {
         double given = 0;
         for (size_t j = 0; j < r.size(); ++j) {
             const double unit = system_.unit(j);
+            if (const JointScale* joint = system_.scale(j).joint; joint != nullptr) {
+                scaled += law::Joint::residual<D>(*joint, r[j], u[j]);
+                given += law::Joint::residual<D>(*joint, r[j], u[j], unit);
+                continue;
+            }
             const Tangent u_t = u[j].template tail<T>();
             const double lambda = std::max(0.0, m_.polygons[j].support(-u_t));
             const auto in = m_.polygons[j].sector(r[j].template tail<T>());

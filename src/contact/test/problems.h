@@ -102,6 +102,7 @@ inline std::vector<Impulse> reference_solution(const ContactProblem& problem, do
 /// Impulses from a cold start, and what was achieved.
 struct Answer {
     std::vector<Impulse> r;
+    std::vector<Vec3> joints;
     std::vector<Eigen::Matrix<double, 6, 1>> change;  ///< of the bodies' velocities
     SolveStats stats;
     SolveDetail detail;
@@ -109,10 +110,13 @@ struct Answer {
 inline Answer answer(Solver solver, const ContactProblem& problem, PolygonSettings polygon = {}) {
     ContactSolvers solvers;
     solvers.reserve(static_cast<int>(problem.bodies.size()),
-                    static_cast<int>(problem.contacts.size()), problem.has_torsion());
+                    static_cast<int>(problem.contacts.size()), problem.has_torsion(),
+                    static_cast<int>(problem.joints.size()));
     Answer out;
     out.r.assign(problem.contacts.size(), Impulse::Zero());
-    solvers.solve(solver, {polygon, {}, kUnbounded}, problem, out.r, out.stats, &out.detail);
+    out.joints.assign(problem.joints.size(), Vec3::Zero());
+    solvers.solve(solver, {polygon, {}, kUnbounded}, problem, out.r, out.joints, out.stats,
+                  &out.detail);
     for (size_t i = 0; i < problem.bodies.size(); ++i)
         out.change.push_back(solvers.velocity_change(static_cast<int>(i)));
     return out;

@@ -85,12 +85,14 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Parts of one body do not meet each other, and hidden parts meet nothing.
+    /// Parts of one body do not meet each other, nor do bodies that a joint keeps from it, and
+    /// hidden parts meet nothing.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
                    (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0 &&
-                   part(a).body != part(b).body && !part(a).hidden && !part(b).hidden;
+                   part(a).body != part(b).body && !part(a).hidden && !part(b).hidden &&
+                   part(a).body->checkCollideWith(part(b).body);
         }
     };
 

@@ -42,7 +42,10 @@ double mean_height(const btPersistentManifold& manifold) {
 
 }  // namespace
 
-void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts) {
+void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts,
+                              size_t joint_elements) {
+    problem_.joints.reserve(joint_elements);
+    joint_impulses_.reserve(joint_elements);
     torsion_radii_ = std::move(torsion_radii);
     problem_.bodies.reserve(torsion_radii_.size());
     problem_.contacts.reserve(static_cast<size_t>(contacts));
@@ -55,6 +58,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
                             std::span<btPersistentManifold*> manifolds, double h, double recovery,
                             bool warm_start) noexcept {
     problem_.clear();
+    joint_impulses_.clear();
     for (btCollisionObject* object : bodies) {
         const btRigidBody& body = *btRigidBody::upcast(object);
         const auto at = static_cast<size_t>(body.getUserIndex());
@@ -98,6 +102,18 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
     } else {
         for (contact::Impulse& impulse : impulses_) impulse.setZero();
     }
+}
+
+void ManifoldProblem::add_joints(Joints& joints, std::span<const size_t> which, double h,
+                                 bool warm_start) noexcept {
+    joints.add_rows(which, index_, h, problem_, joint_impulses_);
+    if (warm_start) return;
+    for (Vec3& impulse : joint_impulses_) impulse.setZero();
+}
+
+double ManifoldProblem::guess(const Joints& joints, std::span<const size_t> which, double h,
+                              std::span<const contact::Vec6> change) noexcept {
+    return joints.guess(which, index_, h, change, problem_);
 }
 
 void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) noexcept {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/problem.h"
+#include "dynamics/bullet/joints.h"
 
 namespace dihaptic::dynamics {
 
@@ -16,7 +17,7 @@ class ManifoldProblem {
   public:
     /// Reserves memory for this many contact points. The torsion radii of all bodies, by user
     /// index, give those of pairs: the larger one counts [m].
-    void reserve(std::vector<double> torsion_radii, int contacts);
+    void reserve(std::vector<double> torsion_radii, int contacts, size_t joint_elements);
 
     /// Builds the problem of these bodies, which can move, with their present velocities;
     /// `inverse_mass` is that of all bodies, by user index. A gap becomes the velocity that closes
@@ -25,8 +26,16 @@ class ManifoldProblem {
                std::span<btPersistentManifold*> manifolds, double h, double recovery,
                bool warm_start) noexcept;
 
+    /// Adds rows of joints between bodies of the problem, as build() was told to start.
+    void add_joints(Joints& joints, std::span<const size_t> which, double h,
+                    bool warm_start) noexcept;
+    /// As Joints::guess().
+    double guess(const Joints& joints, std::span<const size_t> which, double h,
+                 std::span<const contact::Vec6> change) noexcept;
+
     const contact::ContactProblem& problem() const noexcept { return problem_; }
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
+    std::span<Vec3> joint_impulses() noexcept { return joint_impulses_; }
 
     /// Has the manifolds' points carry the impulses.
     void store(std::span<btPersistentManifold*> manifolds) const noexcept;
@@ -36,6 +45,7 @@ class ManifoldProblem {
 
     contact::ContactProblem problem_;
     std::vector<contact::Impulse> impulses_;
+    std::vector<Vec3> joint_impulses_;
     std::vector<int> index_;  // index in the problem, by a body's user index
     std::vector<double> torsion_radii_;
 };

@@ -194,6 +194,50 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\npairs:\n  - {between: "
             "[b, thumb], friction: 1}\n  - {between: [thumb, b], friction: 0.5}\n",
             "scene.yaml:5: error: between: the pair of b and thumb is given twice"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b, "
+            "tt]}\n",
+            "there is no body 'tt'. Did you mean t?"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b, "
+            "b]}\n",
+            "'b' cannot be joined to itself"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
+            "[t]}\n",
+            "joins nothing that can move"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b, "
+            "t, b]}\n",
+            "must be two bodies, or one"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
+            "axis: [0, 0, 0]}\n",
+            "axis: has no direction"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
+            "low_deg: 10, high_deg: -10}\n",
+            "is above high"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
+            "low_mm: 10}\n",
+            "is not a unit of angle"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
+            "[b]}\n  - {name: j, kind: ball, between: [b, t]}\n",
+            "'j' is used twice"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
+            "[b]}\n  - {name: k, kind: ball, between: [b, t], stiffness_Nm_rad: 1}\n",
+            "no single axis"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
+            "[b]}\n  - {name: k, kind: universal, between: [b, t], axis: [1, 0, 0]}\n",
+            "lies along the first axis"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
+            "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
+            "[b]}\n  - {name: k, kind: hing, between: [b, t]}\n",
+            "'hing' is not known. Use hinge, slider"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_m: 1e-9, mass_g: 1}\n",
             "radius_m: must be at least 0.0001 and at most 100, is 1e-9"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1e-30}\n",

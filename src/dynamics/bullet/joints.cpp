@@ -1,0 +1,318 @@
+#include "dynamics/bullet/joints.h"
+
+#include <LinearMath/btTransformUtil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/bullet/shape.h"
+
+namespace dihaptic::dynamics {
+namespace {
+
+using contact::ProblemJoint;
+using contact::Vec6;
+
+/// No joint is stiffer than steel. A mechanism that passes a place where its joints do not
+/// determine how it moves on, as a parallelogram that lies flat, would be thrown by rows that yield
+/// to nothing.
+constexpr double kStiffness = 1e9;      // [N/m]
+constexpr double kTurnStiffness = 1e7;  // [N*m/rad]
+/// What was put where its joint cannot be is pulled back no faster than this.
+constexpr double kPull = 0.5;    // [m/s]
+constexpr double kTurnPull = 5;  // [rad/s]
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+Pose pose_of(const Joints::Side& side) {
+    return side.body == nullptr ? Pose{} : from_bullet(side.body->getWorldTransform());
+}
+
+/// Where a step at these velocities leads.
+Pose moved(const Joints::Side& side, const Vec6& v, double h) {
+    if (side.fixed) return pose_of(side);
+    btTransform out;
+    btTransformUtil::integrateTransform(side.body->getWorldTransform(),
+                                        to_bullet(Vec3(v.head<3>())), to_bullet(Vec3(v.tail<3>())),
+                                        h, out);
+    return from_bullet(out);
+}
+
+Vec6 velocity_of(const Joints::Side& side) {
+    Vec6 out = Vec6::Zero();
+    if (!side.fixed)
+        out << from_bullet(side.body->getLinearVelocity()),
+            from_bullet(side.body->getAngularVelocity());
+    return out;
+}
+
+/// A row in which bodies turn against each other about n.
+void turn(ProblemJoint& rows, int row, const Vec3& n) {
+    rows.J_b.row(row).tail<3>() = n.transpose();
+    rows.J_a.row(row).tail<3>() = -n.transpose();
+}
+
+/// A row that asks for nothing.
+void close(ProblemJoint& rows, int row) {
+    rows.low[row] = rows.high[row] = 0;
+}
+
+/// The rotation that turns the x axis to `axis`, and the y axis near to `second`.
+Quat frame_along(const Vec3& axis, const Vec3& second) {
+    Mat3 R;
+    R.col(0) = axis.normalized();
+    Vec3 across = second - second.dot(R.col(0)) * R.col(0);
+    if (across.norm() < 1e-6 * second.norm()) across = R.col(0).unitOrthogonal();
+    R.col(1) = across.normalized();
+    R.col(2) = R.col(0).cross(R.col(1));
+    return Quat(R);
+}
+
+double inside(const ProblemJoint& rows, int row, const Vec6& a, const Vec6& b) {
+    return rows.J_a.row(row).dot(a) + rows.J_b.row(row).dot(b);
+}
+
+/// The inverse mass that the coordinate moves, where the joint's other rows hold.
+double along_coordinate(const contact::ContactProblem& problem,
+                        std::span<const ProblemJoint> rows) {
+    constexpr int kHeld = 2 * ProblemJoint::kRows;
+    using Matrix = Eigen::Matrix<double, kHeld + 1, 6>;
+    Eigen::Matrix<double, kHeld + 1, kHeld + 1> W;
+    W.setZero();
+    for (const bool second : {false, true}) {
+        const int body = second ? rows[0].b : rows[0].a;
+        if (body == contact::kFixed) continue;
+        Matrix J;
+        for (int k = 0; k < ProblemJoint::kRows; ++k) {
+            for (int e = 0; e < 2; ++e) {
+                const ProblemJoint& from = rows[static_cast<size_t>(e)];
+                J.row(ProblemJoint::kRows * e + k) = second ? from.J_b.row(k) : from.J_a.row(k);
+            }
+        }
+        J.row(kHeld) = second ? rows[2].J_b.row(0) : rows[2].J_a.row(0);
+        W += J * problem.bodies[static_cast<size_t>(body)].inverse_mass * J.transpose();
+    }
+    for (int k = 0; k < kHeld; ++k) {
+        if (W(k, k) <= 0) W(k, k) = 1;  // a row that asks for nothing
+    }
+    const auto held = W.topLeftCorner<kHeld, kHeld>();
+    const Eigen::Matrix<double, kHeld, 1> across = W.topRightCorner<kHeld, 1>();
+    return std::max(0.0, W(kHeld, kHeld) - across.dot(held.ldlt().solve(across)));
+}
+
+}  // namespace
+
+void Joints::add(const scene::Joint& spec, const Side& a, const Side& b) {
+    const Vec3 second = spec.kind == scene::JointKind::universal ? spec.second_axis
+                                                                 : Vec3(spec.axis.unitOrthogonal());
+    const Pose X_WF{frame_along(spec.axis, second), spec.position};
+    joints_.push_back({spec, a, b, pose_of(a).inverse() * X_WF, pose_of(b).inverse() * X_WF});
+    states_.emplace_back();
+}
+
+Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
+                          double q_near) noexcept {
+    const Pose X_WF = X_WA * joint.X_AF;
+    const Pose X_WG = X_WB * joint.X_BF;
+    const Pose X_FG = X_WF.inverse() * X_WG;
+    const Mat3 R = X_FG.R.toRotationMatrix();
+    Gaps out;
+    out.linear = X_FG.p;
+    switch (joint.spec.kind) {
+        case scene::JointKind::hinge: {
+            out.angular.tail<2>() = R.col(0).tail<2>();
+            const double turned = std::atan2(R(2, 1), R(1, 1));
+            constexpr double kTurn = 2 * std::numbers::pi;
+            out.q = turned + kTurn * std::round((q_near - turned) / kTurn);
+            break;
+        }
+        case scene::JointKind::slider:
+            out.q = X_FG.p.x();
+            [[fallthrough]];
+        case scene::JointKind::fixed:
+            out.angular = (X_FG.R.w() < 0 ? -2 : 2) * X_FG.R.vec();
+            break;
+        case scene::JointKind::universal:
+            out.angular[0] = R(0, 1);
+            break;
+        case scene::JointKind::ball:
+            break;
+    }
+    return out;
+}
+
+void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
+                  std::span<ProblemJoint> rows) noexcept {
+    const Pose X_WF = X_WA * joint.X_AF;
+    const Pose X_WG = X_WB * joint.X_BF;
+    const Mat3 F = X_WF.R.toRotationMatrix();
+    const Mat3 G = X_WG.R.toRotationMatrix();
+    const auto along = [&](ProblemJoint& out, int row, const Vec3& d) {
+        out.J_b.row(row) << d.transpose(), (X_WG.p - X_WB.p).cross(d).transpose();
+        // the axes are those of the first body, and turn with it
+        out.J_a.row(row) << -d.transpose(), -(X_WG.p - X_WA.p).cross(d).transpose();
+    };
+    using Kind = scene::JointKind;
+    const Kind kind = joint.spec.kind;
+    for (int k = 0; k < 3; ++k) {
+        if (kind == Kind::slider && k == 0) {
+            close(rows[0], k);
+        } else {
+            along(rows[0], k, F.col(k));
+        }
+        if (kind == Kind::slider || kind == Kind::fixed) {
+            turn(rows[1], k, F.col(k));
+        } else if (kind == Kind::hinge && k > 0) {
+            turn(rows[1], k, G.col(0).cross(F.col(k)));
+        } else if (kind == Kind::universal && k == 0) {
+            turn(rows[1], k, G.col(1).cross(F.col(0)));
+        } else {
+            close(rows[1], k);
+        }
+        if (kind == Kind::slider) {
+            along(rows[2], k, F.col(0));
+        } else if (kind == Kind::hinge) {
+            turn(rows[2], k, F.col(0));
+        }
+        close(rows[2], k);
+    }
+}
+
+/// Rows of the coordinate, which would be q at the end of a step in which it rests: a spring with
+/// its damper, dry friction, and the nearer stop.
+void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
+    enum { kSpring, kFriction, kStop };
+    const scene::Joint& spec = joints_[i].spec;
+    const double s = h * h * spec.stiffness * joints_[i].inverse_mass;
+    const double damped = s / (1 + s);
+    const double ahead = h * (1 + 3 * damped) / 4;
+    const double stiffness = h * (spec.damping + ahead * spec.stiffness);
+    if (stiffness > 0) {
+        row.low[kSpring] = -kNone;
+        row.high[kSpring] = kNone;
+        row.compliance[kSpring] = 1 / stiffness;
+        const double stretched = q - spec.rest - ahead * (1 - damped) * states_[i].velocity;
+        row.bias[kSpring] = h * spec.stiffness * stretched / stiffness;
+    }
+    row.low[kFriction] = -h * spec.friction;
+    row.high[kFriction] = h * spec.friction;
+    const double above = spec.low ? q - *spec.low : kNone;
+    const double below = spec.high ? *spec.high - q : kNone;
+    row.low[kStop] = below < above ? -kNone : 0;
+    row.high[kStop] = above <= below && spec.low ? kNone : 0;
+    const double pull = spec.slides() ? kPull : kTurnPull;
+    const double gap = std::max(std::min(above, below) / h, -pull);
+    row.bias[kStop] = below < above ? -gap : spec.low ? gap : 0;
+}
+
+double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b,
+                   std::span<ProblemJoint> rows) const noexcept {
+    const Joint& joint = joints_[i];
+    const double q_near = states_[i].position;
+    const Gaps now = gaps(joint, pose_of(joint.a), pose_of(joint.b), q_near);
+    const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
+    double most = 0;
+    for (int k = 0; k < 3; ++k) {
+        const auto set = [&](ProblemJoint& row, double gap, double gap_then, double stiffness,
+                             double most_pull) {
+            if (row.low[k] == row.high[k]) return;
+            row.compliance[k] = 1 / (h * h * stiffness);
+            const double pull = std::clamp(gap / h, -most_pull, most_pull);
+            const double bias = pull + (gap_then - gap) / h - inside(row, k, v_a, v_b);
+            most = std::max(most, std::abs(bias - row.bias[k]));
+            row.bias[k] = bias;
+        };
+        set(rows[0], now.linear[k], then.linear[k], kStiffness, kPull);
+        set(rows[1], now.angular[k], then.angular[k], kTurnStiffness, kTurnPull);
+    }
+    if (joint.spec.has_coordinate())
+        ask_of_coordinate(i, then.q - h * inside(rows[2], 0, v_a, v_b), h, rows[2]);
+    return most;
+}
+
+void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
+                      contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept {
+    // of what several joints share without need, a little is forgotten in each step
+    constexpr double kKept = 0.95;
+    for (const size_t i : which) {
+        Joint& joint = joints_[i];
+        const size_t first = problem.joints.size();
+        for (size_t e = 0; e < kElements; ++e) {
+            ProblemJoint& rows = problem.joints.emplace_back();
+            rows.a = joint.a.fixed ? contact::kFixed : index[static_cast<size_t>(joint.a.item)];
+            rows.b = joint.b.fixed ? contact::kFixed : index[static_cast<size_t>(joint.b.item)];
+            start.push_back(kKept * joint.impulses[e]);
+        }
+        const auto rows = std::span(problem.joints).subspan(first, kElements);
+        fill(joint, pose_of(joint.a), pose_of(joint.b), rows);
+        if (joint.spec.has_coordinate()) joint.inverse_mass = along_coordinate(problem, rows);
+        ask(i, h, velocity_of(joint.a), velocity_of(joint.b), rows);
+    }
+}
+
+double Joints::guess(std::span<const size_t> which, std::span<const int> index, double h,
+                     std::span<const Vec6> change,
+                     contact::ContactProblem& problem) const noexcept {
+    double most = 0;
+    for (size_t n = 0; n < which.size(); ++n) {
+        const Joint& joint = joints_[which[n]];
+        const auto then = [&](const Side& side) -> Vec6 {
+            if (side.fixed) return Vec6::Zero();
+            const auto at = static_cast<size_t>(index[static_cast<size_t>(side.item)]);
+            return velocity_of(side) + change[at];
+        };
+        const auto rows = std::span(problem.joints).subspan(kElements * n, kElements);
+        most = std::max(most, ask(which[n], h, then(joint.a), then(joint.b), rows));
+    }
+    return most;
+}
+
+void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses,
+                   double h) noexcept {
+    for (size_t n = 0; n < which.size(); ++n) {
+        Joint& joint = joints_[which[n]];
+        for (size_t e = 0; e < kElements; ++e) joint.impulses[e] = impulses[kElements * n + e];
+        const Pose X_WF = pose_of(joint.a) * joint.X_AF;
+        const Mat3 F = X_WF.R.toRotationMatrix();
+        JointState& state = states_[which[n]];
+        state.force_W = F * joint.impulses[0] / h;
+        const double along = joint.impulses[2].sum() / h;
+        state.torque_W = Vec3::Zero();
+        if (joint.spec.slides()) {
+            state.force_W += along * F.col(0);
+        } else {
+            state.torque_W = along * F.col(0);
+        }
+        const Mat3 G = (pose_of(joint.b) * joint.X_BF).R.toRotationMatrix();
+        for (int k = 0; k < 3; ++k) {
+            const double moment = joint.impulses[1][k] / h;
+            if (joint.spec.kind == scene::JointKind::hinge) {
+                state.torque_W += moment * G.col(0).cross(F.col(k));
+            } else if (joint.spec.kind == scene::JointKind::universal) {
+                state.torque_W += moment * G.col(1).cross(F.col(0));
+            } else {
+                state.torque_W += moment * F.col(k);
+            }
+        }
+    }
+}
+
+void Joints::read() noexcept {
+    for (size_t i = 0; i < joints_.size(); ++i) {
+        const Joint& joint = joints_[i];
+        JointState& state = states_[i];
+        const Pose X_WA = pose_of(joint.a);
+        const Pose X_WB = pose_of(joint.b);
+        state.position = gaps(joint, X_WA, X_WB, state.position).q;
+        if (!joint.spec.has_coordinate()) continue;
+        std::array<ProblemJoint, kElements> rows;
+        fill(joint, X_WA, X_WB, rows);
+        state.velocity = inside(rows[2], 0, velocity_of(joint.a), velocity_of(joint.b));
+    }
+}
+
+void Joints::forget() noexcept {
+    for (Joint& joint : joints_) joint.impulses.fill(Vec3::Zero());
+}
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,103 @@
+// The joints of a world: what they keep together becomes rows of the contact problem
+// (contact/problem.h).
+//
+// A joint has a frame F on each of its two bodies. Of their relative pose, each kind keeps
+// functions C_i at zero, and may have one coordinate q. Rows ask for them at the end of the step:
+// with v' a guess of the velocities then, and J the derivative of C at its beginning,
+//
+//     C(x moved by h v') + h J (v - v') = 0      bias = C(x moved by h v') / h - J v'
+//
+// which is linear in v, and exact once v' is v: the step is solved again from its answer until v'
+// changes nothing more. Impulses act along J of the beginning and constraints hold at the end: in a
+// mechanism without contacts and springs this is the leapfrog method with constraints (SHAKE:
+// Ryckaert, Ciccotti and Berendsen 1977), which is of second order, and symplectic, with velocities
+// that are those of the middle of a step.
+//
+// A spring's force is that of Newmark's method (1959) with numerical damping by its own stiffness:
+// with u the coordinate's speed, u' the one before the step, and s = h^2 k / m,
+//
+//     f = -k (q + theta h (u - (1 - delta) u'))      delta = s / (1 + s)     theta = (1 + 3 delta)
+//     / 4
+//
+// A slow spring (s far below 1) keeps its energy; a stiff one on a light body is damped like an
+// implicit step of Euler, and shakes no hand. README.md has the closed form. Dampers and stops hold
+// at the end of the step.
+#pragma once
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contact/problem.h"
+#include "dynamics/world.h"
+
+namespace dihaptic::dynamics {
+
+class Joints {
+  public:
+    /// A body's pose is that of its mass frame; `fixed` bodies do not move. The world is one too.
+    struct Side {
+        btRigidBody* body = nullptr;
+        bool fixed = true;
+        int item = -1;  ///< index in the world; -1: the world itself
+        size_t at() const noexcept { return static_cast<size_t>(item); }
+    };
+    void add(const scene::Joint& joint, const Side& a, const Side& b);
+
+    size_t size() const noexcept { return joints_.size(); }
+    /// Elements of rows that problems need.
+    size_t elements() const noexcept { return kElements * joints_.size(); }
+    const Side& a(size_t i) const noexcept { return joints_[i].a; }
+    const Side& b(size_t i) const noexcept { return joints_[i].b; }
+    std::span<const JointState> states() const noexcept { return states_; }
+
+    /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
+    /// by item. The first guess of velocities is the problem's own. Impulses to start from,
+    /// somewhat less than those of the last step, go to `start`.
+    void add_rows(std::span<const size_t> which, std::span<const int> index, double h,
+                  contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept;
+    /// Guesses anew, that velocities change by `change`, by index of the problem. Returns the
+    /// largest change of a bias [m/s], [rad/s].
+    double guess(std::span<const size_t> which, std::span<const int> index, double h,
+                 std::span<const contact::Vec6> change,
+                 contact::ContactProblem& problem) const noexcept;
+    /// Keeps the impulses of a step of h.
+    void store(std::span<const size_t> which, std::span<const Vec3> impulses, double h) noexcept;
+    /// Reads the coordinates, after a step or after bodies were put elsewhere.
+    void read() noexcept;
+    /// Forgets the impulses.
+    void forget() noexcept;
+
+  private:
+    static constexpr size_t kElements = 3;  // linear rows, angular rows, those of the coordinate
+    struct Joint {
+        scene::Joint spec;
+        Side a;
+        Side b;
+        Pose X_AF;
+        Pose X_BF;
+        std::array<Vec3, kElements> impulses{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        double inverse_mass = 0;  // that the coordinate moves
+    };
+    /// What the relative pose of a joint's frames is to be: zero, but for the coordinate.
+    struct Gaps {
+        Vec3 linear = Vec3::Zero();
+        Vec3 angular = Vec3::Zero();
+        double q = 0;
+    };
+    static Gaps gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
+                     double q_near) noexcept;
+    static void fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
+                     std::span<contact::ProblemJoint> rows) noexcept;
+    /// With velocities guessed; returns the largest change of a bias.
+    double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b,
+               std::span<contact::ProblemJoint> rows) const noexcept;
+    void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
+
+    std::vector<Joint> joints_;
+    std::vector<JointState> states_;
+};
+
+}  // namespace dihaptic::dynamics

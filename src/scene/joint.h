@@ -1,0 +1,94 @@
+// Describes a joint between two bodies, or between a body and the world, as a scene file has it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+
+namespace dihaptic::scene {
+
+/// What a joint leaves free: to turn about its axis; to slide along it; to turn about its point; to
+/// turn about its axis, which the first body has, and its second one, which the second body has;
+/// nothing.
+enum class JointKind { hinge, slider, ball, universal, fixed };
+constexpr auto enum_names(JointKind) {
+    return std::array{"hinge", "slider", "ball", "universal", "fixed"};
+}
+
+/// Bodies that are joined do not meet each other, unless `collide`. Joint coordinates are of the
+/// second body against the first, zero at the start.
+struct Joint {
+    std::string name;
+    JointKind kind = JointKind::hinge;
+    std::vector<std::string> between;  ///< two bodies, or one that is joined to the world
+    Vec3 position = Vec3::Zero();      ///< of the joint's point at the start [m]
+    Vec3 axis = Vec3::UnitZ();         ///< at the start, of any length
+    Vec3 second_axis = Vec3::UnitX();  ///< of a universal joint
+    /// Of the free axis of a hinge or slider.
+    double stiffness = 0;       ///< [N/m] or [N*m/rad]
+    double rest = 0;            ///< coordinate at which the spring is relaxed [m] or [rad]
+    double damping = 0;         ///< [N*s/m] or [N*m*s/rad]
+    double friction = 0;        ///< dry [N] or [N*m]
+    std::optional<double> low;  ///< stops [m] or [rad]
+    std::optional<double> high;
+    bool collide = false;
+    Place place;
+
+    bool slides() const { return kind == JointKind::slider; }
+    /// Whether it has a free axis, and so a coordinate.
+    bool has_coordinate() const { return kind == JointKind::hinge || slides(); }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        constexpr double kStiffest = 1e7;
+        constexpr double kMostDamping = 1e5;
+        constexpr double kMostForce = 1e4;
+        constexpr double kMostWay = 1000;
+        v("name", name, Field::text().required().says("Name of the joint."));
+        v("kind", kind, Field::text().required().says("What the joint leaves free."));
+        v("between", between,
+          Field::text().required().says("Two bodies, or one that is joined to the world."));
+        v("position", position,
+          Field::length().within(-100, 100).says("Where the joint is at the start."));
+        v("axis", axis,
+          Field::number().within(-1e6, 1e6).says(
+              "Axis at the start, of any length: of a hinge or slider, or the one that the first "
+              "body of a universal joint has."));
+        v("second_axis", second_axis,
+          Field::number().within(-1e6, 1e6).says(
+              "Axis of a universal joint that the second body has."));
+        v("stiffness", stiffness,
+          Field::of(slides() ? Quantity::stiffness : Quantity::turn_stiffness)
+              .within(0, kStiffest)
+              .says(
+                  "Of a spring about the axis of a hinge; of a slider, along it: stiffness_N_m."));
+        v("rest", rest,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says("Coordinate at which the spring is relaxed, 0 at the start; of a slider "
+                    "rest_mm."));
+        v("damping", damping,
+          Field::of(slides() ? Quantity::damping : Quantity::turn_damping)
+              .within(0, kMostDamping)
+              .says("Of a damper beside the spring; of a slider damping_Ns_m."));
+        v("friction", friction,
+          Field::of(slides() ? Quantity::force : Quantity::torque)
+              .within(0, kMostForce)
+              .says("Dry friction about the axis; of a slider, along it: friction_N."));
+        v("low", low,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says("Coordinate below which a stop lets it not go; of a slider low_mm."));
+        v("high", high,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says("Coordinate above which a stop lets it not go; of a slider high_mm."));
+        v("collide", collide, says("Whether the two bodies touch each other all the same."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+}  // namespace dihaptic::scene
