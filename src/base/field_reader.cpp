@@ -248,6 +248,12 @@ void FieldReader::operator()(std::string_view name, Formula& value, Field field)
     }
 }
 
+void FieldReader::operator()(std::string_view name, std::optional<Formula>& value, Field field) {
+    if (const Given given = take(name, field); given.node != nullptr) {
+        if (const auto read = formula(given, *given.node, field)) value = *read;
+    }
+}
+
 void FieldReader::operator()(std::string_view name, FormulaVec3& value, Field field) {
     if (const Given given = take(name, field); given.node != nullptr) {
         if (const auto read = formulas(given, field)) value = *read;

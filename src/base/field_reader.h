@@ -32,6 +32,7 @@ class FieldReader {
     void operator()(std::string_view name, Vec3& value, Field field = {});
     void operator()(std::string_view name, std::optional<Vec3>& value, Field field = {});
     void operator()(std::string_view name, Formula& value, Field field = {});
+    void operator()(std::string_view name, std::optional<Formula>& value, Field field = {});
     void operator()(std::string_view name, FormulaVec3& value, Field field = {});
     void operator()(std::string_view name, std::optional<FormulaVec3>& value, Field field = {});
     /// Three rows of three numbers.

@@ -54,6 +54,11 @@ void FieldWriter::operator()(std::string_view name, const Formula& value, Field 
     }
 }
 
+void FieldWriter::operator()(std::string_view name, const std::optional<Formula>& value,
+                             Field field) {
+    if (value) (*this)(name, *value, field);
+}
+
 void FieldWriter::operator()(std::string_view name, const FormulaVec3& value, Field field) {
     const bool computed = value[0].computed();
     Node list;

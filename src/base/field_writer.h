@@ -22,6 +22,7 @@ class FieldWriter {
     void operator()(std::string_view name, const Vec3& value, Field field = {});
     void operator()(std::string_view name, const std::optional<Vec3>& value, Field field = {});
     void operator()(std::string_view name, const Formula& value, Field field = {});
+    void operator()(std::string_view name, const std::optional<Formula>& value, Field field = {});
     void operator()(std::string_view name, const FormulaVec3& value, Field field = {});
     void operator()(std::string_view name, const std::optional<FormulaVec3>& value,
                     Field field = {});

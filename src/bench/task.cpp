@@ -109,8 +109,11 @@ Cost measure_run(const measure::BenchSetup& setup, bool with_task, TaskFigures& 
 
 /// Time of 20 conditions on a held block, with the refresh of what they name.
 double measure_expressions() {
-    task::Quantities quantities{
-        {{"thumb", "index"}, {"table", "block"}, {"start", "goal"}, {{"left", 3}}}};
+    task::Quantities quantities{{.fingers = {"thumb", "index"},
+                                 .bodies = {"table", "block"},
+                                 .joints = {},
+                                 .regions = {"start", "goal"},
+                                 .hands = {{"left", 3}}}};
     constexpr std::array kTexts{
         "grip_force > 2 and block.z - block.start.z > 5 mm",
         "inside(block, goal) and still(block)",

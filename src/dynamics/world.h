@@ -35,6 +35,7 @@ struct BodyState {
 /// A joint of the scene. A body that a hinge turns, or a slider moves, has a coordinate against the
 /// other one, 0 at the start.
 struct JointState {
+    scene::JointKind kind = scene::JointKind::hinge;
     double position = 0;           ///< [rad] or [m]
     double velocity = 0;           ///< [rad/s] or [m/s]
     Vec3 force_W = Vec3::Zero();   ///< of the first body on the second, at the joint [N]

@@ -66,6 +66,7 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.fingers.resize(layout.fingers);
     frame.turns.resize(layout.turns);
     frame.bodies.resize(layout.bodies);
+    frame.joints.resize(layout.joints);
     frame.contacts.resize(contacts);
     frame.task.visual.resize(1);
     frame.task.targets.resize(servo::TaskFrame::kMostTargets);
@@ -78,7 +79,7 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.task.lines.resize(servo::TaskFrame::kMostLines);
     frame.task.numbers.resize(servo::TaskFrame::kMostNumbers);
     std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +
-                                 384 * layout.bodies + 256 * contacts);
+                                 384 * layout.bodies + 128 * layout.joints + 256 * contacts);
     return encode(frame, bytes, Bodies::all);
 }
 

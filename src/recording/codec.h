@@ -14,6 +14,7 @@ struct Layout {
     size_t fingers = 0;
     size_t bodies = 0;
     size_t turns = 0;  ///< fingers whose devices measure orientation
+    size_t joints = 0;
 };
 
 /// Size of the largest frame with this many contacts [bytes].

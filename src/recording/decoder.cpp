@@ -291,7 +291,7 @@ bool FrameDecoder::decode(std::span<const std::byte> in, const Layout& layout,
         if (!read(*step.list, source, begin)) return false;
     }
     return source.empty() && frame.fingers.size() == layout.fingers &&
-           frame.turns.size() == layout.turns;
+           frame.turns.size() == layout.turns && frame.joints.size() == layout.joints;
 }
 
 }  // namespace dihaptic::recording

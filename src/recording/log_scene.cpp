@@ -5,17 +5,18 @@
 namespace dihaptic::recording {
 
 bool fits(const LogHead& head, const scene::Scene& scene) {
-    const auto same = [](const std::string& name, const scene::Body& body) {
-        return name == body.name;
+    const auto same = [](const std::vector<std::string>& names, const auto& things) {
+        return std::equal(
+            names.begin(), names.end(), things.begin(), things.end(),
+            [](const std::string& name, const auto& thing) { return name == thing.name; });
     };
-    return head.fingers == scene::finger_names(scene) &&
-           std::equal(head.bodies.begin(), head.bodies.end(), scene.bodies.begin(),
-                      scene.bodies.end(), same);
+    return head.fingers == scene::finger_names(scene) && same(head.bodies, scene.bodies) &&
+           same(head.joints, scene.joints);
 }
 
 void check_fits(const LogHead& head, const scene::Scene& scene, const std::string& file) {
     if (fits(head, scene)) return;
-    throw Error({file, 0}, "", "has other fingers or bodies than the session's scene.yaml",
+    throw Error({file, 0}, "", "has other fingers, bodies or joints than the session's scene.yaml",
                 "Put this session's own log back.");
 }
 

@@ -168,6 +168,9 @@ class FrameExporter {
     void each(const char* name, const std::vector<servo::TurnFrame>& turns, const char*) {
         each_of(turning_, name, turns);
     }
+    void each(const char* name, const std::vector<servo::JointFrame>& joints, const char*) {
+        each_of(head_.joints, name, joints);
+    }
     void changed(const char* name, const std::vector<servo::BodyFrame>& bodies,
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);

@@ -56,6 +56,7 @@ void check_head(const LogHead& head, const std::string& file) {
     };
     check("fingers", head.fingers);
     check("bodies", head.bodies);
+    check("joints", head.joints);
     check("devices", head.turning_fingers());
     if (head.devices.size() <= head.fingers.size()) return;
     throw Error({file, 0}, "devices", "are more than the fingers that they hold",

@@ -34,6 +34,7 @@ struct LogHead : Setup {
     double tick = 1e-3;  ///< [s]
     std::vector<std::string> fingers;
     std::vector<std::string> bodies;  ///< bodies of the scene
+    std::vector<std::string> joints;  ///< joints of the scene
 
     /// Fingers whose devices measure orientation, in order.
     std::vector<std::string> turning_fingers() const {
@@ -47,13 +48,14 @@ struct LogHead : Setup {
         const auto turns = std::count_if(devices.begin(), devices.end(), [](const DeviceRecord& d) {
             return d.measures_orientation;
         });
-        return {fingers.size(), bodies.size(), static_cast<size_t>(turns)};
+        return {fingers.size(), bodies.size(), static_cast<size_t>(turns), joints.size()};
     }
     template <class Visitor>
     void visit(Visitor& v) {
         v("tick", tick, Field::of(Quantity::time).within(1e-6, 1).required());
         v("fingers", fingers);
         v("bodies", bodies);
+        v("joints", joints);
         Setup::visit(v);
     }
 };

@@ -12,22 +12,24 @@ namespace dihaptic::scene {
 
 /// What a joint leaves free: to turn about its axis; to slide along it; to turn about its point; to
 /// turn about its axis, which the first body has, and its second one, which the second body has;
-/// nothing.
-enum class JointKind { hinge, slider, ball, universal, fixed };
+/// nothing; all but the distance of a point of the first body from one of the second.
+enum class JointKind { hinge, slider, ball, universal, fixed, distance };
 constexpr auto enum_names(JointKind) {
-    return std::array{"hinge", "slider", "ball", "universal", "fixed"};
+    return std::array{"hinge", "slider", "ball", "universal", "fixed", "distance"};
 }
 
-/// Bodies that are joined do not meet each other, unless `collide`. Joint coordinates are of the
-/// second body against the first, zero at the start.
+/// Bodies that are joined do not meet each other, unless `collide`, or but for a distance between
+/// them. Joint coordinates are of the second body against the first, zero at the start; but that of
+/// a distance is the distance itself.
 struct Joint {
     std::string name;
     JointKind kind = JointKind::hinge;
-    std::vector<std::string> between;  ///< two bodies, or one that is joined to the world
-    Vec3 position = Vec3::Zero();      ///< of the joint's point at the start [m]
-    Vec3 axis = Vec3::UnitZ();         ///< at the start, of any length
-    Vec3 second_axis = Vec3::UnitX();  ///< of a universal joint
-    /// Of the free axis of a hinge or slider.
+    std::vector<std::string> between;     ///< two bodies, or one that is joined to the world
+    Vec3 position = Vec3::Zero();         ///< of the joint's point at the start [m]
+    Vec3 axis = Vec3::UnitZ();            ///< at the start, of any length
+    Vec3 second_axis = Vec3::UnitX();     ///< of a universal joint
+    std::optional<Vec3> second_position;  ///< of a distance: its point of the second body [m]
+    /// Of the free axis of a hinge or slider, or of a distance.
     double stiffness = 0;       ///< [N/m] or [N*m/rad]
     double rest = 0;            ///< coordinate at which the spring is relaxed [m] or [rad]
     double damping = 0;         ///< [N*s/m] or [N*m*s/rad]
@@ -37,9 +39,13 @@ struct Joint {
     bool collide = false;
     Place place;
 
-    bool slides() const { return kind == JointKind::slider; }
-    /// Whether it has a free axis, and so a coordinate.
+    bool is_distance() const { return kind == JointKind::distance; }
+    /// Whether its coordinate, if it has one, is a length.
+    bool slides() const { return kind == JointKind::slider || is_distance(); }
+    /// Whether it has a coordinate: a free axis, or a distance.
     bool has_coordinate() const { return kind == JointKind::hinge || slides(); }
+    /// Whether nothing says how far apart the points of a distance may be: then it is a rod.
+    bool is_rod() const { return is_distance() && stiffness == 0 && !low && !high; }
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -60,20 +66,24 @@ struct Joint {
         v("second_axis", second_axis,
           Field::number().within(-1e6, 1e6).says(
               "Axis of a universal joint that the second body has."));
+        v("second_position", second_position,
+          Field::length().within(-100, 100).says(
+              "Where the second body's point of a distance is at the start."));
         v("stiffness", stiffness,
           Field::of(slides() ? Quantity::stiffness : Quantity::turn_stiffness)
               .within(0, kStiffest)
-              .says(
-                  "Of a spring about the axis of a hinge; of a slider, along it: stiffness_N_m."));
+              .says("Of a spring about the axis of a hinge; of a slider or distance, along it: "
+                    "stiffness_N_m."));
         v("rest", rest,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says("Coordinate at which the spring is relaxed, 0 at the start; of a slider "
-                    "rest_mm."));
+              .says(
+                  "Coordinate at which the spring is relaxed, 0 at the start; of a slider, or for "
+                  "the length of a distance, rest_mm."));
         v("damping", damping,
           Field::of(slides() ? Quantity::damping : Quantity::turn_damping)
               .within(0, kMostDamping)
-              .says("Of a damper beside the spring; of a slider damping_Ns_m."));
+              .says("Of a damper beside the spring; of a slider or distance damping_Ns_m."));
         v("friction", friction,
           Field::of(slides() ? Quantity::force : Quantity::torque)
               .within(0, kMostForce)
@@ -81,11 +91,13 @@ struct Joint {
         v("low", low,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says("Coordinate below which a stop lets it not go; of a slider low_mm."));
+              .says(
+                  "Coordinate below which a stop lets it not go; of a slider or distance low_mm."));
         v("high", high,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says("Coordinate above which a stop lets it not go; of a slider high_mm."));
+              .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
+                    "distance is the length of a rope."));
         v("collide", collide, says("Whether the two bodies touch each other all the same."));
         if constexpr (requires { v.place(); }) place = v.place();
     }

@@ -147,6 +147,29 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
+/// A body "thumb_proxy" and the thumb's proxy would both have a column thumb_proxy_position.
+void check_columns(const Scene& scene, Diagnostics& diagnostics) {
+    std::set<std::string> taken;
+    for (const Finger& finger : scene.fingers) {
+        taken.insert(finger.name + "_contact");
+        for (const char* part : {"_device", "_handle", "_proxy"}) {
+            taken.insert(finger.name + part);
+            taken.insert(finger.name + part + "_angular");
+        }
+    }
+    const auto for_each_thing = [&](const auto& act) {
+        for (const Body& body : scene.bodies) act(body.name, body.place);
+        for (const Joint& joint : scene.joints) act(joint.name, joint.place);
+    };
+    for_each_thing([&](const std::string& name, const Place&) { taken.insert(name + "_angular"); });
+    for_each_thing([&](const std::string& name, const Place& place) {
+        if (taken.contains(name))
+            diagnostics.error(place, "name",
+                              fmt::format("'{}' is what recordings call a part of another", name),
+                              "Choose another name.");
+    });
+}
+
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
     std::set<std::string> names;
     const auto check = [&](const std::string& name, const Place& place) {
@@ -160,26 +183,13 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
         }
         if (!name.empty() && !names.insert(name).second) {
             diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),
-                              "Give each body and finger a name of its own.");
+                              "Give each body, finger and joint a name of its own.");
         }
     };
     for (const Body& body : scene.bodies) check(body.name, body.place);
     for (const Finger& finger : scene.fingers) check(finger.name, finger.place);
-    // a body "thumb_proxy" and the thumb's proxy would both have a column thumb_proxy_position
-    for (const Body& body : scene.bodies) {
-        std::vector<std::string> taken;
-        for (const Finger& finger : scene.fingers) {
-            for (const char* part : {"_device", "_handle", "_proxy"})
-                taken.push_back(finger.name + part);
-        }
-        for (const Body& other : scene.bodies) taken.push_back(other.name + "_angular");
-        if (std::find(taken.begin(), taken.end(), body.name) != taken.end()) {
-            diagnostics.error(
-                body.place, "name",
-                fmt::format("'{}' is what recordings call a part of another", body.name),
-                "Choose another name.");
-        }
-    }
+    for (const Joint& joint : scene.joints) check(joint.name, joint.place);
+    check_columns(scene, diagnostics);
 }
 
 void check_references(const Scene& scene, Diagnostics& diagnostics) {
@@ -223,6 +233,20 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
+/// Of a distance, points that have one.
+void check_points(const Joint& joint, Diagnostics& diagnostics) {
+    if (joint.is_distance() != joint.second_position.has_value()) {
+        diagnostics.error(joint.place, "second_position",
+                          joint.is_distance() ? "is missing" : "belongs to a distance",
+                          joint.is_distance() ? "Say where the second body's point is at the start."
+                                              : "Leave it out, or make it kind: distance.");
+    } else if (joint.is_rod() && (*joint.second_position - joint.position).norm() < 1e-9) {
+        diagnostics.error(joint.place, "second_position",
+                          "is the same point, which gives a rod no direction",
+                          "Put it elsewhere, or make it kind: ball.");
+    }
+}
+
 /// A joint's springs, dampers, friction and stops are those of a free axis.
 void check_axis(const Joint& joint, Diagnostics& diagnostics) {
     const bool asks =
@@ -233,7 +257,7 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
             fmt::format("has a spring, damper, friction or stop, and a {} joint has no "
                         "single axis that it could act along",
                         enum_name(joint.kind)),
-            "Leave it out, or make it a hinge or a slider.");
+            "Leave it out, or make it a hinge, a slider or a distance.");
     }
     constexpr double kShort = 1e-9;
     if (joint.axis.norm() < kShort)
@@ -280,12 +304,9 @@ void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnost
 }
 
 void check_joints(const Scene& scene, Diagnostics& diagnostics) {
-    std::set<std::string> names;
     for (const Joint& joint : scene.joints) {
-        if (!names.insert(joint.name).second)
-            diagnostics.error(joint.place, "name", fmt::format("'{}' is used twice", joint.name),
-                              "Give each joint a name of its own.");
         check_axis(joint, diagnostics);
+        check_points(joint, diagnostics);
         check_between(joint, scene, diagnostics);
     }
 }

@@ -96,6 +96,31 @@ struct BodyFrame {
     }
 };
 
+struct JointFrame {
+    double angle = kUnmeasured;
+    double angular_velocity = kUnmeasured;
+    double displacement = kUnmeasured;
+    double velocity = kUnmeasured;
+    Vec3 f_B_W = Vec3::Zero();
+    Vec3 t_B_W = Vec3::Zero();
+
+    template <class Self, class Visitor>
+    static void visit(Self& j, Visitor& v) {
+        v(j.angle, {"angle", "rad", "",
+                    "Angle of a hinge's second body against the first, 0 at the start; NaN of "
+                    "other joints."});
+        v(j.angular_velocity, {"angular_velocity", "rad/s", "", "Rate of that angle."});
+        v(j.displacement, {"displacement", "m", "",
+                           "Displacement of a slider's second body against the first, 0 at the "
+                           "start, or the distance of a distance's points; NaN of other joints."});
+        v(j.velocity, {"velocity", "m/s", "", "Rate of that displacement."});
+        v(j.f_B_W, {"force", "N", "W",
+                    "Force on the second body at the joint, with those of spring, friction and "
+                    "stops."});
+        v(j.t_B_W, {"torque", "N*m", "W", "Torque on it, likewise."});
+    }
+};
+
 struct ContactFrame {
     int32_t a = -1;
     int32_t b = -1;
@@ -145,6 +170,7 @@ struct Frame : Knobs {
     std::vector<BodyFrame> bodies;
     /// Bodies that changed since the last frame; only these are logged.
     std::vector<uint16_t> changed;
+    std::vector<JointFrame> joints;
     std::vector<ContactFrame> contacts;
 
     /// Calls v(value, Term) for values; for lists, v.each(name, list, meaning) and
@@ -183,6 +209,7 @@ struct Frame : Knobs {
         v.each("fingers", f.fingers, "One for each finger of the scene, in order.");
         v.each("turns", f.turns, "One for each finger whose device measures orientation.");
         v.changed("bodies", f.bodies, f.changed, "One for each body of the scene, in order.");
+        v.each("joints", f.joints, "One for each joint of the scene, in order.");
         v.each("contacts", f.contacts, "One for all contact points of two bodies.");
     }
 };

@@ -172,6 +172,7 @@ void Servo::reserve(Frame& frame) const {
     frame.fingers.resize(fingers_.size());
     frame.turns.resize(turning_.size());
     frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
+    frame.joints.resize(world_.joints().size());
     frame.changed.reserve(frame.bodies.size());
     frame.task.reserve(frame.bodies.size());
     frame.contacts.reserve(64 + 8 * static_cast<size_t>(world_.size()));

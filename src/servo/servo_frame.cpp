@@ -73,6 +73,23 @@ void note_bodies(const dynamics::World& world, Frame& frame) noexcept {
     }
 }
 
+void note_joints(std::span<const dynamics::JointState> states, Frame& frame) noexcept {
+    for (size_t i = 0; i < states.size(); ++i) {
+        const dynamics::JointState& state = states[i];
+        JointFrame& out = frame.joints[i];
+        if (state.kind == scene::JointKind::hinge) {
+            out.angle = state.position;
+            out.angular_velocity = state.velocity;
+        } else if (state.kind == scene::JointKind::slider ||
+                   state.kind == scene::JointKind::distance) {
+            out.displacement = state.position;
+            out.velocity = state.velocity;
+        }
+        out.f_B_W = state.force_W;
+        out.t_B_W = state.torque_W;
+    }
+}
+
 }  // namespace
 
 void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept {
@@ -119,6 +136,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
                            forces_[i].sent_W.torque};
     }
     note_bodies(world_, frame_);
+    note_joints(world_.joints(), frame_);
     merge_contacts();
     measure_grasp();
 }

@@ -93,7 +93,8 @@ void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
 
 std::vector<double> outcome_of(const servo::Frame& frame) {
     std::vector<double> out;
-    out.reserve(13 * frame.fingers.size() + 6 * frame.turns.size() + 7 * frame.bodies.size());
+    out.reserve(13 * frame.fingers.size() + 6 * frame.turns.size() + 7 * frame.bodies.size() +
+                6 * frame.joints.size());
     const auto add = [&](const auto& vector) {
         out.insert(out.end(), vector.data(), vector.data() + vector.size());
     };
@@ -110,6 +111,10 @@ std::vector<double> outcome_of(const servo::Frame& frame) {
     for (const servo::BodyFrame& body : frame.bodies) {
         add(body.X_WB.p);
         add(body.X_WB.R.coeffs());
+    }
+    for (const servo::JointFrame& joint : frame.joints) {
+        add(joint.f_B_W);
+        add(joint.t_B_W);
     }
     return out;
 }

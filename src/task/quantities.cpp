@@ -132,7 +132,7 @@ const std::vector<Quantities::Member>& Quantities::members_of(Source::From from)
     static const std::map<From, std::vector<Member>> kMembers{
         {From::frame, members<servo::Frame>()},     {From::finger, members<servo::FingerFrame>()},
         {From::handle, members<haptics::Handle>()}, {From::turn, members<servo::TurnFrame>()},
-        {From::body, members<servo::BodyFrame>()},
+        {From::body, members<servo::BodyFrame>()},  {From::joint, members<servo::JointFrame>()},
     };
     return kMembers.at(from);
 }
@@ -231,6 +231,7 @@ std::vector<std::string> Quantities::names() const {
         add_thing(name, {"x", "y", "z", "speed", "start"});
         add_members(name + ".", Source::From::body);
     }
+    for (const std::string& name : names_.joints) add_members(name + ".", Source::From::joint);
     for (const Names::Hand& hand : names_.hands) {
         if (!hand.name.empty()) add_thing(hand.name, {"x", "y", "z", "speed", "shown"});
     }
@@ -253,6 +254,7 @@ std::optional<Symbol> Quantities::find(std::string_view name) {
             if (const auto found = find_of_body(whole, *member, static_cast<int>(i))) return found;
         }
     }
+    if (const auto found = find_of_joint(whole)) return found;
     for (const Names::Hand& hand : names_.hands) {
         if (const auto member = member_of(name, hand.name)) {
             if (const auto found = find_of_hand(whole, *member, hand.fingers)) return found;
@@ -264,6 +266,16 @@ std::optional<Symbol> Quantities::find(std::string_view name) {
         }
     }
     return find_member(whole, name, {.from = Source::From::frame});
+}
+
+std::optional<Symbol> Quantities::find_of_joint(const std::string& name) {
+    for (size_t i = 0; i < names_.joints.size(); ++i) {
+        const auto member = member_of(name, names_.joints[i]);
+        if (!member) continue;
+        const Source source{.from = Source::From::joint, .index = static_cast<int>(i)};
+        if (const auto found = find_member(name, *member, source)) return found;
+    }
+    return std::nullopt;
 }
 
 std::optional<Symbol> Quantities::find_member(const std::string& name, std::string_view member,
@@ -424,6 +436,9 @@ double Quantities::read(const Source& source, const servo::Frame& last,
             break;
         case From::body:
             look_in(last.bodies);
+            break;
+        case From::joint:
+            look_in(last.joints);
             break;
         case From::middle:
             return middle(source, last, handles);

@@ -9,6 +9,7 @@
 //     left, left.x, left.speed            of the middle of a hand's handles
 //     index.shown, left.shown             where that is displayed
 //     block.start                         where a body begins the trial
+//     hinge.angle, rail.displacement      of a joint, which has no place of its own
 //     goal, goal.x, goal.radius           of a region
 //     time_in_state, time_in_trial, trial_num, attempt
 //
@@ -54,6 +55,7 @@ class Quantities {
     struct Names {
         std::vector<std::string> fingers;
         std::vector<std::string> bodies;
+        std::vector<std::string> joints;
         std::vector<std::string> regions;
         struct Hand {
             std::string name;
@@ -113,12 +115,12 @@ class Quantities {
   private:
     /// How a value of the tick is read.
     struct Source {
-        enum class From { frame, finger, handle, turn, body, middle, pressing, contact };
+        enum class From { frame, finger, handle, turn, body, joint, middle, pressing, contact };
         enum class Format { f64, i32, i64, u32, norm };
         From from = From::frame;
         Format format = Format::f64;
         int slot = -1;
-        int index = 0;   ///< of the finger or body
+        int index = 0;   ///< of the finger, body or joint
         int offset = 0;  ///< in bytes, from the beginning of the item
         double scale = 1;
         Thing a{};  ///< middle, pressing, contact
@@ -136,6 +138,7 @@ class Quantities {
                                       Source source);
     std::optional<Symbol> find_of_finger(const std::string& name, std::string_view member, int i);
     std::optional<Symbol> find_of_body(const std::string& name, std::string_view member, int i);
+    std::optional<Symbol> find_of_joint(const std::string& name);
     std::optional<Symbol> find_of_hand(const std::string& name, std::string_view member,
                                        uint32_t fingers);
     std::optional<Symbol> find_of_region(std::string_view member, size_t i) const;

@@ -276,19 +276,30 @@ struct State {
     }
 };
 
-/// Where a body begins the trial, in place of its position in the scene.
+/// Where a body begins the trial, in place of its position in the scene: by its position, or by the
+/// coordinate of a joint whose second body it is. What hangs on that body comes along.
 struct BodyPlace {
     std::string body;
-    FormulaVec3 position;  ///< [m]
+    std::optional<FormulaVec3> position;  ///< [m]
+    std::string joint;
+    std::optional<Formula> angle;         ///< [rad]
+    std::optional<Formula> displacement;  ///< [m]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("body", body,
-          Field::text().required().says(
-              "Body that begins the trial elsewhere than the scene has it."));
+          Field::text().says("Body that begins the trial elsewhere than the scene has it."));
         v("position", position,
-          Field::length().within(-100, 100).required().says("Where its origin is then."));
+          Field::length().within(-100, 100).says("Where its origin is then."));
+        v("joint", joint,
+          Field::text().says(
+              "Joint, in place of a body, that begins the trial elsewhere than at 0, "
+              "with all that hangs on its second body."));
+        v("angle", angle,
+          Field::of(Quantity::angle).within(-100, 100).says("Angle of that joint, a hinge, then."));
+        v("displacement", displacement,
+          Field::length().within(-100, 100).says("Displacement of that joint, a slider, then."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -95,7 +95,11 @@ class Planner {
           fingers_(scene::finger_names(scene)),
           plan_(plan_of(task)),
           seen_(plan_, scene, diagnostics) {
-        plan_.quantities = Quantities({fingers_, bodies_, regions_, hands()});
+        plan_.quantities = Quantities({.fingers = fingers_,
+                                       .bodies = bodies_,
+                                       .joints = names_of(scene.joints),
+                                       .regions = regions_,
+                                       .hands = hands()});
         // what no trial places stays there
         for (size_t i = 0; i < bodies_.size(); ++i)
             plan_.quantities.set(plan_.quantities.start(i), scene.bodies[i].pose().p);
@@ -195,7 +199,10 @@ class Planner {
 
     void check_condition(const Condition& condition) {
         if (!condition.object.empty()) movable(condition.object, condition.place, "object");
-        for (const BodyPlace& place : condition.places) placeable(place.body, place.place);
+        for (const BodyPlace& place : condition.places) {
+            check_joint(place, scene_, diagnostics_);
+            if (place.joint.empty() && !place.body.empty()) placeable(place.body, place.place);
+        }
         for (const Region& region : condition.regions)
             look_up(regions_, region.name, region.place, "name", "no region of the task",
                     diagnostics_);
@@ -279,11 +286,13 @@ class Planner {
         std::vector<Quantities::Names::Hand> out;
         for (const Hand& hand : plan_.task.hands) {
             out.push_back({hand.name, bits(hand.fingers, hand.place)});
+            const std::vector<std::string> joints = names_of(scene_.joints);
             const auto is = [&](const std::string& other) { return other == hand.name; };
             if (std::any_of(fingers_.begin(), fingers_.end(), is) ||
-                std::any_of(bodies_.begin(), bodies_.end(), is))
+                std::any_of(bodies_.begin(), bodies_.end(), is) ||
+                std::any_of(joints.begin(), joints.end(), is))
                 error(hand.place, "name",
-                      fmt::format("'{}' is a finger or a body of the scene", hand.name),
+                      fmt::format("'{}' is a finger, a body or a joint of the scene", hand.name),
                       "Call the hand something else.");
             if (hand.fingers.empty())
                 error(hand.place, "fingers", "there are none", "Name one at least.");
@@ -583,14 +592,76 @@ class Planner {
             const scene::Body& body = scene_.bodies[i];
             if (!body.moves_at_all() && !is_placed(body.name)) continue;
             FormulaVec3 position = as_formula(body.position);
+            const BodyPlace* by_joint = nullptr;
             for (const Condition* condition : conditions) {
                 for (const BodyPlace& place : condition->places) {
-                    if (place.body == body.name) position = place.position;
+                    if (place.body == body.name && place.position) {
+                        position = *place.position;
+                        by_joint = nullptr;
+                    }
+                    if (moved_by(place) == static_cast<int>(i)) by_joint = &place;
                 }
             }
-            out.push_back(home(static_cast<int>(i), position));
+            TaskPlan::Home& added = out.emplace_back(home(static_cast<int>(i), position));
+            if (by_joint != nullptr) put_by_joint(*by_joint, added);
         }
+        hang(out);
         return out;
+    }
+
+    const scene::Joint* joint_of(const BodyPlace& place) const {
+        for (const scene::Joint& joint : scene_.joints) {
+            if (joint.name == place.joint && joint.has_coordinate() && !joint.is_distance())
+                return &joint;
+        }
+        return nullptr;
+    }
+    /// The body that a place by a joint is of; -1 if it is none.
+    int moved_by(const BodyPlace& place) const {
+        const scene::Joint* const joint = joint_of(place);
+        return joint == nullptr ? -1 : scene_.find(joint->between.back());
+    }
+    void put_by_joint(const BodyPlace& place, TaskPlan::Home& home) const {
+        const scene::Joint& joint = *joint_of(place);
+        home.joint = on_joint(scene_, joint);
+        home.coordinate = (joint.slides() ? place.displacement : place.angle).value_or(0.0);
+    }
+
+    /// What hangs on a body that a joint places comes along; and each comes after what it hangs on.
+    void hang(std::vector<TaskPlan::Home>& homes) const {
+        const auto home_of = [&](int body) {
+            return std::find_if(homes.begin(), homes.end(),
+                                [body](const auto& home) { return home.body == body; });
+        };
+        std::vector<int> ordered;
+        for (const TaskPlan::Home& home : homes) {
+            if (home.joint) ordered.push_back(home.body);
+        }
+        for (size_t i = 0; i < ordered.size(); ++i) {
+            for (const scene::Joint& joint : scene_.joints) {
+                if (joint.between.size() < 2 || scene_.find(joint.between[0]) != ordered[i])
+                    continue;
+                const auto second = home_of(scene_.find(joint.between[1]));
+                if (second == homes.end()) continue;
+                if (!second->joint) {
+                    second->joint = on_joint(scene_, joint);
+                    ordered.push_back(second->body);
+                }
+            }
+        }
+        // by how many joints it is from what no joint places
+        const auto depth = [&](const TaskPlan::Home& home) {
+            size_t out = 0;
+            for (auto at = home_of(home.body); at != homes.end() && at->joint && out < homes.size();
+                 at = home_of(at->joint->first))
+                ++out;
+            return out;
+        };
+        std::vector<std::pair<size_t, TaskPlan::Home>> by_depth;
+        for (const TaskPlan::Home& home : homes) by_depth.emplace_back(depth(home), home);
+        std::stable_sort(by_depth.begin(), by_depth.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (size_t i = 0; i < homes.size(); ++i) homes[i] = by_depth[i].second;
     }
 
     const scene::Scene& scene_;
@@ -629,8 +700,10 @@ std::vector<int> TaskPlan::used_in(const Trial& trial) const {
     for (const auto& position : cell.position_as_given)
         std::for_each(position.begin(), position.end(), use);
     std::for_each(cell.radius_as_given.begin(), cell.radius_as_given.end(), use);
-    for (const Home& home : cell.homes)
+    for (const Home& home : cell.homes) {
         std::for_each(home.position_as_given.begin(), home.position_as_given.end(), use);
+        use(home.coordinate);
+    }
     out.insert(out.end(), cell.in_perturbations.begin(), cell.in_perturbations.end());
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include "servo/task_frame.h"
 #include "task/formulas.h"
+#include "task/on_joint.h"
 #include "task/trials.h"
 
 namespace dihaptic::task {
@@ -78,6 +79,9 @@ struct TaskPlan {
         Pose X_WB;
         scene::Bounds box;
         std::array<Number, 3> position_as_given;
+        /// In place of that position: homes with it come after that of their joint's first body.
+        std::optional<OnJoint> joint = std::nullopt;
+        Number coordinate{};
     };
     /// A body that a state puts somewhere.
     struct Put {

@@ -121,8 +121,19 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const servo::Variable
         quantities_.set(quantities_.region(i), cell.p_W[i]);
         quantities_.set(quantities_.region(i) + 3, cell.radius[i]);
     }
+    const auto pose_of = [&](int body, const Pose& otherwise) {
+        for (const TaskPlan::Home& home : cell.homes) {
+            if (home.body == body) return home.X_WB;
+        }
+        return otherwise;
+    };
     for (TaskPlan::Home& home : cell.homes) {
-        home.X_WB.p = vector(home.position_as_given);
+        if (home.joint) {
+            home.X_WB = home.joint->pose(pose_of(home.joint->first, home.joint->X_WA),
+                                         resolve(home.coordinate));
+        } else {
+            home.X_WB.p = vector(home.position_as_given);
+        }
         quantities_.set(quantities_.start(static_cast<size_t>(home.body)), home.X_WB.p);
     }
     for (const int index : cell.in_perturbations) resolve(index);

@@ -26,6 +26,9 @@ class BoundsFinder {
     void operator()(std::string_view name, int&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, Vec3&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, Formula&, Field field = {}) { number(name, field); }
+    void operator()(std::string_view name, std::optional<Formula>&, Field field = {}) {
+        number(name, field);
+    }
     void operator()(std::string_view name, FormulaVec3&, Field field = {}) { number(name, field); }
     void operator()(std::string_view name, std::optional<FormulaVec3>&, Field field = {}) {
         number(name, field);

@@ -106,8 +106,12 @@ void Joints::add(const scene::Joint& spec, const Side& a, const Side& b) {
     const Vec3 second = spec.kind == scene::JointKind::universal ? spec.second_axis
                                                                  : Vec3(spec.axis.unitOrthogonal());
     const Pose X_WF{frame_along(spec.axis, second), spec.position};
-    joints_.push_back({spec, a, b, pose_of(a).inverse() * X_WF, pose_of(b).inverse() * X_WF});
-    states_.emplace_back();
+    const Pose X_WG{X_WF.R, spec.second_position.value_or(spec.position)};
+    Joint& added = joints_.emplace_back(
+        Joint{spec, a, b, pose_of(a).inverse() * X_WF, pose_of(b).inverse() * X_WG});
+    const double distance = (X_WG.p - X_WF.p).norm();
+    if (spec.is_rod()) added.spec.low = added.spec.high = distance;
+    states_.push_back({.kind = spec.kind, .position = spec.is_distance() ? distance : 0});
 }
 
 Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
@@ -135,10 +139,21 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
         case scene::JointKind::universal:
             out.angular[0] = R(0, 1);
             break;
+        case scene::JointKind::distance:
+            out.q = X_FG.p.norm();
+            break;
         case scene::JointKind::ball:
             break;
     }
     return out;
+}
+
+Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
+    constexpr double kTogether = 1e-9;  // points in one place, which any direction fits
+    const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
+    const double distance = between.norm();
+    return distance > kTogether ? Vec3(between / distance)
+                                : Vec3(X_WA.R * joint.X_AF.R * Vec3::UnitX());
 }
 
 void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
@@ -155,7 +170,7 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
     using Kind = scene::JointKind;
     const Kind kind = joint.spec.kind;
     for (int k = 0; k < 3; ++k) {
-        if (kind == Kind::slider && k == 0) {
+        if (kind == Kind::distance || (kind == Kind::slider && k == 0)) {
             close(rows[0], k);
         } else {
             along(rows[0], k, F.col(k));
@@ -171,6 +186,8 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
         }
         if (kind == Kind::slider) {
             along(rows[2], k, F.col(0));
+        } else if (kind == Kind::distance) {
+            along(rows[2], k, direction(joint, X_WA, X_WB));
         } else if (kind == Kind::hinge) {
             turn(rows[2], k, F.col(0));
         }
@@ -196,11 +213,18 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     }
     row.low[kFriction] = -h * spec.friction;
     row.high[kFriction] = h * spec.friction;
+    const double pull = spec.slides() ? kPull : kTurnPull;
+    if (spec.low && spec.high && *spec.low == *spec.high) {
+        row.low[kStop] = -kNone;
+        row.high[kStop] = kNone;
+        row.bias[kStop] = std::clamp((q - *spec.low) / h, -pull, pull);
+        row.compliance[kStop] = 1 / (h * h * (spec.slides() ? kStiffness : kTurnStiffness));
+        return;
+    }
     const double above = spec.low ? q - *spec.low : kNone;
     const double below = spec.high ? *spec.high - q : kNone;
     row.low[kStop] = below < above ? -kNone : 0;
     row.high[kStop] = above <= below && spec.low ? kNone : 0;
-    const double pull = spec.slides() ? kPull : kTurnPull;
     const double gap = std::max(std::min(above, below) / h, -pull);
     row.bias[kStop] = below < above ? -gap : spec.low ? gap : 0;
 }
@@ -278,7 +302,9 @@ void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses
         state.force_W = F * joint.impulses[0] / h;
         const double along = joint.impulses[2].sum() / h;
         state.torque_W = Vec3::Zero();
-        if (joint.spec.slides()) {
+        if (joint.spec.is_distance()) {
+            state.force_W = along * direction(joint, pose_of(joint.a), pose_of(joint.b));
+        } else if (joint.spec.slides()) {
             state.force_W += along * F.col(0);
         } else {
             state.torque_W = along * F.col(0);

@@ -96,6 +96,9 @@ class Joints {
                std::span<contact::ProblemJoint> rows) const noexcept;
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
 
+    /// From the first body's point of a distance to the second one's, a unit vector.
+    static Vec3 direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept;
+
     std::vector<Joint> joints_;
     std::vector<JointState> states_;
 };

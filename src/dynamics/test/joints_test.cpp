@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "base/unit.h"
@@ -274,6 +275,111 @@ TEST(Hinge, StopsAndRubs) {
     const double about_hinge = kInertia + kMass * kArm * kArm;
     EXPECT_NEAR(falls.joints()[0].velocity, -kStep * 0.5 * kMass * kGravity * kArm / about_hinge,
                 1e-5);
+}
+
+/// A ball that hangs at `place` from the origin by a joint that keeps its distance.
+World hanging(const Vec3& place, const std::function<void(scene::Joint&)>& change = {}) {
+    scene::Body ball;
+    ball.name = "ball";
+    ball.shape.kind = scene::ShapeKind::sphere;
+    ball.shape.radius = 0.01;
+    ball.mass = kMass;
+    ball.position = place;
+    scene::Joint string = joint(JointKind::distance, {"ball"}, Vec3::Zero());
+    string.second_position = place;
+    if (change) change(string);
+    return make({ball}, {string});
+}
+
+/// A conical pendulum: at w^2 = g / (l cos theta) it stays at its height, and the rod carries
+/// m g / cos theta.
+TEST(Distance, IsARodThatABallCirclesOn) {
+    const double theta = 30 * kDegree;
+    const double omega = std::sqrt(kGravity / (kArm * std::cos(theta)));
+    World world = hanging(kArm * Vec3(std::sin(theta), 0, -std::cos(theta)));
+    // velocities are those of the middle of a step: here of the one before
+    const double before = omega * kStep;
+    world.set_velocity(
+        {0}, kArm * std::sin(theta) / kStep * Vec3(1 - std::cos(before), std::sin(before), 0));
+    const double height = -kArm * std::cos(theta);
+    double turned = 0;
+    double last = 0;
+    constexpr int kSteps = 10000;
+    for (int i = 0; i < kSteps; ++i) {
+        world.step(kStep);
+        const Vec3 p = world.state({0}).X_WB.p;
+        EXPECT_NEAR(p.norm(), kArm, 1e-7);
+        EXPECT_NEAR(p.z(), height, 1e-6);
+        const double angle = std::atan2(p.y(), p.x());
+        turned += std::remainder(angle - last, 2 * std::numbers::pi);
+        last = angle;
+        EXPECT_NEAR(world.joints()[0].force_W.norm(), kMass * kGravity / std::cos(theta), 2e-3);
+    }
+    EXPECT_NEAR(turned / (omega * kStep * kSteps), 1, 1e-4);
+}
+
+TEST(Distance, IsARopeThatPullsOnceItIsTaut) {
+    const Vec3 start(0, 0, -0.05);
+    World world = hanging(start, [](scene::Joint& rope) { rope.high = kArm; });
+    const double fall = std::sqrt(2 * (kArm - 0.05) / kGravity);
+    for (int i = 1; i < 2000; ++i) {
+        world.step(kStep);
+        const double t = i * kStep;
+        const scene::JointKind kind = world.joints()[0].kind;
+        EXPECT_EQ(kind, JointKind::distance);
+        if (t < fall - kStep) {
+            EXPECT_EQ(world.joints()[0].force_W.norm(), 0);
+            EXPECT_NEAR(world.state({0}).X_WB.p.z(), -0.05 - kGravity * t * t / 2,
+                        kGravity * t * kStep);
+        } else if (t > fall + 2 * kStep) {
+            EXPECT_NEAR(world.joints()[0].position, kArm, 1e-6);
+            EXPECT_NEAR(world.joints()[0].force_W.z(), kMass * kGravity, 1e-6);
+        }
+    }
+    world.set_velocity({0}, Vec3(0, 0, 1));  // and never pushes
+    world.step(kStep);
+    EXPECT_EQ(world.joints()[0].force_W.norm(), 0);
+}
+
+TEST(Distance, IsAnElasticBandOfItsOwnFrequency) {
+    constexpr double kBand = 20;  // [N/m]
+    const double stretched = kMass * kGravity / kBand;
+    World world = hanging(Vec3(0, 0, -0.1 - stretched - 0.02), [](scene::Joint& band) {
+        band.stiffness = kBand;
+        band.rest = 0.1;
+    });
+    const std::vector<double> times = passes(world, 0.1 + stretched, 5);
+    ASSERT_GE(times.size(), 3u);
+    const double period = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    EXPECT_NEAR(period / (2 * std::numbers::pi * std::sqrt(kMass / kBand)), 1, 1e-3);
+}
+
+/// Two balls on a rod spin about their middle, which stays where it is: nothing holds them but each
+/// other.
+TEST(Distance, JoinsTwoThatFly) {
+    std::vector<scene::Body> balls;
+    for (const double side : {-1.0, 1.0}) {
+        scene::Body& ball = balls.emplace_back();
+        ball.name = side < 0 ? "left" : "right";
+        ball.shape.kind = scene::ShapeKind::sphere;
+        ball.shape.radius = 0.01;
+        ball.mass = kMass;
+        ball.position = Vec3(side * kArm / 2, 0, 0);
+    }
+    scene::Joint rod = joint(JointKind::distance, {"left", "right"}, balls[0].position);
+    rod.second_position = balls[1].position;
+    World world = make(balls, {rod});
+    world.set_velocity({0}, Vec3(0, -1, 0));
+    world.set_velocity({1}, Vec3(0, 1, 0));
+    for (int i = 1; i <= 1000; ++i) {
+        world.step(kStep);
+        const Vec3 a = world.state({0}).X_WB.p;
+        const Vec3 b = world.state({1}).X_WB.p;
+        EXPECT_NEAR((b - a).norm(), kArm, 1e-7);
+        const double t = i * kStep;
+        EXPECT_LT((a + b).head<2>().norm(), 1e-9);
+        EXPECT_NEAR((a + b).z() / 2, -kGravity * t * (t + kStep) / 2, 1e-6);
+    }
 }
 
 TEST(Universal, TurnsAboutTwoAxesAndCarriesTorqueAboutTheThird) {

@@ -75,6 +75,25 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
     EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), head().layout(), out));
 }
 
+TEST(Codec, HasTheScenesJoints) {
+    LogHead jointed = head();
+    jointed.joints = {"hinge", "drawer"};
+    servo::Frame in = frame(1);
+    in.joints.resize(2);
+    in.joints[0].angle = 0.5;
+    in.joints[1].displacement = -0.02;
+    in.joints[1].f_B_W = {1, 2, 3};
+    std::vector<std::byte> bytes(most_bytes(jointed.layout(), 8));
+    const size_t size = encode(in, bytes);
+    servo::Frame out;
+    ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), jointed.layout(), out));
+    EXPECT_EQ(out.joints[0].angle, 0.5);
+    EXPECT_TRUE(std::isnan(out.joints[0].displacement));
+    EXPECT_EQ(out.joints[1].displacement, -0.02);
+    EXPECT_EQ(out.joints[1].f_B_W, Vec3(1, 2, 3));
+    EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), head().layout(), out));
+}
+
 TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
     std::vector<std::byte> small(100);
     EXPECT_EQ(encode(frame(1), small), 0u);

@@ -222,6 +222,21 @@ INSTANTIATE_TEST_SUITE_P(
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b], "
             "low_mm: 10}\n",
             "is not a unit of angle"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - {name: "
+            "j, "
+            "kind: distance, between: [b]}\n",
+            "second_position: is missing"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - {name: "
+            "j, "
+            "kind: hinge, between: [b], second_position_mm: [0, 0, 9]}\n",
+            "belongs to a distance"},
+        Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - {name: "
+            "j, "
+            "kind: distance, between: [b], second_position_mm: [0, 0, 0]}\n",
+            "gives a rod no direction"},
+        Bad{"bodies:\n  - {name: b_angular, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - "
+            "{name: b, kind: ball, between: [b_angular]}\n",
+            "is what recordings call a part of another"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
             "[b]}\n  - {name: j, kind: ball, between: [b, t]}\n",

@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kExit, "{ when: outside, region: shell, finger: left, outcome: reached }",
                 "and no hand of the task"},
         Mistake{kRegions, "  hands: [{ name: index, fingers: [index] }]\n  regions:\n",
-                "is a finger or a body of the scene"},
+                "is a finger, a body or a joint of the scene"},
         Mistake{kRegions, "  hands: [{ name: left, fingers: [thumb] }]\n  regions:\n",
                 "none of the scene's fingers"},
         Mistake{kRegions, "  hands: [{ name: left, fingers: [] }]\n  regions:\n", "there are none"},

@@ -31,6 +31,10 @@ struct Grasp {
         last.bodies[1].X_WB.p = {0.1, 0.2, 0.06};
         last.bodies[1].v_WB = {0, 0.03, 0.04};
         last.bodies[2].X_WB.p = {0, 0, 1};
+        last.joints.resize(2);
+        last.joints[0].displacement = 0.03;
+        last.joints[1].angle = 0.5;
+        last.joints[1].f_B_W = {0, 0, 4};
         press(1, 3, 2);
         press(4, 1, 3);
         press(0, 1, 0.5);
@@ -61,10 +65,11 @@ struct Grasp {
         return expression(quantities.values());
     }
 
-    Quantities quantities{{{"thumb", "index"},
-                           {"table", "block", "left plate"},
-                           {"goal", "far side"},
-                           {{"left", 3}, {"one", 2}}}};
+    Quantities quantities{{.fingers = {"thumb", "index"},
+                           .bodies = {"table", "block", "left plate"},
+                           .joints = {"drawer", "hinge"},
+                           .regions = {"goal", "far side"},
+                           .hands = {{"left", 3}, {"one", 2}}}};
     servo::Frame last;
     std::vector<haptics::Handle> handles{{{0, 0, 0.05}, {0.3, 0, 0.4}},
                                          {{0.04, 0, 0.07}, {0.01, 0, 0}}};
@@ -108,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"\"left plate\".z", 1}, Case{"trial_num", 12}, Case{"index.shown.x", 0.04},
         Case{"distance(block, goal)", 0.01}, Case{"norm(2 * (block - goal) / 4)", 0.005},
         Case{"dot(thumb.handle_velocity, thumb.handle_velocity)", 0.25}, Case{"goal.radius", 0.02},
+        Case{"drawer.displacement", 0.03}, Case{"hinge.angle > 20 deg", 1},
+        Case{"hinge.force.z", 4}, Case{"hinge.force.z > 3 N and drawer.displacement < 4 cm", 1},
         Case{"block.z - block.start.z", 0.04}, Case{"goal.x", 0.1},
         // conditions
         Case{"inside(block, goal)", 1}, Case{"outside(thumb, goal)", 1},

@@ -158,6 +158,9 @@ class Lister {
     void operator()(std::string_view name, const Formula& value, Field field = {}) {
         add(name, kind(field) + " or formula", field, value);
     }
+    void operator()(std::string_view name, const std::optional<Formula>& value, Field field = {}) {
+        add(name, kind(field) + " or formula", field, value);
+    }
     void operator()(std::string_view name, const FormulaVec3& value, Field field = {}) {
         add(name, "3 x " + kind(field) + " or formula", field, value);
     }
