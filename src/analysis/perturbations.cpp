@@ -51,6 +51,8 @@ void say_kinds(const task::BodySpec& body, std::vector<std::string>& out) {
     add_factor(out, "weight", body.weight_scale);
     add_factor(out, "density", body.density_scale);
     add_factor(out, "friction", body.friction_scale);
+    add_factor(out, "stiffness", body.stiffness_scale);
+    add_factor(out, "restitution", body.restitution_scale);
 }
 
 std::string kind_and_size(const task::LoadSpec& load) {

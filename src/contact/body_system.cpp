@@ -112,9 +112,10 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     row.q *= row.unit;
     row.law.joint = nullptr;
     row.law.mu = contact.friction;
+    row.compliance = contact.compliance * row.unit * row.unit;
     // the sum is not finite if any part is not a number or would overflow
-    finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu);
-    const double normal = diagonal[0] * row.unit * row.unit;
+    finite_ = finite_ && std::isfinite(mean + row.q.squaredNorm() + row.law.mu + row.compliance);
+    const double normal = diagonal[0] * row.unit * row.unit + row.compliance;
     const double tangent = (diagonal.sum() - diagonal[0]) * row.unit * row.unit / (rows - 1);
     row.law.a_n = normal > 0 ? 1 / normal : 1;
     row.law.a_t = tangent > 0 ? 1 / tangent : 1;
@@ -151,6 +152,7 @@ void BodySystem<Dim>::assemble_joint(const ContactProblem& problem, const Proble
     row.q *= row.unit;
     row.law = {};
     row.law.joint = &scale;
+    row.compliance = 0;
     scale.compliance = joint.compliance * row.unit * row.unit;
     scale.low = joint.low / row.unit;
     scale.high = joint.high / row.unit;
@@ -177,12 +179,30 @@ void BodySystem<Dim>::velocity(std::span<const Vec> r, std::span<Vec> u) noexcep
     for (size_t j = 0; j < rows_.size(); ++j) {
         u[j] = rows_[j].q;
         add_velocity(rows_[j], u[j]);
+        u[j][0] += rows_[j].compliance * r[j][0];
+    }
+}
+
+/// With the compliance g of the normal n, (I + G (W + n g n')) d = -c is (I + G' W) d = -c' with
+///
+///     G' = G - s G n (n' G)    c' = c - s G n (n' c)    s = g / (1 + g n' G n)
+template <int Dim>
+void BodySystem<Dim>::soften(std::span<Linearised<D>> contacts) const noexcept {
+    for (size_t j = 0; j < rows_.size(); ++j) {
+        const double compliance = rows_[j].compliance;
+        Linearised<D>& contact = contacts[j];
+        if (compliance == 0 || contact.open) continue;
+        const Vec column = compliance / (1 + compliance * contact.G(0, 0)) * contact.G.col(0);
+        const Eigen::Matrix<double, 1, D> row = contact.G.row(0);
+        const double c = contact.c[0];
+        contact.G.noalias() -= column * row;
+        contact.c.noalias() -= column * c;
     }
 }
 
 template <int Dim>
-void BodySystem<Dim>::newton_step(std::span<const Linearised<D>> contacts,
-                                  std::span<Vec> d) noexcept {
+void BodySystem<Dim>::newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept {
+    soften(contacts);
     lu_.set_identity();
     std::fill(y_.begin(), y_.end(), Vec6::Zero());
     for (size_t j = 0; j < rows_.size(); ++j) {
@@ -226,6 +246,7 @@ Eigen::Matrix<double, Dim, Dim> BodySystem<Dim>::delassus_block(size_t j, size_t
     add(row.Ht_a, row.a, column.Ht_b, column.b);
     add(row.Ht_b, row.b, column.Ht_a, column.a);
     add(row.Ht_b, row.b, column.Ht_b, column.b);
+    if (j == k) out(0, 0) += row.compliance;
     return out;
 }
 

@@ -5,7 +5,8 @@
 //
 // H contains the inverse square roots of mass and inertia, and each contact's rows are divided by
 // the root of the mean diagonal of its block of W. So impulses are r = scale * r^, velocities u =
-// u^ / scale, and nothing depends on units.
+// u^ / scale, and nothing depends on units. Soft contacts add their compliance to the diagonal of
+// W.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +44,8 @@ class BodySystem {
 
     /// u = W r + q.
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
-    /// Solves (I + G W) d = -c.
-    void newton_step(std::span<const Linearised<D>> contacts, std::span<Vec> d) noexcept;
+    /// Solves (I + G W) d = -c; changes G and c.
+    void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
     /// Projected Gauss-Seidel sweeps on a law, until one changes no contact's velocity by more than
     /// `enough` [m/s]. Returns their number.
     template <class Law>
@@ -72,6 +73,7 @@ class BodySystem {
             const ContactRows& row = rows_[j];
             Vec u = row.q;
             add_velocity(row, u);
+            u[0] += row.compliance * r[j][0];
             const Vec before = r[j];
             law::relax<D>(law, row.law, r[j], u, j);
             const Vec change = r[j] - before;
@@ -93,6 +95,7 @@ class BodySystem {
         Vec q;
         Scale law;
         double unit = 1;
+        double compliance = 0;  // of a contact's normal; a joint has its own in `law`
         int a = kFixed;
         int b = kFixed;
         int aa = -1, bb = -1, ab = -1, ba = -1;  // indices of blocks in the matrix of bodies
@@ -103,6 +106,8 @@ class BodySystem {
     void assemble_joint(const ContactProblem& problem, const ProblemJoint& joint, ContactRows& row,
                         JointScale& scale) noexcept;
     void find_blocks(ContactRows& row) const noexcept;
+    /// Takes the compliance of contacts out of W and into G and c.
+    void soften(std::span<Linearised<D>> contacts) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
     /// Adds one contact's H' r to y.
     void apply(const ContactRows& row, const Vec& r) noexcept {

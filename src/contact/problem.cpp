@@ -23,6 +23,22 @@ bool ContactProblem::has_torsion() const noexcept {
                        [](const ProblemContact& contact) { return contact.torsion_radius > 0; });
 }
 
+double normal_velocity(const ContactProblem& problem, const ProblemContact& contact) noexcept {
+    return free_velocity<3>(problem, contact)[0] - contact.bias;
+}
+
+double normal_mobility(const ContactProblem& problem, const ProblemContact& contact) noexcept {
+    double out = 0;
+    const auto add = [&](int body, const Vec3& arm) {
+        if (body == kFixed) return;
+        const Vec6 J = contact_row<3>(contact, arm).row(0);
+        out += J.dot(problem.bodies[static_cast<size_t>(body)].inverse_mass * J);
+    };
+    add(contact.a, contact.p_AC_W);
+    add(contact.b, contact.p_BC_W);
+    return out;
+}
+
 DelassusProblem delassus(const ContactProblem& problem) {
     const auto n = static_cast<Eigen::Index>(problem.contacts.size());
     const auto m = static_cast<Eigen::Index>(problem.bodies.size());
@@ -47,6 +63,8 @@ DelassusProblem delassus(const ContactProblem& problem) {
         out.mu[j] = contact.friction;
     }
     out.W = J * inverse_mass * J.transpose();
+    for (Eigen::Index j = 0; j < n; ++j)
+        out.W(3 * j, 3 * j) += problem.contacts[static_cast<size_t>(j)].compliance;
     return out;
 }
 
@@ -81,6 +99,7 @@ double natural_map_residual(const ContactProblem& problem, std::span<const Impul
             u += contact_row<4>(contact, contact.p_BC_W) * velocity[static_cast<size_t>(contact.b)];
         if (contact.a != kFixed)
             u -= contact_row<4>(contact, contact.p_AC_W) * velocity[static_cast<size_t>(contact.a)];
+        u[0] += contact.compliance * r[j][0];
         error += natural_map_squared<4>(in_cone(r[j], contact), u, contact.friction);
         size += q.squaredNorm();
     }

@@ -41,6 +41,7 @@ struct ProblemContact {
     Vec3 p_BC_W = Vec3::Zero();
     Mat3 R_WC = Mat3::Identity();  ///< columns: unit normal from a to b, two tangents
     double bias = 0;               ///< added to the normal velocity: gap over time step [m/s]
+    double compliance = 0;         ///< of a soft contact, along the normal [m/s per N*s]
     double friction = 0;           ///< coefficient mu
     double torsion_radius = 0;  ///< allows a moment about the normal of up to mu r N; 0: none [m]
 };
@@ -72,9 +73,9 @@ struct ProblemJoint {
 };
 
 /// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
-/// velocity of b relative to a plus the bias along the normal, at the end of the step: r_N >= 0,
-/// u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides; and for each
-/// joint what its rows ask for.
+/// velocity of b relative to a plus, along the normal, bias and compliance r_N, at the end of the
+/// step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides;
+/// and for each joint what its rows ask for.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;
@@ -87,6 +88,13 @@ struct ContactProblem {
     }
     bool has_torsion() const noexcept;
 };
+
+/// Velocity of b relative to a along a contact's normal, without impulses and without the bias
+/// [m/s].
+double normal_velocity(const ContactProblem& problem, const ProblemContact& contact) noexcept;
+/// By how much an impulse along a contact's normal changes its normal velocity: W_NN without the
+/// compliance [1/kg].
+double normal_mobility(const ContactProblem& problem, const ProblemContact& contact) noexcept;
 
 /// A contact problem without bodies, with three rows per contact: normal, then two tangents. u = W
 /// r + q.

@@ -70,6 +70,7 @@ World::World(const scene::Scene& scene, const Settings& settings)
         impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction,
                    body.torsion_radius, body.pose(), fixed ? Vec3::Zero() : factors(body.moves),
                    fixed ? Vec3::Zero() : factors(body.turns));
+        impl_->items.back().surface = body.surface;
     }
     for (const scene::Joint& joint : scene.joints) impl_->add(joint);
 }
@@ -82,6 +83,7 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool t
     impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
                {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
                turns ? Vec3::Ones() : Vec3::Zero(), turns);
+    impl_->items.back().surface = finger.surface;
     impl_->items.back().is_proxy = true;
     return {size() - 1};
 }
@@ -112,6 +114,7 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool t
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
                turns ? Vec3::Ones() : Vec3::Zero(), turns);
+    impl_->items.back().surface = finger.surface;
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;
     return {size() - 1};
@@ -167,7 +170,7 @@ void World::activate() {
                                 [](const Impl::Item& item) { return item.is_proxy; });
     contacts_.reserve(static_cast<size_t>(max_contacts));
     states_.resize(count);
-    w.friction.resize(count * count);
+    w.surfaces.resize(count * count);
     for (size_t i = 0; i < count; ++i) {
         Impl::Item& item = w.items[i];
         if (!item.is_point || item.may_be_point) {
@@ -177,12 +180,29 @@ void World::activate() {
         if (item.can_move) w.can_move.push_back(i);
         w.read_state(i, states_[i]);
         states_[i].awake = item.can_move;
-        for (size_t j = 0; j < count; ++j) {
-            w.friction[i * count + j] = scene::pair_friction(w.scene, item.name, item.friction,
-                                                             w.items[j].name, w.items[j].friction);
-        }
+        w.pair_surfaces(i);
     }
     w.collect_awake(states_);
+}
+
+scene::Surface World::Impl::surface_of(size_t i) const {
+    scene::Surface out = items[i].surface;
+    const BodyProperties& properties = items[i].properties;
+    if (out.stiffness) *out.stiffness *= properties.stiffness;
+    if (out.damping) *out.damping *= properties.stiffness;
+    if (out.restitution)
+        *out.restitution = std::min(1.0, *out.restitution * properties.restitution);
+    return out;
+}
+
+void World::Impl::pair_surfaces(size_t i) {
+    const Item& item = items[i];
+    const scene::Surface own = surface_of(i);
+    for (size_t j = 0; j < items.size(); ++j) {
+        const scene::Surface other = surface_of(j);
+        surfaces[i * items.size() + j] = surfaces[j * items.size() + i] = scene::pair_surface(
+            scene, {item.name, item.friction, own}, {items[j].name, items[j].friction, other});
+    }
 }
 
 int World::size() const {
@@ -204,6 +224,10 @@ BodyIndex World::find(const std::string& name) const {
 
 double World::friction(BodyIndex a, BodyIndex b) const {
     return impl_->friction_of(static_cast<size_t>(a.value), static_cast<size_t>(b.value));
+}
+
+const scene::PairSurface& World::surface(BodyIndex a, BodyIndex b) const {
+    return impl_->surface_of(static_cast<size_t>(a.value), static_cast<size_t>(b.value));
 }
 
 std::span<const size_t> World::stepped() const {
@@ -266,6 +290,7 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     Impl::Item& item = impl_->items[i];
     if (item.properties == properties) return;
     item.properties = properties;
+    if (!impl_->surfaces.empty()) impl_->pair_surfaces(i);
     if (!item.can_move) {  // what rests on it may slip now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);
         return;
@@ -362,9 +387,9 @@ void World::meet(BodyIndex point, const PointContact& contact) noexcept {
     const auto b = static_cast<size_t>(contact.body.value);
     const Impl::Item& body = impl_->items[b];
     if (body.can_move) impl_->wake(b, states_);
-    impl_->point_contacts.add({body.body.get(), impl_->items[p].body.get(), contact.part,
-                               contact.face, contact.n_W, contact.gap,
-                               contact.friction_share * friction(contact.body, point)});
+    impl_->point_contacts.add(
+        {body.body.get(), impl_->items[p].body.get(), contact.part, contact.face, contact.n_W,
+         contact.gap, contact.friction_share * friction(contact.body, point), contact.compliance});
 }
 
 }  // namespace dihaptic::dynamics

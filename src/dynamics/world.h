@@ -42,12 +42,15 @@ struct JointState {
     Vec3 torque_W = Vec3::Zero();  ///< with those of spring, friction and stops [N*m]
 };
 
-/// Factors by which a body's properties differ from those of the scene.
+/// Factors by which a body's properties differ from those of the scene. What the scene says of a
+/// pair's surface stays, but for friction.
 struct BodyProperties {
     Vec3 mass = Vec3::Ones();  ///< of its inertia along the world's axes
     double weight = 1;
-    double turning = 1;   ///< of its moments of inertia
-    double friction = 1;  ///< of its coefficients with all others
+    double turning = 1;      ///< of its moments of inertia
+    double friction = 1;     ///< of its coefficients with all others
+    double stiffness = 1;    ///< of its own surface, with its damping
+    double restitution = 1;  ///< of its own surface, whose restitution stays at most 1
     bool operator==(const BodyProperties&) const = default;
 };
 
@@ -95,6 +98,8 @@ class World {
     const std::string& name(BodyIndex body) const;
     /// Coefficient of friction between two bodies.
     double friction(BodyIndex a, BodyIndex b) const;
+    /// What the surfaces of two bodies do where they touch; of friction, what the scene says.
+    const scene::PairSurface& surface(BodyIndex a, BodyIndex b) const;
 
     /// States after the last step.
     std::span<const BodyState> states() const { return states_; }
@@ -150,6 +155,7 @@ class World {
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction_share = 1;
+        double compliance = 0;  ///< along the normal: how fast the point gives way [m/s per N*s]
     };
     /// Adds a contact of a point; up to kMostPointContacts in a step.
     void meet(BodyIndex point, const PointContact& contact) noexcept;

@@ -32,6 +32,7 @@ struct World::Impl {
     struct Item {
         std::string name;
         double friction = 0;
+        scene::Surface surface;
         double torsion_radius = 0;
         bool is_proxy = false;
         bool is_point = false;
@@ -47,6 +48,8 @@ struct World::Impl {
         std::unique_ptr<btRigidBody> body;
         Vec3 force = Vec3::Zero();
         Vec3 torque = Vec3::Zero();
+        btVector3 v_last{0, 0, 0};  // before the step's loads
+        btVector3 w_last{0, 0, 0};
         btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
     };
@@ -64,7 +67,7 @@ struct World::Impl {
     std::vector<char> holds_finger;                 // by the body that represents an island
     std::vector<btCollisionObject*> island_bodies;  // of the one that is solved
     std::vector<btPersistentManifold*> island_contacts;
-    std::vector<double> friction;  // by pair of bodies, row-major
+    std::vector<scene::PairSurface> surfaces;  // by pair of bodies, row-major
     double friction_scale = 1;
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
@@ -85,8 +88,16 @@ struct World::Impl {
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
              const Vec3& moves, const Vec3& turns, bool about_origin = false);
+    /// A body's own surface, as its properties make it.
+    scene::Surface surface_of(size_t i) const;
+    /// Finds what a body's surface does with all others'.
+    void pair_surfaces(size_t i);
+    const scene::PairSurface& surface_of(size_t a, size_t b) const {
+        return surfaces[a * items.size() + b];
+    }
+    /// The static coefficient of friction of a pair, with what perturbations make of it.
     double friction_of(size_t a, size_t b) const {
-        return friction[a * items.size() + b] * items[a].properties.friction *
+        return surface_of(a, b).friction * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
     }
     void add(const scene::Joint& joint);
@@ -108,7 +119,13 @@ struct World::Impl {
     void note_stepped();
     void integrate_loads(double h, const Vec3& gravity);
     void update_bounds(double h);
-    void prepare_contacts(std::span<btPersistentManifold* const> manifolds);
+    /// Gives new contacts the properties of their pair's surfaces, and something to carry.
+    void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);
+    /// Adds the contacts of points to those that were found.
+    void take_points(double h);
+    /// Changes the friction of those that slide as their surfaces ask, by the speeds and forces of
+    /// the last step.
+    void let_slide(btPersistentManifold& manifold, double h) const;
     /// Gives the points of a manifold something to carry.
     void give_to(const btPersistentManifold& manifold);
     void find_islands();

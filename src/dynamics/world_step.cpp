@@ -20,6 +20,18 @@ std::pair<size_t, size_t> bodies_of(const btPersistentManifold& manifold) {
             static_cast<size_t>(manifold.getBody1()->getUserIndex())};
 }
 
+ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
+    ContactLaw out;
+    out.sharing = sharing;
+    if (surface.is_soft()) {
+        out.stiffness = surface.stiffness;
+        out.damping = surface.damping;
+    } else {
+        out.restitution = surface.restitution;
+    }
+    return out;
+}
+
 }  // namespace
 
 StepStatus World::step(double h) noexcept {
@@ -42,12 +54,9 @@ StepStatus World::step(double h) noexcept {
     w.update_bounds(h);
     w.collision->find_contacts(h);
     w.collect_awake(states_);  // some may have woken
-    w.prepare_contacts(w.collision->manifolds());
+    w.prepare_contacts(w.collision->manifolds(), h);
     for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
-    const size_t found = w.collision->manifolds().size();
-    w.point_contacts.take(w.collision->manifolds());
-    for (const btPersistentManifold* of_point : std::span(w.collision->manifolds()).subspan(found))
-        w.give_to(*of_point);
+    w.take_points(h);
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
     w.joints.read();
@@ -91,6 +100,8 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].body->setUserIndex2(kAwake);
     items[i].v_before = items[i].body->getLinearVelocity();
     items[i].w_before = items[i].body->getAngularVelocity();
+    items[i].v_last = items[i].v_before;
+    items[i].w_last = items[i].w_before;
     inverse_mass[i] = inverse_mass_of(items[i]);
 }
 
@@ -147,6 +158,8 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         Item& item = items[i];
         btRigidBody& body = *item.body;
         inverse_mass[i] = inverse_mass_of(item);
+        item.v_last = body.getLinearVelocity();
+        item.w_last = body.getAngularVelocity();
         contact::Vec6 load;
         load << item.force, item.torque;
         if (!item.is_proxy) load.head<3>() += item.properties.weight * item.mass * gravity;
@@ -207,7 +220,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         }
         if (!collision->find_entered(h, settings.penetration_recovery)) break;
         collect_awake(states);
-        prepare_contacts(collision->entered());
+        prepare_contacts(collision->entered(), h);
         for (const size_t i : awake) {
             items[i].body->setLinearVelocity(items[i].v_before);
             items[i].body->setAngularVelocity(items[i].w_before);
@@ -221,13 +234,59 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
     return stats;
 }
 
-void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifolds) {
+void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h) {
     for (btPersistentManifold* manifold : manifolds) {
-        const auto a = static_cast<size_t>(manifold->getBody0()->getUserIndex());
-        const auto b = static_cast<size_t>(manifold->getBody1()->getUserIndex());
-        for (int i = 0; i < manifold->getNumContacts(); ++i)
-            manifold->getContactPoint(i).m_combinedFriction = friction_of(a, b);
+        const auto [a, b] = bodies_of(*manifold);
+        const scene::PairSurface& surface = surface_of(a, b);
+        const int count = manifold->getNumContacts();
         give_to(*manifold);
+        for (int i = 0; i < count; ++i) {
+            btManifoldPoint& point = manifold->getContactPoint(i);
+            point.m_combinedFriction = friction_of(a, b);
+            carried(point).begin_step();
+            carried(point).law = law_of(surface, count);
+            // a finger does not bounce: what is held would drum on it
+            if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
+        }
+        let_slide(*manifold, h);
+    }
+}
+
+void World::Impl::take_points(double h) {
+    const size_t found = collision->manifolds().size();
+    point_contacts.take(collision->manifolds());
+    for (btPersistentManifold* manifold : std::span(collision->manifolds()).subspan(found)) {
+        give_to(*manifold);
+        const btManifoldPoint& point = manifold->getContactPoint(0);
+        carried(point).law = {};
+        carried(point).law.compliance = PointContacts::compliance(point);
+        let_slide(*manifold, h);
+    }
+}
+
+void World::Impl::let_slide(btPersistentManifold& manifold, double h) const {
+    const auto [a, b] = bodies_of(manifold);
+    const scene::PairSurface& surface = surface_of(a, b);
+    if (surface.slides_like_coulomb()) return;
+    double impulse = 0;
+    for (int i = 0; i < manifold.getNumContacts(); ++i)
+        impulse += carried(manifold.getContactPoint(i)).normal;
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        btManifoldPoint& point = manifold.getContactPoint(i);
+        const auto velocity = [&](size_t body) -> btVector3 {
+            const Item& item = items[body];
+            const btVector3 arm =
+                point.getPositionWorldOnB() - item.body->getCenterOfMassPosition();
+            return item.v_last + item.w_last.cross(arm);
+        };
+        const btVector3 u = velocity(a) - velocity(b);
+        const double speed = (u - u.dot(point.m_normalWorldOnB) * point.m_normalWorldOnB).length();
+        const double friction = surface.friction_at(speed, impulse / h);
+        if (surface.friction > 0) {
+            point.m_combinedFriction *= friction / surface.friction;
+        } else {
+            point.m_combinedFriction = friction;
+        }
     }
 }
 
@@ -386,6 +445,7 @@ void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {
         btRigidBody& body = *items[i].body;
         body.setLinearVelocity({0, 0, 0});
         body.setAngularVelocity({0, 0, 0});
+        items[i].v_last = items[i].w_last = {0, 0, 0};
         body.setUserIndex2(0);
         collision->sleepers_changed();
         states[i].v_WB.setZero();

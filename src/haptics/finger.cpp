@@ -34,10 +34,6 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
     return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
 }
 
-void Finger::set_friction_scale(double scale) noexcept {
-    if (auto* point = std::get_if<PointProxy>(&coupling_)) point->set_friction_scale(scale);
-}
-
 void Finger::place(World& world, const Handle& handle) noexcept {
     Pose X_WP = world.state(proxy_).X_WB;
     X_WP.p = handle.p_WH;

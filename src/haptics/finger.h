@@ -35,9 +35,6 @@ class Finger {
     /// own.
     void retune(const CouplingSettings& coupling) noexcept;
 
-    /// Applies to a point whose friction is "apart"; otherwise the world scales friction.
-    void set_friction_scale(double scale) noexcept;
-
     /// Puts the proxy at the handle: before the first tick, and wherever it must start anew.
     void place(World& world, const Handle& handle) noexcept;
 

@@ -87,8 +87,8 @@ class GodObject {
     /// The position in the frame of a body, which was where the last tick had it.
     Vec3 position_in(size_t body) const noexcept;
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
-    double friction(size_t body) const noexcept { return friction_scale_ * friction_[body]; }
-    void set_friction_scale(double scale) noexcept { friction_scale_ = scale; }
+    double friction(size_t body) const noexcept { return friction_[body]; }
+    void set_friction(size_t body, double friction) noexcept { friction_[body] = friction; }
     /// The way left to the handle along the surfaces, which friction withholds [m].
     const Vec3& held() const noexcept { return held_; }
     /// Whether the point slid in the last tick, so that dynamic friction applies.
@@ -131,7 +131,6 @@ class GodObject {
     };
     std::vector<PartSurface> parts_;
     std::vector<double> friction_;  // by body
-    double friction_scale_ = 1;
     double sliding_ratio_;
     std::vector<Pose> X_WS_;                     // by surface
     std::vector<char> inside_;                   // by body

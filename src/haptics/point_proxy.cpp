@@ -3,26 +3,25 @@
 #include <limits>
 
 namespace dihaptic::haptics {
-namespace {
-
-std::vector<double> frictions(const scene::Scene& scene, const scene::Finger& finger) {
-    std::vector<double> out;
-    for (const scene::Body& body : scene.bodies) {
-        out.push_back(
-            scene::pair_friction(scene, body.name, body.friction, finger.name, finger.friction));
-    }
-    return out;
-}
-
-}  // namespace
-
-PointProxy::PointProxy(const scene::Scene& scene, size_t finger, BodyIndex body,
-                       const CouplingSettings& coupling, const ProxySettings& settings)
+PointProxy::PointProxy(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
+                       const ProxySettings& settings)
     : coupling_(coupling),
+      shares_(scene.bodies.size(), 1),
       popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())),
       body_(body),
-      point_(scene.bodies, frictions(scene, scene.fingers[finger]), settings.sliding_friction),
+      point_(scene.bodies, std::vector<double>(scene.bodies.size()), settings.sliding_friction),
       onset_(coupling.onset) {}
+
+/// Friction on a soft surface withholds less of the spring, which is pressed less.
+void PointProxy::feel_surfaces(const World& world) noexcept {
+    for (size_t i = 0; i < shares_.size(); ++i) {
+        const BodyIndex body{static_cast<int>(i)};
+        const scene::PairSurface& surface = world.surface(body, body_);
+        shares_[i] =
+            surface.is_soft() ? surface.stiffness / (surface.stiffness + coupling_.stiffness) : 1;
+        point_.set_friction(i, shares_[i] * world.friction(body, body_));
+    }
+}
 
 void PointProxy::place(World& world, const Vec3& p_WP) noexcept {
     point_.place(p_WP, world.states());
@@ -32,6 +31,7 @@ void PointProxy::place(World& world, const Vec3& p_WP) noexcept {
 
 Pull PointProxy::render(World& world, const Handle& handle, double h, double step) noexcept {
     const Vec3 before = point_.position();
+    feel_surfaces(world);
     point_.follow(handle.p_WH, world.states());
     const Vec3& p_WP = point_.position();
     world.set_point(body_, p_WP, (p_WP - before) / h);
@@ -55,7 +55,7 @@ Pull PointProxy::render(World& world, const Handle& handle, double h, double ste
 
 /// Energy of the spring to the point where it is now [J].
 double PointProxy::stored(const Handle& handle) const noexcept {
-    return onset_.share() * coupling_.stiffness / 2 *
+    return share_ * onset_.share() * coupling_.stiffness / 2 *
            (point_.position() - handle.p_WH).squaredNorm();
 }
 
@@ -89,10 +89,15 @@ void PointProxy::resolve(const Vec3& f_W) noexcept {
     } else if (const double size = along.norm(); size > grip) {
         along *= grip / size;
     }
+    double pressed = 0;
+    double given = 0;
     for (size_t i = 0; i < touched.size(); ++i) {
-        const double normal_force = walls.multiplier[i];
+        const double share = shares_[touched[i].body];
+        const double normal_force = share * walls.multiplier[i];
         if (normal_force <= 0) continue;
-        const double mu = point_.friction(touched[i].body);
+        pressed += walls.multiplier[i];
+        given += normal_force;
+        const double mu = point_.friction(touched[i].body) / share;
         contact::Contact& out = contacts_[count_++];
         out.a = {static_cast<int>(touched[i].body)};
         out.b = body_;
@@ -104,6 +109,7 @@ void PointProxy::resolve(const Vec3& f_W) noexcept {
         out.f_B_W = normal_force * touched[i].n_W;
         if (grip > 0) out.f_B_W += mu * normal_force / grip * along;
     }
+    share_ = pressed > 0 ? given / pressed : 1;
 }
 
 }  // namespace dihaptic::haptics

@@ -7,7 +7,9 @@
 // is resolved into what each surface can give: N_i along its normal, at least 0, and the rest T
 // along the surfaces. While the point rests, T is at most sum mu_i N_i; while it slides, T is r
 // times that, toward where the point stayed behind. Damping acts only on the approach to surfaces
-// and on sticking: it neither pulls nor makes a smooth surface viscous.
+// and on sticking: it neither pulls nor makes a smooth surface viscous. A soft surface of stiffness
+// k_s gives the share k_s / (k + k_s) of N_i: the spring is in series with k, though the point
+// stays on the surface.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -17,9 +19,9 @@ namespace dihaptic::haptics {
 
 class PointProxy {
   public:
-    /// The proxy of the scene's finger `finger`; `body` represents it in the world.
-    PointProxy(const scene::Scene& scene, size_t finger, BodyIndex body,
-               const CouplingSettings& coupling, const ProxySettings& settings);
+    /// `body` represents it in the world.
+    PointProxy(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
+               const ProxySettings& settings);
 
     /// Puts the point somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
@@ -35,15 +37,18 @@ class PointProxy {
 
     Onset& onset() noexcept { return onset_; }
     void retune(const CouplingSettings& settings) noexcept { coupling_ = settings; }
-    void set_friction_scale(double scale) noexcept { point_.set_friction_scale(scale); }
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;
     double stored(const Handle& handle) const noexcept;
     void resolve(const Vec3& f_W) noexcept;
+    /// Takes up what the surfaces of the bodies are now.
+    void feel_surfaces(const World& world) noexcept;
 
     CouplingSettings coupling_;
-    double popthrough_;  // [N]
+    std::vector<double> shares_;  // by body, of the spring's force
+    double share_ = 1;            // of what is touched now
+    double popthrough_;           // [N]
     BodyIndex body_;
     GodObject point_;
     Onset onset_;

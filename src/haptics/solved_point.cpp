@@ -8,6 +8,13 @@ namespace {
 /// A point that moves slower than this along a surface is at rest [m/s]. Solvers leave some nm/s.
 constexpr double kRest = 1e-6;
 
+/// The point begins each step on the surface, as if nothing pressed it. In the step it gives way at
+/// such a speed u that a contact's impulse r = (v - u) m is that of both springs in series, with v
+/// = h k x / m the speed to which the coupling pulls it: u / r = k / (k_s m).
+double give(const scene::PairSurface& surface, double stiffness, double mass) {
+    return surface.is_soft() ? stiffness / (surface.stiffness * mass) : 0;
+}
+
 }  // namespace
 
 SolvedPoint::SolvedPoint(const scene::Scene& scene, BodyIndex body,
@@ -33,13 +40,14 @@ void SolvedPoint::before_step(World& world, const Handle& handle, double h) noex
     const double mass = h * c + h * h * k;
     const Vec3& p_WP = point_.position();
     const Vec3 v_WP = (h * k * (handle.p_WH - p_WP) + h * c * handle.v_WH) / mass;
-    world.set_mass(body_, onset_.share() * mass);
+    mass_ = onset_.share() * mass;
+    world.set_mass(body_, mass_);
     world.set_point(body_, p_WP, v_WP);
     const double share = sliding_ ? sliding_friction_ : 1;
     for (const Obstacle& o : point_.obstacles(p_WP + h * v_WP, world.states(), h)) {
-        world.meet(
-            body_,
-            {{static_cast<int>(o.body)}, static_cast<int>(o.surface), o.face, o.n_W, o.gap, share});
+        const BodyIndex body{static_cast<int>(o.body)};
+        world.meet(body_, {body, static_cast<int>(o.surface), o.face, o.n_W, o.gap, share,
+                           give(world.surface(body, body_), k, mass_)});
     }
 }
 
@@ -49,15 +57,24 @@ void SolvedPoint::after_step(World& world, const Handle& handle) noexcept {
     press_count_ = 0;
     f_P_W_.setZero();
     sliding_ = false;
+    double given = 0;
+    double pressed = 0;
     for (const contact::Contact& c : world.contacts()) {
         if (c.b != body_ || c.normal_force <= 0) continue;
-        presses_[press_count_++] = {c.n_W, c.friction};
+        const double share = share_of(world, c.a);
+        presses_[press_count_++] = {c.n_W, c.friction, share};
+        // it gives way from the surface, on which it ends all the same
+        v_WP_ += give(world.surface(c.a, body_), coupling_.stiffness, mass_) * step_ *
+                 c.normal_force * c.n_W;
+        given += c.normal_force;
+        pressed += c.normal_force / share;
         f_P_W_ += c.f_B_W;
         const Vec3 slip_B = world.state(c.a).X_WB.inverse() * solved.X_WB.p -
                             point_.position_in(static_cast<size_t>(c.a.value));
         const Vec3 slip_W = world.state(c.a).X_WB.R * slip_B;
         sliding_ = sliding_ || (slip_W - slip_W.dot(c.n_W) * c.n_W).norm() > kRest * step_;
     }
+    share_ = pressed > 0 ? given / pressed : 1;
     point_.move(solved.X_WB.p, world.states());
     if (press_count_ == 0) point_.slide(handle.p_WH);
     for (const contact::Contact& c : world.contacts()) {
@@ -83,8 +100,13 @@ Pull SolvedPoint::pull(World& world, const Handle& handle, double h) noexcept {
             energy(in_cones(stretch))};
 }
 
+double SolvedPoint::share_of(const World& world, BodyIndex body) const noexcept {
+    const scene::PairSurface& surface = world.surface(body, body_);
+    return surface.is_soft() ? surface.stiffness / (surface.stiffness + coupling_.stiffness) : 1;
+}
+
 double SolvedPoint::energy(const Vec3& stretch) const noexcept {
-    return onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
+    return share_ * onset_.share() * coupling_.stiffness / 2 * stretch.squaredNorm();
 }
 
 /// The part of the spring's force that the step's contacts can take.
@@ -92,9 +114,13 @@ Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
     HalfSpaces walls;
     for (size_t i = 0; i < press_count_; ++i) walls.add(presses_[i].n_W);
     Vec3 along = -walls.nearest(-spring);
-    const Vec3 pressing = spring - along;
+    Vec3 pressing = spring - along;
     double grip = 0;
-    for (size_t i = 0; i < press_count_; ++i) grip += presses_[i].friction * walls.multiplier[i];
+    for (size_t i = 0; i < press_count_; ++i) {
+        const double normal_force = presses_[i].share * walls.multiplier[i];
+        pressing -= (1 - presses_[i].share) * walls.multiplier[i] * presses_[i].n_W;
+        grip += presses_[i].friction * normal_force;
+    }
     if (const double size = along.norm(); size > grip) along *= grip / size;
     return pressing + along;
 }
@@ -110,8 +136,9 @@ Vec3 SolvedPoint::meet_between_steps(World& world, const Handle& handle, double 
     Vec3 f_H_W = Vec3::Zero();
     for (size_t i = 0; i < walls.count; ++i) {
         const PointContact& c = point_.contacts()[i];
-        const Vec3 f_W = onset_.share() * walls.multiplier[i] * c.n_W;
-        world.apply_at({static_cast<int>(c.body)}, -f_W * (h / step_), point_.position());
+        const BodyIndex body{static_cast<int>(c.body)};
+        const Vec3 f_W = share_of(world, body) * onset_.share() * walls.multiplier[i] * c.n_W;
+        world.apply_at(body, -f_W * (h / step_), point_.position());
         f_H_W += f_W;
     }
     return f_H_W;

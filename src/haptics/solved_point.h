@@ -35,8 +35,11 @@ class SolvedPoint {
     struct Press {
         Vec3 n_W;  ///< out of the body
         double friction;
+        double share;  ///< of the spring's force that a soft surface gives
     };
 
+    /// The share of the spring's force that a body's surface gives, which is in series with it.
+    double share_of(const World& world, BodyIndex body) const noexcept;
     Vec3 in_cones(const Vec3& spring) const noexcept;
     double energy(const Vec3& stretch) const noexcept;
     Vec3 meet_between_steps(World& world, const Handle& handle, double h) noexcept;
@@ -49,9 +52,11 @@ class SolvedPoint {
     double popthrough_;                                        // [N]
     std::array<Press, dynamics::kMostPointContacts> presses_;  // in the last step
     size_t press_count_ = 0;
+    double share_ = 1;  // of all that is pressed
     bool sliding_ = false;
     bool just_stepped_ = false;
     double step_ = 0;  // of the world [s]
+    double mass_ = 0;  // that the point had in the last step [kg]
     Vec3 v_WP_ = Vec3::Zero();
     Vec3 f_P_W_ = Vec3::Zero();  // of the last step's contacts [N]
 };

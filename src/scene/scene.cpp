@@ -203,7 +203,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
                                         : fmt::format("Did you mean {}?", guess));
     };
     std::set<std::pair<std::string, std::string>> pairs;
-    for (const PairFriction& pair : scene.pairs) {
+    for (const Pair& pair : scene.pairs) {
         for (const std::string& name : pair.between) must_exist(name, "between", pair.place);
         if (pair.between.size() != 2) {
             diagnostics.error(pair.place, "between", "must be two names",
@@ -303,6 +303,38 @@ void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnost
     }
 }
 
+/// The shortest edge of the box that a body fills [m].
+double thickness(const Body& body) {
+    const Bounds box = bounds(body.shape);
+    return (box.high - box.low).minCoeff();
+}
+
+/// Warns of bodies that sink deep into what they lie on, by their weight alone.
+void check_softness(const Scene& scene, Diagnostics& diagnostics) {
+    constexpr double kDeep = 0.2;  // of its thickness
+    for (const Body& body : scene.bodies) {
+        if (!body.surface.stiffness || !body.moves_at_all()) continue;
+        const double depth = mass(body) * scene.gravity.norm() / *body.surface.stiffness;
+        if (depth < kDeep * thickness(body)) continue;
+        diagnostics.warning(
+            body.surface.place, "stiffness",
+            fmt::format("lets {} sink by {:.3g} mm under its own weight, and it is {:.3g} mm thick",
+                        body.name, depth * 1e3, thickness(body) * 1e3),
+            "Make it stiffer or lighter: what sinks too deep comes out on another side.");
+    }
+}
+
+void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
+    for (const Body& body : scene.bodies) check(body.surface, body.friction, diagnostics);
+    for (const Finger& finger : scene.fingers) check(finger.surface, finger.friction, diagnostics);
+    for (const Pair& pair : scene.pairs) {
+        check(pair.surface, pair.friction, diagnostics);
+        if (!pair.friction && pair.surface == Surface{})
+            diagnostics.error(pair.place, "friction", "is missing, and there is no surface",
+                              "Say what is different about the pair, or leave it out.");
+    }
+}
+
 void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     for (const Joint& joint : scene.joints) {
         check_axis(joint, diagnostics);
@@ -359,15 +391,20 @@ std::vector<std::string> finger_names(const Scene& scene) {
     return names;
 }
 
-double pair_friction(const Scene& scene, const std::string& a, double friction_a,
-                     const std::string& b, double friction_b) {
-    for (const PairFriction& pair : scene.pairs) {
+const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b) {
+    for (const Pair& pair : scene.pairs) {
         if (pair.between.size() != 2) continue;
         const std::string& first = pair.between[0];
         const std::string& second = pair.between[1];
-        if ((first == a && second == b) || (first == b && second == a)) return pair.friction;
+        if ((first == a && second == b) || (first == b && second == a)) return &pair;
     }
-    return std::sqrt(friction_a * friction_b);
+    return nullptr;
+}
+
+double pair_friction(const Scene& scene, const std::string& a, double friction_a,
+                     const std::string& b, double friction_b) {
+    const Pair* pair = find_pair(scene, a, b);
+    return pair != nullptr && pair->friction ? *pair->friction : std::sqrt(friction_a * friction_b);
 }
 
 double mass(const Body& body) {
@@ -397,8 +434,11 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
     }
     check_names(scene, diagnostics);
     check_references(scene, diagnostics);
+    check_surfaces(scene, diagnostics);
     check_joints(scene, diagnostics);
-    if (!diagnostics.has_errors()) check_overlaps(scene, diagnostics);
+    if (diagnostics.has_errors()) return;
+    check_softness(scene, diagnostics);
+    check_overlaps(scene, diagnostics);
 }
 
 Scene read_scene(const std::string& file, Diagnostics& diagnostics, const std::stop_token& stop) {

@@ -11,6 +11,7 @@
 #include "scene/camera.h"
 #include "scene/joint.h"
 #include "scene/shape.h"
+#include "scene/surface.h"
 
 namespace dihaptic::scene {
 
@@ -19,7 +20,6 @@ namespace dihaptic::scene {
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
 constexpr double kFurthest = 100;   // from the world's origin [m]
-constexpr double kMostFriction = 100;
 
 /// A set of world axes: x is 1, y is 2, z is 4.
 enum class Axes { none, x, y, xy, z, xz, yz, xyz };
@@ -44,9 +44,10 @@ struct Body {
     Axes moves =
         Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
-    std::string colour;      ///< "#rrggbb"; empty: the view chooses
-    Place place;             ///< in the scene file
-    bool weighed = false;    ///< the file has a key for its mass or density, even if a wrong one
+    Surface surface;
+    std::string colour;    ///< "#rrggbb"; empty: the view chooses
+    Place place;           ///< in the scene file
+    bool weighed = false;  ///< the file has a key for its mass or density, even if a wrong one
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -74,6 +75,7 @@ struct Body {
         v("torsion_radius", torsion_radius,
           Field::length().within(0, 0.1).says("Radius of its soft contact points: each carries a "
                                               "moment up to friction x radius x normal force."));
+        v("surface", surface, says("How its surface slides, gives way and bounces."));
         v("moves", moves, says("World axes along which it may move."));
         v("turns", turns, says("World axes about which it may turn: none, one, or xyz."));
         v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
@@ -98,9 +100,10 @@ constexpr auto enum_names(ProxyKind) {
 struct Finger {
     std::string name;
     Shape shape;
-    double mass = 0.001;             ///< [kg]
-    double friction = 0.8;           ///< see pair_friction()
-    double torsion_radius = 0;       ///< of a soft finger; see Body [m]
+    double mass = 0.001;        ///< [kg]
+    double friction = 0.8;      ///< see pair_friction()
+    double torsion_radius = 0;  ///< of a soft finger; see Body [m]
+    Surface surface;
     std::optional<ProxyKind> proxy;  ///< overrides the setting proxy.kind
     Vec3 rotation =
         Vec3::Zero();  ///< canonical orientation, about the fixed axes x, then y, then z [rad]
@@ -118,6 +121,7 @@ struct Finger {
               .says("Coefficient of friction; of a pair, the geometric mean counts."));
         v("torsion_radius", torsion_radius,
           Field::length().within(0, 0.1).says("Radius of a soft finger, as of a body."));
+        v("surface", surface, says("How its surface slides, gives way and bounces."));
         v("proxy", proxy,
           says("What stands for the finger in the world, in place of proxy.kind of the settings."));
         v("rotation", rotation,
@@ -129,10 +133,11 @@ struct Finger {
     }
 };
 
-/// Friction between one pair of bodies or fingers; overrides the mean of their own.
-struct PairFriction {
+/// Surface of one pair of bodies or fingers: what it says overrides what follows from their own.
+struct Pair {
     std::vector<std::string> between;  ///< two names
-    double friction = 0;
+    std::optional<double> friction;    ///< none: the geometric mean
+    Surface surface;
     Place place;
 
     template <class Visitor>
@@ -141,8 +146,10 @@ struct PairFriction {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .required()
               .says("Coefficient of friction between them, in place of the mean of their own."));
+        v("surface", surface,
+          says("How they slide on each other, give way and bounce, in place of what follows from "
+               "their own surfaces."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -151,7 +158,7 @@ struct Scene {
     std::string title;
     Vec3 gravity{0, 0, -9.81};  ///< [m/s^2]
     std::vector<Body> bodies;
-    std::vector<PairFriction> pairs;
+    std::vector<Pair> pairs;
     std::vector<Joint> joints;
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that summaries are about; empty: the first one that can move
@@ -167,7 +174,7 @@ struct Scene {
         v("gravity", gravity,
           Field::of(Quantity::acceleration).within(-1000, 1000).says("Gravity."));
         v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
-        v("pairs", pairs, says("Pairs with a friction of their own."));
+        v("pairs", pairs, says("Pairs with a friction or surface of their own."));
         v("joints", joints, says("Joints between two bodies, or a body and the world."));
         v("fingers", fingers,
           says("Fingers, each with a device of its own in the rig; left out, thumb "
@@ -196,6 +203,9 @@ struct Scene {
 
 /// Names of the fingers, in order.
 std::vector<std::string> finger_names(const Scene& scene);
+
+/// What the file says of a pair of bodies or fingers, in any order, or null.
+const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b);
 
 /// Coefficient of friction between two bodies or fingers: the file's value for the pair, or else
 /// the geometric mean of their own coefficients.

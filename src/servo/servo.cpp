@@ -46,11 +46,8 @@ haptics::ProxyKind other_than(haptics::ProxyKind kind) {
                                              : haptics::ProxyKind::point;
 }
 
-void scale_friction(double scale, dynamics::World& world,
-                    std::span<haptics::Finger> fingers) noexcept {
-    if (Knobs::same(scale, world.friction_scale())) return;
-    world.set_friction_scale(scale);
-    for (haptics::Finger& finger : fingers) finger.set_friction_scale(scale);
+void scale_friction(double scale, dynamics::World& world) noexcept {
+    if (!Knobs::same(scale, world.friction_scale())) world.set_friction_scale(scale);
 }
 
 bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
@@ -133,7 +130,7 @@ haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
                 haptics::SolvedPoint(scene, proxy, settings_.coupling, settings_.proxy), proxy);
         }
         return haptics::Finger(
-            haptics::PointProxy(scene, finger, proxy, settings_.coupling, settings_.proxy), proxy);
+            haptics::PointProxy(scene, proxy, settings_.coupling, settings_.proxy), proxy);
     };
     haptics::Finger out = made();
     if (info.measures_orientation && turns_with_handle(kind)) {
@@ -151,7 +148,6 @@ void Servo::change_proxies(haptics::ProxyKind kind) noexcept {
         std::swap(fingers_[i], *spares_[i]);
         world_.set_point(fingers_[i].proxy(), kind == haptics::ProxyKind::point);
         fingers_[i].retune(in_force_);
-        fingers_[i].set_friction_scale(world_.friction_scale());
         fingers_[i].place(world_, handles_[i]);
     }
     soft_start_.restart();
@@ -253,7 +249,7 @@ void Servo::turn_knobs() noexcept {
     const Knobs& knobs = commands_.knobs;
     retune();
     if (knobs.proxy != settings_.proxy.kind) change_proxies(knobs.proxy);
-    scale_friction(knobs.friction_scale, world_, fingers_);
+    scale_friction(knobs.friction_scale, world_);
     turn_workspaces(knobs.workspace_rate);
 }
 
@@ -386,7 +382,8 @@ void Servo::order_bodies() noexcept {
     }
     for (const PropertiesFrame& now : task.properties) {
         world_.set_properties(
-            {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale});
+            {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale,
+                         now.stiffness_scale, now.restitution_scale});
     }
 }
 

@@ -84,6 +84,8 @@ struct PropertiesFrame {
     double weight_scale = 1;
     double turning_scale = 1;
     double friction_scale = 1;
+    double stiffness_scale = 1;
+    double restitution_scale = 1;
 
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
@@ -94,6 +96,10 @@ struct PropertiesFrame {
         v(p.turning_scale, {"turning_scale", "1", "", "Factor on the body's moments of inertia."});
         v(p.friction_scale,
           {"friction_scale", "1", "", "Factor on the body's coefficients of friction."});
+        v(p.stiffness_scale,
+          {"stiffness_scale", "1", "", "Factor on the stiffness and damping of its surface."});
+        v(p.restitution_scale,
+          {"restitution_scale", "1", "", "Factor on the restitution of its surface."});
     }
 };
 

@@ -29,6 +29,8 @@ void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFr
     same->weight_scale *= now.weight_scale;
     same->turning_scale *= now.turning_scale;
     same->friction_scale *= now.friction_scale;
+    same->stiffness_scale *= now.stiffness_scale;
+    same->restitution_scale *= now.restitution_scale;
 }
 
 bool displaces(const VisualSpec& visual) {
@@ -83,6 +85,8 @@ void Perturbation::resolve(std::span<const double> resolved) noexcept {
         properties_->weight_scale = density * properties_as_given_.weight.in(resolved);
         properties_->turning_scale = density;
         properties_->friction_scale = properties_as_given_.friction.in(resolved);
+        properties_->stiffness_scale = properties_as_given_.stiffness.in(resolved);
+        properties_->restitution_scale = properties_as_given_.restitution.in(resolved);
     }
     for (Load& load : loads_) load.resolve(resolved);
 }
@@ -126,15 +130,25 @@ void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
     servo::PropertiesFrame& out = properties_.emplace();
     out.body =
         look_up(names_of(scene.bodies), body.body, body.place, "body", "no body", diagnostics);
-    const bool only_friction = body.mass_scale == FormulaVec3{1, 1, 1} && body.weight_scale == 1 &&
-                               body.density_scale == 1;
-    if (out.body >= 0 && !only_friction &&
+    const bool only_surface = body.mass_scale == FormulaVec3{1, 1, 1} && body.weight_scale == 1 &&
+                              body.density_scale == 1;
+    if (out.body >= 0 && !only_surface &&
         !scene.bodies[static_cast<size_t>(out.body)].moves_at_all()) {
         diagnostics.error(body.place, "body", "'" + body.body + "' cannot move",
-                          "Name a body that can, or change its friction alone.");
+                          "Name a body that can, or change its friction and surface alone.");
     }
-    properties_as_given_ = {numbers(body.mass_scale), body.weight_scale, body.density_scale,
-                            body.friction_scale};
+    properties_as_given_ = {numbers(body.mass_scale), body.weight_scale,    body.density_scale,
+                            body.friction_scale,      body.stiffness_scale, body.restitution_scale};
+    if (out.body < 0) return;
+    const scene::Surface& surface = scene.bodies[static_cast<size_t>(out.body)].surface;
+    const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
+        if (factor == 1 || there) return;
+        diagnostics.error(body.place, key, "'" + body.body + "' has no " + what + " to change",
+                          std::string("Give it one in the scene: surface: { ") + what + ": ... }.");
+    };
+    needs(body.stiffness_scale, "stiffness_scale", surface.stiffness.has_value(), "stiffness_N_m");
+    needs(body.restitution_scale, "restitution_scale", surface.restitution.has_value(),
+          "restitution");
 }
 
 Mat3 Perturbation::field_gain() const {
@@ -176,6 +190,8 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const Mo
         now.weight_scale = 1 + share * (now.weight_scale - 1);
         now.turning_scale = 1 + share * (now.turning_scale - 1);
         now.friction_scale = 1 + share * (now.friction_scale - 1);
+        now.stiffness_scale = 1 + share * (now.stiffness_scale - 1);
+        now.restitution_scale = 1 + share * (now.restitution_scale - 1);
         add_to(out.properties, now);
     }
     for (const Load& load : loads_) {

@@ -91,6 +91,8 @@ struct BodySpec {
     Formula weight_scale = 1;         ///< the inertia stays
     Formula density_scale = 1;        ///< on both, and on the moments of inertia
     Formula friction_scale = 1;
+    Formula stiffness_scale = 1;    ///< of its surface, with its damping
+    Formula restitution_scale = 1;  ///< of its surface
     Place place;
 
     template <class Visitor>
@@ -106,6 +108,12 @@ struct BodySpec {
               "Factor on weight, inertia and moments of inertia together."));
         v("friction_scale", friction_scale,
           Field::number().within(0, 20).says("Factor on its coefficients of friction."));
+        v("stiffness_scale", stiffness_scale,
+          Field::number().within(0.01, 100).says(
+              "Factor on the stiffness and damping of its surface."));
+        v("restitution_scale", restitution_scale,
+          Field::number().within(0, 100).says(
+              "Factor on the restitution of its surface, which stays at most 1."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -199,6 +207,8 @@ class Perturbation {
         Number weight;
         Number density;
         Number friction;
+        Number stiffness;
+        Number restitution;
     };
     void look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
                      const scene::Scene& scene, Diagnostics& diagnostics);

@@ -247,6 +247,68 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
     EXPECT_GE(compared, 30);
 }
 
+/// Makes every other contact soft, from hardly to far more than the bodies give.
+void soften(Random& random, ContactProblem& problem) {
+    for (size_t j = 0; j < problem.contacts.size(); j += 2)
+        problem.contacts[j].compliance = std::pow(10, random.uniform(-2, 4));
+}
+
+TEST_P(EachSolver, PressesASoftContactAsItsSpringSays) {
+    // a spring k and a damper c at the end of the step: m (v+ - v) = -h k (x + h v+) - h c v+
+    constexpr double kStep = 1e-3, kMass = 0.1, kX = -0.002;
+    for (const double k : {50.0, 1e3, 1e5}) {
+        for (const double c : {0.5, 20.0}) {
+            for (const double v : {-0.3, 0.0, 0.02}) {
+                ContactProblem problem = block_on_plane(Vec3::UnitZ(), 0.5);
+                problem.bodies[0].v_W = Vec3(0, 0, v);
+                for (ProblemContact& contact : problem.contacts) {
+                    contact.compliance = 4 / (kStep * (c + kStep * k));
+                    contact.bias = kStep * k / 4 * kX * contact.compliance;
+                }
+                const Answer a = answer(GetParam(), problem);
+                const double expected =
+                    (kMass * v - kStep * k * kX) / (kMass + kStep * c + kStep * kStep * k);
+                // what lets go does not pull
+                EXPECT_NEAR(v + a.change[0][2], std::max(v, expected), 1e-8)
+                    << k << " " << c << " " << v;
+            }
+        }
+    }
+}
+
+TEST_P(EachSolver, AnswersRandomProblemsWithSoftContacts) {
+    Random random(4, "random problems");
+    for (int i = 0; i < 300; ++i) {
+        ContactProblem problem =
+            random_problem(random, 1 + i % 5, 1 + i % 12, i % 3 == 0 ? 0.005 : 0);
+        soften(random, problem);
+        const Answer a = answer(GetParam(), problem);
+        EXPECT_FALSE(a.stats.missed) << i;
+        if (GetParam() == Solver::newton) {
+            EXPECT_LE(natural_map_residual(problem, a.r), 1e-8) << i;
+        }
+    }
+}
+
+TEST_P(EachSolver, AgreesWithAnIndependentReferenceOnSoftContacts) {
+    Random random(5, "random problems");
+    int compared = 0;
+    for (int i = 0; i < 40; ++i) {
+        ContactProblem problem = random_problem(random, 1 + i % 3, 1 + i % 6);
+        soften(random, problem);
+        const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
+        if (natural_map_residual(problem, reference) > 1e-11) continue;  // too slow for this one
+        const Answer a = answer(GetParam(), problem);
+        for (size_t j = 0; j < reference.size(); ++j) {
+            if (problem.contacts[j].compliance > 0) {
+                EXPECT_NEAR(a.r[j][0], reference[j][0], 1e-5 * (1 + reference[j][0])) << i;
+            }
+        }
+        ++compared;
+    }
+    EXPECT_GE(compared, 10);
+}
+
 TEST_P(EachSolver, DoesNotCareHowTheWorldIsTurned) {
     Random random(4, "random problems");
     for (int i = 0; i < 50; ++i) {

@@ -11,12 +11,42 @@
 
 namespace dihaptic::dynamics {
 
+/// How bodies that bounce met in a step: the contact let them close the gap, and will throw them
+/// apart in the next one.
+struct Impact {
+    double speed =
+        0;  ///< of approach, without the contact, in the middle of the step; 0: none [m/s]
+    double when = 0;  ///< share of the step after which they touched
+    double left = 0;  ///< normal velocity at the end of the step [m/s]
+};
+
+/// What the surfaces do at a contact, but for friction, which Bullet's own point has.
+struct ContactLaw {
+    double restitution = 0;
+    double stiffness = 0;   ///< 0: rigid [N/m]
+    double damping = 0;     ///< [N*s/m]
+    int sharing = 1;        ///< number of contacts that share the stiffness of a face
+    double compliance = 0;  ///< of a point, whose owner knows it [m/s per N*s]
+};
+
 /// Impulses on Bullet's body 0, to which its normal points.
 struct Carried {
     double normal = 0;               ///< [N*s]
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
     double moment = 0;               ///< about the normal [N*m*s]
+    ContactLaw law;
+    Impact last;  ///< of the last step
+    Impact now;   ///< of this one, however often it is solved
     bool in_use = false;
+
+    void forget_impulses() {
+        normal = moment = 0;
+        friction_W.setZero();
+    }
+    void begin_step() {
+        last = now;
+        now = {};
+    }
 };
 
 /// What a point carries; CarriedPool has given it to the point.

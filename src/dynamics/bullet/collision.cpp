@@ -1,5 +1,7 @@
 #include "dynamics/bullet/collision.h"
 
+#include "dynamics/bullet/carried.h"
+
 #include <BulletCollision/CollisionDispatch/btSphereSphereCollisionAlgorithm.h>
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -80,6 +82,28 @@ bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
     point.m_positionWorldOnB = where;
     const double share = point.m_distance1 < 0 ? recovery : 1;
     return entered && share * point.m_distance1 + h * apart < -kEntered;
+}
+
+/// What a pair's only contact carries, or null.
+Carried* only_carried(const btManifoldArray& manifolds) {
+    if (manifolds.size() != 1 || manifolds[0]->getNumContacts() != 1) return nullptr;
+    return static_cast<Carried*>(manifolds[0]->getContactPoint(0).m_userPersistentData);
+}
+
+/// Bullet finds two spheres' contact anew in each step: it carries on how they met, but no impulse.
+void hand_on(Carried& of_last, const btManifoldArray& manifolds) {
+    if (manifolds.size() != 1 || manifolds[0]->getNumContacts() != 1) return;
+    void*& carries = manifolds[0]->getContactPoint(0).m_userPersistentData;
+    if (carries != nullptr) return;
+    of_last.forget_impulses();
+    carries = &of_last;
+}
+
+/// Whether bodies that touch are soft there.
+bool is_soft(const btPersistentManifold& manifold) {
+    if (manifold.getNumContacts() == 0) return false;
+    const btManifoldPoint& point = manifold.getContactPoint(0);
+    return point.m_userPersistentData != nullptr && carried(point).law.stiffness > 0;
 }
 
 enum Group { kMovable = 1, kImmovable = 2 };
@@ -283,8 +307,12 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     }
     btManifoldResult result(&a_wrap, &b_wrap);
     result.m_closestPointDistanceThreshold = margin;
+    pair.m_algorithm->getAllContactManifolds(scratch_);
+    Carried* const of_last = only_carried(scratch_);
+    scratch_.resizeNoInitialize(0);
     pair.m_algorithm->processCollision(&a_wrap, &b_wrap, info, &result);
     pair.m_algorithm->getAllContactManifolds(scratch_);
+    if (of_last != nullptr) hand_on(*of_last, scratch_);
     bool woke = false;
     for (int m = 0; m < scratch_.size(); ++m) {
         if (scratch_[m]->getNumContacts() == 0) continue;
@@ -337,6 +365,8 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
     if (!(way > kEntered)) return false;  // also false if it is not a number
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
+    // bodies enter soft ones, as far as their contact lets them
+    if (scratch_.size() > 0 && is_soft(*scratch_[0])) return false;
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
     const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));

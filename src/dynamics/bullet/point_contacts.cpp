@@ -48,6 +48,7 @@ void PointContacts::add(const Contact& contact) noexcept {
     point.m_positionWorldOnA = p_WC - contact.gap * to_bullet(contact.n_W);
     point.m_distance1 = contact.gap;
     point.m_combinedFriction = contact.friction;
+    point.m_contactMotion1 = contact.compliance;
 }
 
 void PointContacts::forget() noexcept {

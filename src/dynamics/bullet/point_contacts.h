@@ -26,7 +26,11 @@ class PointContacts {
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction = 0;
+        double compliance = 0;  ///< [m/s per N*s]
     };
+    static double compliance(const btManifoldPoint& point) noexcept {
+        return point.m_contactMotion1;  // Bullet's own solver has another use for it
+    }
     /// Adds a contact for the next take(); it is left out if there is no room.
     void add(const Contact& contact) noexcept;
     /// Appends the manifolds of all contacts added since the last call, and forgets the others.

@@ -40,6 +40,35 @@ double mean_height(const btPersistentManifold& manifold) {
     return sum / std::max(1, manifold.getNumContacts());
 }
 
+/// Makes a contact soft: with x the gap, the spring k and the damper c hold at the end of the step,
+///
+///     r / h = -k (x + h u) - c u    or    u + gamma r + bias = 0,    gamma = 1 / (h (c + h k))
+///
+/// While the spring is slow, most of h k is a damping that nobody asked for: it is lessened to
+/// theta h k, with theta = s / (1 + s) and s = h^2 k / m, m the mass that the contact moves.
+void soften(contact::ProblemContact& contact, const contact::ContactProblem& problem,
+            const ContactLaw& law, double gap, double h) {
+    constexpr double kLeastShare = 0.05;
+    const double s = h * h * law.stiffness * contact::normal_mobility(problem, contact);
+    const double theta = std::max(kLeastShare, s / (1 + s));
+    const double k = law.stiffness / law.sharing;
+    const double c = law.damping / law.sharing;
+    contact.compliance = 1 / (h * (c + theta * h * k));
+    contact.bias = h * k * gap * contact.compliance;
+}
+
+/// Velocity along the normal at which bodies leave that met in the last step: Newton's law e u for
+/// the speed u at which they touched. Both are in the middle of their steps, so loads that change
+/// the normal velocity by `loads` in a step change it by half of that from there to the touch and
+/// from the touch to here. Zero for an impact so slow that they would be back in the next step.
+double rebound(const Impact& impact, double restitution, double free) {
+    const double loads = free - impact.left;
+    const double met = impact.speed - loads * (impact.when - 0.5);
+    const double leaves = restitution * met;
+    const double speed = leaves + std::clamp(loads, -leaves, leaves) / 2;
+    return speed > std::abs(loads) ? speed : 0;
+}
+
 }  // namespace
 
 void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts,
@@ -50,6 +79,7 @@ void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts,
     problem_.bodies.reserve(torsion_radii_.size());
     problem_.contacts.reserve(static_cast<size_t>(contacts));
     impulses_.reserve(static_cast<size_t>(contacts));
+    free_.reserve(static_cast<size_t>(contacts));
     index_.assign(torsion_radii_.size(), kFixed);
 }
 
@@ -59,6 +89,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
                             bool warm_start) noexcept {
     problem_.clear();
     joint_impulses_.clear();
+    free_.clear();
     for (btCollisionObject* object : bodies) {
         const btRigidBody& body = *btRigidBody::upcast(object);
         const auto at = static_cast<size_t>(body.getUserIndex());
@@ -94,6 +125,10 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.bias = (gap > 0 ? 1 : recovery) * gap / h;
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
+            free_.push_back(0);
+            out.compliance = carried(point).law.compliance;
+            if (carried(point).law.stiffness > 0) soften(out, problem_, carried(point).law, gap, h);
+            if (carried(point).law.restitution > 0) let_bounce(out, carried(point));
         }
     }
     impulses_.resize(problem_.contacts.size());
@@ -128,6 +163,20 @@ void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) 
     }
 }
 
+void ManifoldProblem::let_bounce(contact::ProblemContact& contact,
+                                 const Carried& carried) noexcept {
+    const Impact& last = carried.last;
+    const double free = contact::normal_velocity(problem_, contact);
+    if (last.speed > 0) {
+        const double speed = rebound(last, carried.law.restitution, free);
+        if (speed > 0) {
+            contact.bias = -speed;
+            return;  // it leaves, and meets nothing
+        }
+    }
+    free_.back() = free;
+}
+
 void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const noexcept {
     size_t j = 0;
     for (btPersistentManifold* manifold : manifolds) {
@@ -137,6 +186,10 @@ void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const no
             now.normal = impulses_[j][0];
             now.friction_W = impulses_[j][1] * R.col(1) + impulses_[j][2] * R.col(2);
             now.moment = impulses_[j][3];
+            now.now = {};
+            if (free_[j] >= 0 || impulses_[j][0] <= 0) continue;
+            const double bias = problem_.contacts[j].bias;
+            now.now = {-free_[j], std::clamp(bias / -free_[j], 0.0, 1.0), -bias};
         }
     }
 }

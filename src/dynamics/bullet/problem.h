@@ -12,6 +12,8 @@
 
 namespace dihaptic::dynamics {
 
+struct Carried;
+
 /// A problem made of some manifolds, with the last step's impulses as a start.
 class ManifoldProblem {
   public:
@@ -42,11 +44,14 @@ class ManifoldProblem {
 
   private:
     void read_impulses(std::span<btPersistentManifold*> manifolds) noexcept;
+    /// Has bodies leave that met in the last step, and notes how they meet in this one.
+    void let_bounce(contact::ProblemContact& contact, const Carried& carried) noexcept;
 
     contact::ContactProblem problem_;
     std::vector<contact::Impulse> impulses_;
     std::vector<Vec3> joint_impulses_;
-    std::vector<int> index_;  // index in the problem, by a body's user index
+    std::vector<double> free_;  // of contacts that may bounce: normal velocity without them [m/s]
+    std::vector<int> index_;    // index in the problem, by a body's user index
     std::vector<double> torsion_radii_;
 };
 

@@ -52,8 +52,7 @@ struct Room {
             point = world->add_point(spec, p);
             world->activate();
             if (apart) {
-                finger =
-                    std::make_unique<Finger>(PointProxy(scene, 0, point, coupling, proxy), point);
+                finger = std::make_unique<Finger>(PointProxy(scene, point, coupling, proxy), point);
             } else {
                 finger =
                     std::make_unique<Finger>(SolvedPoint(scene, point, coupling, proxy), point);

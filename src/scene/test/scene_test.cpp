@@ -79,11 +79,68 @@ TEST(Integrals, OfSphereAndCylinder) {
 
 TEST(PairFriction, IsWhatTheFileSaysOfThePairOrElseTheGeometricMean) {
     Scene scene;
-    scene.pairs = {{{"thumb", "block"}, 0.35, {}}};
+    scene.pairs = {{{"thumb", "block"}, 0.35, {}, {}}};
     EXPECT_DOUBLE_EQ(pair_friction(scene, "block", 0.8, "table", 0.8), 0.8);
     EXPECT_DOUBLE_EQ(pair_friction(scene, "block", 0.9, "table", 0.4), 0.6);
     EXPECT_EQ(pair_friction(scene, "block", 0.8, "thumb", 0.8), 0.35);
     EXPECT_EQ(pair_friction(scene, "block", 0, "table", 0.8), 0);
+}
+
+TEST(PairSurface, FollowsFromTheTwoSurfaces) {
+    const Scene scene;
+    Surface sponge, foam, ball, ice;
+    sponge.stiffness = 300;
+    sponge.damping = 3;
+    foam.stiffness = 600;
+    ball.restitution = 0.7;
+    ice.dynamic_friction = 0.1;
+    ice.film = 2;
+    const auto pair = [&](double friction_a, const Surface& a, double friction_b,
+                          const Surface& b) {
+        return pair_surface(scene, {"a", friction_a, a}, {"b", friction_b, b});
+    };
+    EXPECT_FALSE(pair(0.5, {}, 0.5, {}).is_soft());
+    EXPECT_TRUE(pair(0.5, {}, 0.5, ball).slides_like_coulomb());
+    EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, {}).stiffness, 300);
+    EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, {}).damping, 3);
+    // a force that grows by 1 N/s presses the sponge by 1/300 m/s, which its damper resists
+    EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, foam).stiffness, 200);
+    EXPECT_DOUBLE_EQ(pair(0.5, sponge, 0.5, foam).damping, 3 * 4.0 / 9);
+    EXPECT_DOUBLE_EQ(pair(0.5, ball, 0.5, {}).restitution, 0.7);
+    EXPECT_DOUBLE_EQ(pair(0.9, ice, 0.4, {}).dynamic_friction, 0.2);
+    EXPECT_DOUBLE_EQ(pair(0.9, ice, 0.4, {}).friction, 0.6);
+    EXPECT_DOUBLE_EQ(pair(0.9, ice, 0.4, ice).film, 4);
+}
+
+TEST(PairSurface, IsWhatTheFileSaysOfThePair) {
+    Scene scene;
+    Pair pair;
+    pair.between = {"b", "a"};
+    pair.friction = 0.3;
+    pair.surface.restitution = 0.2;
+    pair.surface.stiffness = 1000;
+    scene.pairs = {pair};
+    Surface own;
+    own.restitution = 0.9;
+    own.dynamic_friction = 0.25;
+    const PairSurface surface = pair_surface(scene, {"a", 0.5, own}, {"b", 0.5, own});
+    EXPECT_EQ(surface.restitution, 0.2);
+    EXPECT_EQ(surface.stiffness, 1000);
+    EXPECT_EQ(surface.friction, 0.3);
+    EXPECT_EQ(surface.dynamic_friction, 0.3);
+}
+
+TEST(PairSurface, FallsByStribecksCurveAndRisesByItsFilm) {
+    PairSurface surface;
+    surface.friction = 0.6;
+    surface.dynamic_friction = 0.4;
+    surface.stribeck_speed = 0.05;
+    EXPECT_DOUBLE_EQ(surface.friction_at(0, 1), 0.6);
+    EXPECT_NEAR(surface.friction_at(0.05, 1), 0.4 + 0.2 / std::numbers::e, 1e-12);
+    EXPECT_NEAR(surface.friction_at(1, 1), 0.4, 1e-12);
+    surface.film = 3;
+    EXPECT_NEAR(surface.friction_at(1, 2), 0.4 + 1.5, 1e-12);
+    EXPECT_NEAR(surface.friction_at(1, 0), 0.4, 1e-12);
 }
 
 /// The messages that reading a scene gives.
@@ -132,6 +189,27 @@ TEST_P(BadScene, IsReported) {
 INSTANTIATE_TEST_SUITE_P(
     SceneFile, BadScene,
     ::testing::Values(
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100,\n     surface: "
+            "{damping_Ns_m: 3}}\n",
+            "scene.yaml:3: error: damping: is beside no stiffness"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, surface: "
+            "{stiffness_N_m: 500, restitution: 0.5}}\n",
+            "restitution: stands beside a stiffness"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, surface: "
+            "{stiffness_N_m: 5}}\n",
+            "stiffness_N_m: must be at least 50"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, surface: "
+            "{restitution: 1.5}}\n",
+            "restitution: must be"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, friction: 0.4, "
+            "surface: {dynamic_friction: 0.5}}\n",
+            "dynamic_friction: is above the static coefficient of 0.4"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400, surface: "
+            "{stiffness_N_m: 200}}\n",
+            "lets b sink by 19.6 mm under its own weight, and it is 40 mm thick"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\npairs:\n  - "
+            "{between: [b, thumb]}\n",
+            "friction: is missing, and there is no surface"},
         Bad{"title: x\n", "bodies: is missing"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n",
             "scene.yaml:2: error: mass_g: must be positive, is -100"},

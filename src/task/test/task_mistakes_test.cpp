@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kRotation, "body: { body: blok, mass_scale: [2, 2, 1] }", "Did you mean block?"},
         Mistake{kRotation, "body: { body: table, mass_scale: [2, 2, 1] }", "'table' cannot move"},
         Mistake{kRotation, "body: { body: table, friction_scale: 2, weight_scale: 2 }",
-                "or change its friction alone"},
+                "or change its friction and surface alone"},
         Mistake{kRotation, "body: { body: block, mass_scale: 2 }", "must be three numbers"},
         Mistake{kRotation, "body: { body: block, weight_scale: heavy }", "must be a number"},
         Mistake{kRotation, "visual:", "visual"},

@@ -1,0 +1,277 @@
+// Tests surfaces in a world against closed forms: soft contacts, bounces, friction that falls with
+// speed, and viscous films.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "dynamics/test/blocks.h"
+
+namespace dihaptic::dynamics::surfaces_test {
+namespace {
+
+/// A world of a table, whose top is at z = 0, and one body on it.
+struct OnTable {
+    scene::Body table = dynamics::table();
+    scene::Body body;
+    Settings settings = awake();
+
+    explicit OnTable(scene::Body what) : body(std::move(what)) {}
+    World make() const { return dynamics::make({table, body}, settings); }
+};
+
+const BodyIndex kBody{1};
+
+class OfEach : public ::testing::TestWithParam<Solver> {};
+INSTANTIATE_TEST_SUITE_P(Surfaces, OfEach,
+                         ::testing::Values(Solver::newton, Solver::staggered_projections,
+                                           Solver::stewart_trinkle, Solver::sequential_impulse),
+                         [](const auto& which) {
+                             return std::string(
+                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
+                         });
+
+TEST_P(OfEach, AreAsSoftAsTheySay) {
+    constexpr double kMass = 0.2;
+    for (const double k : {200.0, 1000.0, 20'000.0}) {
+        for (const bool series : {false, true}) {
+            OnTable on(box("block", {0.05, 0.05, 0.04}, {0, 0, 0.02}, kMass));
+            on.settings.solver = GetParam();
+            on.body.surface.stiffness = series ? 2 * k : k;
+            on.body.surface.damping = 2 * std::sqrt(k * kMass);
+            if (series) on.table.surface = on.body.surface;
+            World world = on.make();
+            for (int i = 0; i < 3000; ++i) world.step(kStep);
+            const double depth = 0.02 - world.state(kBody).X_WB.p.z();
+            EXPECT_NEAR(depth / (kMass * kGravity / k), 1, 1e-6) << k << " " << series;
+            double force = 0;
+            for (const contact::Contact& c : world.contacts()) force += c.normal_force;
+            EXPECT_NEAR(force, kMass * kGravity, 1e-6 * kMass * kGravity);
+        }
+    }
+}
+
+TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
+    // a block pressed into a surface by less than its weight presses it swings like on a spring
+    constexpr double kMass = 0.2;
+    for (const double hz : {3.0, 8.0, 15.0}) {
+        const double omega = 2 * std::numbers::pi * hz;
+        const double k = kMass * omega * omega;
+        const double sunk = kMass * kGravity / k;
+        OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
+        on.body.turns = scene::Axes::none;  // it would fall over
+        on.body.surface.stiffness = k;
+        World world = on.make();
+        std::vector<double> passes;
+        double before = -1;
+        double lowest_of_first = 0;
+        double lowest_of_last = 0;
+        constexpr int kSwings = 10;
+        for (int i = 1; passes.size() <= kSwings && i < 20'000; ++i) {
+            world.step(kStep);
+            const double x = world.state(kBody).X_WB.p.z() - 0.1 + sunk;
+            if (before > 0 && x <= 0) passes.push_back(kStep * (i - x / (x - before)));
+            if (passes.size() == 1) lowest_of_first = std::min(lowest_of_first, x);
+            if (passes.size() == kSwings) lowest_of_last = std::min(lowest_of_last, x);
+            before = x;
+        }
+        ASSERT_GT(passes.size(), kSwings);
+        EXPECT_NEAR(hz * (passes[kSwings] - passes[0]) / kSwings, 1, 2e-3) << hz;
+        EXPECT_GT(lowest_of_last / lowest_of_first, 1 - 0.012 * hz) << hz;
+        EXPECT_LT(lowest_of_last / lowest_of_first, 1.001) << hz;
+    }
+}
+
+TEST(SoftSurfaces, DampAsTheySay) {
+    // x = e^(-d t) cos(w t) with d = c / 2m, once the step's own share is small
+    constexpr double kMass = 0.2, k = 400, c = 1.5;
+    const double sunk = kMass * kGravity / k;
+    OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
+    on.body.surface.stiffness = k;
+    on.body.surface.damping = c;
+    World world = on.make();
+    const double d = c / (2 * kMass);
+    const double w = std::sqrt(k / kMass - d * d);
+    for (int i = 1; i <= 400; ++i) {
+        world.step(kStep);
+        const double t = i * kStep;
+        const double x =
+            0.4 * sunk * std::exp(-d * t) * (std::cos(w * t) + d / w * std::sin(w * t));
+        EXPECT_NEAR(world.state(kBody).X_WB.p.z() - 0.1 + sunk, x, 0.02 * sunk) << i;
+    }
+}
+
+scene::Body ball(double height, double restitution) {
+    scene::Body out;
+    out.name = "ball";
+    out.shape = scene::Shape::sphere(0.02);
+    out.mass = 0.05;
+    out.position = {0, 0, 0.02 + height};
+    out.surface.restitution = restitution;
+    return out;
+}
+
+/// Height of the next apex above the table [m].
+double apex(World& world) {
+    double last = world.state(kBody).v_WB.z();
+    for (int i = 0; i < 5000; ++i) {
+        world.step(kStep);
+        const double v = world.state(kBody).v_WB.z();
+        // velocities are those of the middle of a step
+        if (last > 0 && v <= 0) return world.state(kBody).X_WB.p.z() - 0.02 - kStep * v;
+        last = v;
+    }
+    return 0;
+}
+
+TEST_P(OfEach, BounceByNewtonsLaw) {
+    Random random(7, "bounce");
+    for (const double e : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+        double sum = 0;
+        constexpr int kHeights = 40;
+        for (int i = 0; i < kHeights; ++i) {
+            const double height = random.uniform(0.19, 0.21);
+            OnTable on(ball(height, e));
+            on.settings.solver = GetParam();
+            World world = on.make();
+            const double share = apex(world) / height;
+            EXPECT_NEAR(share, e * e, 1e-2 * e * e + 1e-9) << e << " " << height;
+            sum += share - e * e;
+        }
+        EXPECT_NEAR(sum / kHeights, 0, 2e-3 * e * e + 1e-9) << e;
+    }
+}
+
+TEST(BouncingSurfaces, ComeToRestAndNeverGainHeight) {
+    OnTable on(ball(0.2, 0.7));
+    World world = on.make();
+    double before = 0.2;
+    for (int bounce = 0; bounce < 6; ++bounce) {
+        const double now = apex(world);
+        EXPECT_LT(now, 0.51 * before);
+        before = now;
+    }
+    // 2 v / g (1 + e + e^2 + ...) = 1.1 s until it lies still
+    for (int i = 0; i < 2000; ++i) world.step(kStep);
+    EXPECT_NEAR(world.state(kBody).X_WB.p.z(), 0.02, 1e-6);
+    EXPECT_NEAR(world.state(kBody).v_WB.z(), 0, 1e-9);
+}
+
+TEST(BouncingSurfaces, KeepTheirEnergyWithoutLoss) {
+    OnTable on(ball(0.2, 1));
+    World world = on.make();
+    double last = 0.2;
+    for (int bounce = 0; bounce < 40; ++bounce) last = apex(world);
+    EXPECT_NEAR(last, 0.2, 0.02 * 0.2);
+}
+
+TEST(BouncingSurfaces, ThrowABlockBackFromAllItsCornersWithoutTurningIt) {
+    OnTable on(box("block", {0.05, 0.05, 0.04}, {0, 0, 0.12}, 0.2));
+    on.body.surface.restitution = 0.6;
+    World world = on.make();
+    double highest = 0;
+    for (int i = 0; i < 330; ++i) {
+        world.step(kStep);
+        if (i > 200) highest = std::max(highest, world.state(kBody).X_WB.p.z() - 0.02);
+    }
+    EXPECT_NEAR(highest, 0.36 * 0.1, 0.02 * 0.036);
+    EXPECT_LT(world.state(kBody).w_WB.norm(), 1e-6);
+}
+
+TEST(BouncingSurfaces, ExchangeTheVelocitiesOfEqualBalls) {
+    scene::Scene scene;
+    scene.gravity.setZero();
+    scene.bodies = {ball(0, 1), ball(0, 1)};
+    scene.bodies[0].name = "still";
+    scene.bodies[0].position = Vec3::Zero();
+    scene.bodies[1].position = {-0.1, 0, 0};
+    World world(scene, awake());
+    world.activate();
+    world.set_velocity({1}, {0.7, 0, 0});
+    for (int i = 0; i < 300; ++i) world.step(kStep);
+    EXPECT_NEAR(world.state({0}).v_WB.x(), 0.7, 1e-6);
+    EXPECT_NEAR(world.state({1}).v_WB.x(), 0, 1e-6);
+}
+
+/// Where a block on a table is after some time, pushed by a force along x [N], and how fast.
+struct Slid {
+    double x = 0;
+    double v = 0;
+};
+Slid slides(const OnTable& on, double speed, double force, double duration) {
+    World world = on.make();
+    for (int i = 0; i < 20; ++i) world.step(kStep);
+    world.set_velocity(kBody, {speed, 0, 0});
+    const double from = world.state(kBody).X_WB.p.x();
+    for (int i = 0; i * kStep < duration; ++i) {
+        world.apply(kBody, {force, 0, 0}, Vec3::Zero());
+        world.step(kStep);
+    }
+    return {world.state(kBody).X_WB.p.x() - from, world.state(kBody).v_WB.x()};
+}
+
+/// The same by its equation of motion, in steps of 10 us. In the world the speed at the start is
+/// that of half a step later.
+Slid slides(const scene::PairSurface& surface, double mass, double speed, double force,
+            double duration) {
+    constexpr double kFine = 1e-5;
+    Slid out{-speed * kStep / 2, speed};
+    for (int i = 0; i * kFine < duration; ++i) {
+        const double before = out.v;
+        const double friction = kGravity * surface.friction_at(out.v, mass * kGravity);
+        out.v = std::max(0.0, out.v + kFine * (force / mass - friction));
+        out.x += kFine * (before + out.v) / 2;
+    }
+    return out;
+}
+
+constexpr double kMass = 0.2;
+OnTable plate() {
+    OnTable out(box("plate", {0.05, 0.05, 0.02}, {0, 0, 0.01}, kMass, 0.5));
+    out.table.friction = 0.5;
+    return out;
+}
+
+TEST(SlidingSurfaces, FollowStribecksCurve) {
+    OnTable on = plate();
+    on.body.surface.dynamic_friction = on.table.surface.dynamic_friction = 0.2;
+    on.body.surface.stribeck_speed = 0.2;
+    scene::PairSurface surface;
+    surface.friction = 0.5;
+    surface.dynamic_friction = 0.2;
+    surface.stribeck_speed = 0.2;
+    for (const double speed : {0.1, 0.3, 0.8})
+        EXPECT_NEAR(slides(on, speed, 0, 2).x / slides(surface, kMass, speed, 0, 2).x, 1, 0.01)
+            << speed;
+}
+
+TEST(SlidingSurfaces, HoldWithTheStaticCoefficientUntilTheySlide) {
+    OnTable on = plate();
+    on.body.surface.dynamic_friction = on.table.surface.dynamic_friction = 0.2;
+    scene::PairSurface surface;
+    surface.friction = 0.5;
+    surface.dynamic_friction = 0.2;
+    const double weight = kMass * kGravity;
+    EXPECT_LT(slides(on, 0, 0.499 * weight, 0.5).x, 1e-9);
+    const Slid exact = slides(surface, kMass, 0, 0.51 * weight, 0.5);
+    const Slid slid = slides(on, 0, 0.51 * weight, 0.5);
+    EXPECT_NEAR(slid.v / exact.v, 1, 0.01);
+    EXPECT_NEAR(slid.x / exact.x, 1, 0.01);
+}
+
+TEST(SlidingSurfaces, HaveTheDragOfAFilm) {
+    for (const double friction : {0.0, 0.1}) {
+        OnTable on = plate();
+        on.body.friction = on.table.friction = friction;
+        on.body.surface.film = 0.8;
+        scene::PairSurface surface;
+        surface.friction = surface.dynamic_friction = friction;
+        surface.film = 0.8;
+        EXPECT_NEAR(slides(on, 0.5, 0, 2).x / slides(surface, kMass, 0.5, 0, 2).x, 1, 0.01)
+            << friction;
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::dynamics::surfaces_test

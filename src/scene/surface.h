@@ -1,0 +1,104 @@
+// Describes what a surface does where something touches it: how it slides, gives way and bounces.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/field_reader.h"
+
+namespace dihaptic::scene {
+
+/// Limits of a surface: softer ones let bodies pass through each other, and harder ones are rigid.
+constexpr double kSoftest = 50;   // [N/m]
+constexpr double kHardest = 1e6;  // [N/m]
+constexpr double kMostFriction = 100;
+
+/// What a body, a finger or a pair of them says of its surface; what it leaves out it does not
+/// have, and a pair leaves to its two surfaces.
+struct Surface {
+    std::optional<double> stiffness;         ///< of a face that is pressed [N/m]; none: rigid
+    std::optional<double> damping;           ///< beside it [N*s/m]
+    std::optional<double> restitution;       ///< Newton's, from 0 to 1
+    std::optional<double> dynamic_friction;  ///< coefficient while it slides; none: the static one
+    std::optional<double> stribeck_speed;    ///< see friction_at() [m/s]
+    std::optional<double> film;              ///< viscous drag of a face that slides [N*s/m]
+    Place place;
+
+    bool operator==(const Surface& other) const {
+        return stiffness == other.stiffness && damping == other.damping &&
+               restitution == other.restitution && dynamic_friction == other.dynamic_friction &&
+               stribeck_speed == other.stribeck_speed && film == other.film;
+    }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("stiffness", stiffness,
+          Field::of(Quantity::stiffness)
+              .within(kSoftest, kHardest)
+              .says(
+                  "Stiffness of a face that is pressed, for soft things; two soft ones are springs "
+                  "in series. Left out, it is rigid."));
+        v("damping", damping,
+          Field::of(Quantity::damping).within(0, 1000).says("Damper beside the stiffness."));
+        v("restitution", restitution,
+          Field::number().within(0, 1).says(
+              "Speed after a bounce over the speed before it, Newton's law; of two surfaces, the "
+              "larger counts."));
+        v("dynamic_friction", dynamic_friction,
+          Field::number()
+              .within(0, kMostFriction)
+              .says("Coefficient of friction while it slides, at most the static one; of two "
+                    "surfaces, the geometric mean counts."));
+        v("stribeck_speed", stribeck_speed,
+          Field::of(Quantity::speed)
+              .within(1e-4, 10)
+              .says(
+                  "Speed of sliding at which friction has fallen from the static to the dynamic "
+                  "coefficient by 1 - 1/e; of two surfaces, the mean counts. Left out, 10 mm/s."));
+        v("film", film,
+          Field::of(Quantity::damping)
+              .within(0, 1000)
+              .says("Viscous drag of a face that slides, besides its friction; those of two "
+                    "surfaces are added."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// What two surfaces do where they touch each other.
+struct PairSurface {
+    double friction = 0;          ///< static coefficient
+    double dynamic_friction = 0;  ///< at most the static one
+    double stribeck_speed = 0.01;
+    double film = 0;
+    double restitution = 0;
+    double stiffness = std::numeric_limits<double>::infinity();
+    double damping = 0;
+
+    bool is_soft() const { return stiffness < std::numeric_limits<double>::infinity(); }
+    bool slides_like_coulomb() const { return dynamic_friction == friction && film == 0; }
+
+    /// Coefficient of friction at a speed of sliding [m/s] under a normal force [N]: Stribeck's
+    /// curve, from the static to the dynamic coefficient, and the film's drag.
+    ///
+    ///     mu_d + (mu_s - mu_d) exp(-(v / v_s)^2) + film v / N
+    double friction_at(double speed, double normal_force) const noexcept;
+};
+
+/// One side of a pair.
+struct SurfaceOf {
+    const std::string& name;
+    double friction = 0;
+    const Surface& surface;
+};
+
+struct Scene;
+
+/// What the surfaces of two bodies or fingers do together: what the file says of the pair, or else
+/// what follows from their own.
+PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf& b);
+
+/// Checks that the keys of a surface go together; `friction` is its static coefficient, if known.
+void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::scene
