@@ -9,6 +9,7 @@
 #include "bench/friction.h"
 #include "bench/heap.h"
 #include "bench/jitter.h"
+#include "bench/mechanics.h"
 #include "bench/scale.h"
 #include "bench/solvers.h"
 #include "bench/task.h"
@@ -264,6 +265,33 @@ void add_task(CLI::App& app) {
     });
 }
 
+void add_mechanics(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "mechanics",
+        "Pendulums, springs, linkages, bounces and soft surfaces against closed forms");
+    auto options = std::make_shared<BenchOptions>();
+    add_choice(*command, "--solver", options->solver, "only this one; otherwise all");
+    add_json(*command, options->json);
+    command->footer("\nExample:\n  dihaptic-bench mechanics --solver newton");
+    command->callback([command, options] {
+        std::vector<bench::MechanicsFigures> figures;
+        {
+            ProgressLine line("bench mechanics");
+            const bool all = command->count("--solver") == 0;
+            const int solvers = all ? contact::kSolvers : 1;
+            for (int i = 0; i < solvers; ++i) {
+                const auto solver = all ? static_cast<dynamics::Solver>(i) : options->solver;
+                figures.push_back(
+                    bench::bench_mechanics(solver, [&](const std::string& what, double share) {
+                        line.show((i + share) / solvers,
+                                  fmt::format("{}, {}", enum_name(solver), what));
+                    }));
+            }
+        }
+        print_rows("solvers", figures, options->json);
+    });
+}
+
 void add_view(CLI::App& app) {
     auto* command = app.add_subcommand(
         "view", "What a picture costs, beside the same one with a plain shadow map");
@@ -298,6 +326,7 @@ int main(int argc, char** argv) {
     cli::add_solvers(app);
     cli::add_jitter(app);
     cli::add_task(app);
+    cli::add_mechanics(app);
     cli::add_view(app);
     return cli::run_program(app, argc, argv);
 }

@@ -21,13 +21,15 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
-State state_of(const Sample& s) {
+State state_of(const Sample& s, bool flies) {
     if (!s.awake || !s.X_WB.p.allFinite()) return {};
     if (s.on_support) {
         if (!(s.v_sliding.norm() > kSlideSpeed)) return {};
         return {EpisodeKind::slide, s.touching};
     }
-    return {s.touched() ? EpisodeKind::hold : EpisodeKind::flight, s.touching};
+    if (s.touched()) return {EpisodeKind::hold, s.touching};
+    if (!flies) return {};
+    return {EpisodeKind::flight, s.touching};
 }
 
 struct Run {
@@ -37,14 +39,14 @@ struct Run {
 
 /// Stretches of one state that last long enough. Holds, or slides, that are separated only by
 /// shorter stretches count as one.
-std::vector<Run> runs_of(const GraspTrace& trace) {
+std::vector<Run> runs_of(const GraspTrace& trace, bool flies) {
     const std::vector<Sample>& samples = trace.samples();
     const auto shortest = static_cast<size_t>(std::ceil(kShortest / trace.tick()));
     std::vector<Run> out;
     for (size_t first = 0; first < samples.size();) {
-        const State state = state_of(samples[first]);
+        const State state = state_of(samples[first], flies);
         size_t last = first + 1;
-        while (last < samples.size() && state_of(samples[last]) == state) ++last;
+        while (last < samples.size() && state_of(samples[last], flies) == state) ++last;
         if (state.kind && last - first >= shortest) {
             const bool goes_on = !out.empty() && out.back().state == state &&
                                  *state.kind != EpisodeKind::flight &&
@@ -148,7 +150,7 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
 
 std::vector<Episode> find_episodes(const GraspTrace& trace, const ObjectFacts& object) {
     std::vector<Episode> out;
-    for (const Run& run : runs_of(trace)) {
+    for (const Run& run : runs_of(trace, object.flies)) {
         Episode episode;
         episode.kind = *run.state.kind;
         episode.range = run.range;

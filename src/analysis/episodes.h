@@ -74,6 +74,7 @@ struct ObjectFacts {
     Vec3 gravity = Vec3::Constant(kUnmeasured);
     std::vector<double> friction;         ///< coefficient with each body of the scene
     std::vector<double> finger_friction;  ///< coefficient with each finger
+    bool flies = true;  ///< what nothing touches falls: no joint and no rail holds it
 };
 
 /// Episodes in order of time. A state that lasts less than 20 ms is no episode.

@@ -83,6 +83,7 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
         ObjectFacts facts;
         facts.mass = scene::mass(object);
         facts.gravity = scene.gravity;
+        facts.flies = scene::flies(scene, object);
         for (const scene::Body& body : scene.bodies) {
             facts.friction.push_back(scene::pair_friction(scene, object.name, object.friction,
                                                           body.name, body.friction));

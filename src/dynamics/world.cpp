@@ -66,10 +66,12 @@ World::World(const scene::Scene& scene, const Settings& settings)
     impl_->scene = scene;
     impl_->settings = settings;
     for (const scene::Body& body : scene.bodies) {
-        const bool fixed = body.fixed;
-        impl_->add(body.name, body.shape, fixed ? 0 : scene::mass(body), body.friction,
-                   body.torsion_radius, body.pose(), fixed ? Vec3::Zero() : factors(body.moves),
-                   fixed ? Vec3::Zero() : factors(body.turns));
+        // what is driven moves as if its mass had no end: see inverse_mass_of()
+        const double mass = body.fixed ? 0 : body.driven ? 1 : scene::mass(body);
+        impl_->add(body.name, body.shape, mass, body.friction, body.torsion_radius, body.pose(),
+                   body.fixed ? Vec3::Zero() : factors(body.moves),
+                   body.fixed ? Vec3::Zero() : factors(body.turns));
+        impl_->items.back().is_driven = body.driven;
         impl_->items.back().surface = body.surface;
     }
     for (const scene::Joint& joint : scene.joints) impl_->add(joint);
@@ -245,6 +247,7 @@ void World::mend() noexcept {
         Impl::Item& item = w.items[i];
         item.force.setZero();
         item.torque.setZero();
+        item.drive_to.reset();
         if (w.is_sound(i)) continue;
         // a proxy's position will follow from its handle
         const Pose X_WB = i < w.scene.bodies.size() ? w.scene.bodies[i].pose() : Pose{};
@@ -357,6 +360,13 @@ void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     }
     impl_->read_state(i, states_[i]);
     impl_->joints.read();
+}
+
+void World::drive(BodyIndex body, const Pose& X_WB) noexcept {
+    const auto i = static_cast<size_t>(body.value);
+    if (!impl_->items[i].can_move) return;
+    impl_->items[i].drive_to = X_WB;
+    impl_->wake(i, states_);
 }
 
 void World::apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept {

@@ -140,6 +140,10 @@ class World {
     void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
     /// Puts a body somewhere else, at rest. If it is fixed, all others wake.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
+    /// Moves a body that is not fixed to a pose within the next step, whatever presses on it; it
+    /// keeps the velocity that takes it there. A body that is driven in the scene stays where no
+    /// call moves it on.
+    void drive(BodyIndex body, const Pose& X_WB) noexcept;
     /// Adds to the loads of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
     /// Adds a force that acts at p_W [m] to the loads of the next step.

@@ -38,6 +38,8 @@ struct World::Impl {
         bool is_point = false;
         bool may_be_point = false;  // it has parts, which are hidden while it is a point
         bool can_move = false;
+        bool is_driven = false;        // in the scene: only drive() moves it
+        std::optional<Pose> drive_to;  // where it gets in the coming step
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
         double mass = 0;
@@ -118,6 +120,8 @@ struct World::Impl {
     contact::Mat6 inverse_mass_of(const Item& item) const;
     void note_stepped();
     void integrate_loads(double h, const Vec3& gravity);
+    /// Gives a body the velocities that take it where it is driven in the step.
+    void drive(Item& item, double h);
     void update_bounds(double h);
     /// Gives new contacts the properties of their pair's surfaces, and something to carry.
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);

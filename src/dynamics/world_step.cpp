@@ -143,6 +143,7 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
 
 contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     contact::Mat6 out = contact::Mat6::Zero();
+    if (item.is_driven || item.drive_to) return out;
     // its inertia may differ by the world's axes
     out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
     out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
@@ -153,6 +154,24 @@ contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     return out;
 }
 
+void World::Impl::drive(Item& item, double h) {
+    item.force.setZero();
+    item.torque.setZero();
+    Vec3 v = Vec3::Zero();
+    Vec3 w = Vec3::Zero();
+    if (item.drive_to) {
+        const Pose X_WM = from_bullet(item.body->getWorldTransform());
+        const Pose to = *item.drive_to * item.X_BM;
+        v = (to.p - X_WM.p) / h;
+        w = rotation_vector(to.R * X_WM.R.conjugate()) / h;
+        item.drive_to.reset();
+    }
+    item.body->setLinearVelocity(to_bullet(v));
+    item.body->setAngularVelocity(to_bullet(w));
+    item.body->setInterpolationLinearVelocity(item.body->getLinearVelocity());
+    item.body->setInterpolationAngularVelocity(item.body->getAngularVelocity());
+}
+
 void World::Impl::integrate_loads(double h, const Vec3& gravity) {
     for (const size_t i : awake) {
         Item& item = items[i];
@@ -160,6 +179,10 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         inverse_mass[i] = inverse_mass_of(item);
         item.v_last = body.getLinearVelocity();
         item.w_last = body.getAngularVelocity();
+        if (item.is_driven || item.drive_to) {
+            drive(item, h);
+            continue;
+        }
         contact::Vec6 load;
         load << item.force, item.torque;
         if (!item.is_proxy) load.head<3>() += item.properties.weight * item.mass * gravity;
@@ -389,12 +412,15 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
     constexpr int kMostGuesses = 4;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
+    // sweeps leave errors in chains of joints, which then gain energy from step to step
+    const bool sweeps = settings.solver == Solver::sequential_impulse;
+    const Solver solver = sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
     int iterations = 0;
     int work = 0;
     for (int guess = 1;; ++guess) {
         contact::SolveStats stats;
-        solvers.solve(settings.solver, how, problem.problem(), problem.impulses(),
-                      problem.joint_impulses(), stats);
+        solvers.solve(solver, how, problem.problem(), problem.impulses(), problem.joint_impulses(),
+                      stats);
         iterations = stats.iterations += iterations;
         work = stats.work += work;
         if (island_joints.empty() || stats.refused || guess == kMostGuesses) return stats;

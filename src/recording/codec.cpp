@@ -73,13 +73,14 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.task.properties.resize(servo::TaskFrame::kMostProperties);
     frame.task.loads.resize(servo::TaskFrame::kMostLoads);
     frame.task.placements.resize(layout.bodies);
+    frame.task.drives.resize(layout.bodies);
     frame.task.variables.resize(servo::TaskFrame::kMostVariables);
     frame.task.looks.resize(layout.bodies + layout.fingers);
     frame.task.displaced.resize(1 + layout.fingers);
     frame.task.lines.resize(servo::TaskFrame::kMostLines);
     frame.task.numbers.resize(servo::TaskFrame::kMostNumbers);
     std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +
-                                 384 * layout.bodies + 128 * layout.joints + 256 * contacts);
+                                 448 * layout.bodies + 128 * layout.joints + 256 * contacts);
     return encode(frame, bytes, Bodies::all);
 }
 

@@ -38,7 +38,7 @@ bool is_possible(const servo::TaskFrame& task, size_t bodies, size_t all) noexce
                            [count](const auto& item) { return is_index(item.body, count); });
     };
     return each(task.properties, all) && each(task.loads, all) && each(task.placements, bodies) &&
-           each(task.looks, all) && each(task.displaced, all) &&
+           each(task.drives, bodies) && each(task.looks, all) && each(task.displaced, all) &&
            std::all_of(task.visual.begin(), task.visual.end(),
                        [&](const servo::VisualMap& map) { return is_index(map.object, bodies); });
 }

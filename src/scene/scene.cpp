@@ -128,9 +128,16 @@ bool check_weight(const Body& body, Diagnostics& diagnostics) {
     return true;
 }
 
+void check_driven(const Body& body, Diagnostics& diagnostics) {
+    if (!body.fixed && !body.weighed) return;
+    diagnostics.error(body.place, body.fixed ? "fixed" : "mass", "goes with no body that is driven",
+                      "Leave it out.");
+}
+
 void check_body(const Body& body, Diagnostics& diagnostics) {
     check_plausible(body.shape, body.place, diagnostics);
-    if (body.shape.kind == ShapeKind::plane && body.moves_at_all()) {
+    if (body.driven) check_driven(body, diagnostics);
+    if (body.shape.kind == ShapeKind::plane && (body.moves_at_all() || body.driven)) {
         diagnostics.error(body.place, "fixed", "a plane is infinite and cannot move",
                           "Add fixed: yes.");
     }
@@ -138,7 +145,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
         diagnostics.error(body.place, "density", "both mass and density are given",
                           "Keep one of the two.");
     }
-    if (body.fixed || !check_weight(body, diagnostics)) return;
+    if (body.fixed || body.driven || !check_weight(body, diagnostics)) return;
     const bool two_axes =
         body.turns == Axes::xy || body.turns == Axes::xz || body.turns == Axes::yz;
     if (two_axes) {
@@ -272,6 +279,41 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
                           "Exchange the two.");
 }
 
+/// Warns of a joint that begins beyond its stops, which would throw what it joins.
+void check_start(const Joint& joint, Diagnostics& diagnostics) {
+    if (!joint.has_coordinate()) return;
+    double start = 0;
+    if (joint.is_distance() && joint.second_position)
+        start = (*joint.second_position - joint.position).norm();
+    constexpr double kSlack = 1e-9;
+    const bool below = joint.low && start < *joint.low - kSlack;
+    if (!below && !(joint.high && start > *joint.high + kSlack)) return;
+    const double unit = joint.slides() ? 1e-3 : kDegree;
+    diagnostics.warning(
+        joint.place, below ? "low" : "high",
+        fmt::format("{} begins at {:.4g} {}, beyond its stop at {:.4g}", joint.name, start / unit,
+                    joint.slides() ? "mm" : "deg", (below ? *joint.low : *joint.high) / unit),
+        "Begin within its stops: the first tick would throw what it joins there.");
+}
+
+/// Warns of joined bodies so different in mass that rounding shows in what the light one does.
+void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
+    constexpr double kApart = 1e6;
+    if (joint.between.size() != 2) return;
+    double masses[2];
+    for (size_t i = 0; i < 2; ++i) {
+        const int body = scene.find(joint.between[i]);
+        if (body < 0 || !scene.bodies[static_cast<size_t>(body)].moves_at_all()) return;
+        masses[i] = mass(scene.bodies[static_cast<size_t>(body)]);
+    }
+    const auto [light, heavy] = std::minmax(masses[0], masses[1]);
+    if (!(light > 0) || heavy < kApart * light) return;
+    diagnostics.warning(
+        joint.place, joint.name,
+        fmt::format("joins {:.3g} kg to {:.3g} kg, a ratio above {:g}", light, heavy, kApart),
+        "Check the units of their masses.");
+}
+
 void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
     std::vector<std::string> bodies;
     for (const Body& body : scene.bodies) bodies.push_back(body.name);
@@ -339,6 +381,8 @@ void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     for (const Joint& joint : scene.joints) {
         check_axis(joint, diagnostics);
         check_points(joint, diagnostics);
+        check_start(joint, diagnostics);
+        check_masses(joint, scene, diagnostics);
         check_between(joint, scene, diagnostics);
     }
 }
@@ -409,6 +453,15 @@ double pair_friction(const Scene& scene, const std::string& a, double friction_a
 
 double mass(const Body& body) {
     return body.mass ? *body.mass : body.density.value_or(0) * integrate(body.shape).volume;
+}
+
+bool flies(const Scene& scene, const Body& body) {
+    const auto holds = [&](const Joint& joint) {
+        return std::find(joint.between.begin(), joint.between.end(), body.name) !=
+               joint.between.end();
+    };
+    return body.moves_at_all() && body.moves == Axes::xyz &&
+           std::none_of(scene.joints.begin(), scene.joints.end(), holds);
 }
 
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,

@@ -36,6 +36,7 @@ struct Body {
     std::optional<double> mass;     ///< [kg]; this or the density, unless the body is fixed
     std::optional<double> density;  ///< [kg/m^3]
     bool fixed = false;             ///< never moves
+    bool driven = false;            ///< moves where a task drives it, whatever presses on it
     Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< at the start, about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
@@ -60,6 +61,8 @@ struct Body {
         v("density", density,
           Field::of(Quantity::density).within(0.01, 1e5).says("Density, in place of the mass."));
         v("fixed", fixed, says("Whether it never moves."));
+        v("driven", driven,
+          says("Whether it moves as a task drives it and not otherwise, whatever presses on it."));
         v("position", position,
           Field::length()
               .within(-kFurthest, kFurthest)
@@ -86,7 +89,10 @@ struct Body {
     }
 
     Pose pose() const { return {rotation_xyz(rotation), position}; }
-    bool moves_at_all() const { return !fixed && (moves != Axes::none || turns != Axes::none); }
+    /// Whether anything can make it move that presses or pulls.
+    bool moves_at_all() const {
+        return !fixed && !driven && (moves != Axes::none || turns != Axes::none);
+    }
 };
 
 /// What a finger's proxy is: a rigid body of the finger's shape, or a point kept on surfaces.
@@ -214,6 +220,9 @@ double pair_friction(const Scene& scene, const std::string& a, double friction_a
 
 /// Mass of a body that is not fixed, from its mass or its density [kg].
 double mass(const Body& body);
+
+/// Whether a body falls freely where nothing touches it: no joint, rail or axis holds it.
+bool flies(const Scene& scene, const Body& body);
 
 /// Reads a scene file and its meshes, until `stop`. Reports all problems to `diagnostics` and
 /// returns what could be read.

@@ -373,6 +373,7 @@ void Servo::order_bodies() noexcept {
     const TaskFrame& task = commands_.task;
     for (const PlacementFrame& placement : task.placements)
         world_.set_pose({placement.body}, placement.X_WB);
+    for (const DriveFrame& drive : task.drives) world_.drive({drive.body}, drive.X_WB);
     const auto ordered = [&](const PropertiesFrame& before) {
         return std::any_of(task.properties.begin(), task.properties.end(),
                            [&](const PropertiesFrame& now) { return now.body == before.body; });

@@ -130,6 +130,19 @@ struct PlacementFrame {
     }
 };
 
+struct DriveFrame {
+    int32_t body = -1;
+    Pose X_WB;
+
+    template <class Self, class Visitor>
+    static void visit(Self& d, Visitor& v) {
+        v(d.body, {"body", "1", "", "Index of the body."});
+        v(d.X_WB.p, {"position", "m", "W", "Where its origin is at the end of the tick."});
+        v(d.X_WB.R,
+          {"orientation", "1", "W", "Unit quaternion that turns its axes into the world's, then."});
+    }
+};
+
 struct VariableFrame {
     double value = 0;
 
@@ -209,6 +222,7 @@ struct TaskFrame {
     std::vector<PropertiesFrame> properties;
     std::vector<LoadFrame> loads;
     std::vector<PlacementFrame> placements;
+    std::vector<DriveFrame> drives;
     std::vector<VariableFrame> variables;
     std::vector<LookFrame> looks;
     std::vector<DisplacedFrame> displaced;
@@ -221,6 +235,7 @@ struct TaskFrame {
         properties.reserve(kMostProperties);
         loads.reserve(kMostLoads);
         placements.reserve(bodies);
+        drives.reserve(bodies);
         variables.reserve(kMostVariables);
         looks.reserve(bodies + kMostFingers);
         displaced.reserve(1 + kMostFingers);
@@ -238,6 +253,7 @@ struct TaskFrame {
         properties.clear();
         loads.clear();
         placements.clear();
+        drives.clear();
         variables.clear();
         looks.clear();
         displaced.clear();
@@ -261,6 +277,7 @@ struct TaskFrame {
                "One for each body whose properties differ from the scene's.");
         v.each("loads", t.loads, "One for each force on a body or a handle.");
         v.each("placements", t.placements, "One for each body that is put at a pose, at rest.");
+        v.each("drives", t.drives, "One for each body that is driven: where it gets in the tick.");
         v.each(
             "variables", t.variables,
             "One for each variable of the task: its value in this trial, and in the trial's last "

@@ -189,6 +189,14 @@ void check_limits(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
+void check_solver(const Plan& plan, Diagnostics& diagnostics) {
+    const bool sweeps = plan.settings.dynamics.solver == contact::Solver::sequential_impulse;
+    if (!sweeps || plan.scene.joints.empty()) return;
+    diagnostics.warning(place_of(plan, "dynamics.solver"), "dynamics.solver",
+                        "sequential_impulse does not take joints: newton solves what they hold",
+                        "Choose newton, or leave it, for the rest of the scene.");
+}
+
 void check_grip(const Plan& plan, Diagnostics& diagnostics) {
     const int object = plan.scene.object_index();
     if (object < 0 || plan.scene.fingers.size() < 2) return;
@@ -442,6 +450,7 @@ void check_devices(Plan& plan, Diagnostics& diagnostics) {
 
 void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_dead_man(plan, diagnostics);
+    check_solver(plan, diagnostics);
     diagnostics.throw_if_errors();
     check_devices(plan, diagnostics);
     check_proxy(plan, diagnostics);

@@ -9,6 +9,7 @@
 
 #include "hand/spec.h"
 #include "task/draws.h"
+#include "task/drive.h"
 #include "task/measures.h"
 #include "task/perturbation.h"
 #include "task/procedure_spec.h"
@@ -243,6 +244,7 @@ struct State {
     std::optional<AskSpec> ask;      ///< a number that is asked for
     int marker = 0;                  ///< event code on entering; 0: none
     std::vector<StatePlace> places;
+    std::vector<DriveSpec> drives;
     std::vector<Exit> exits;     ///< the first whose condition holds is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entering the state on
     Place place;
@@ -268,6 +270,7 @@ struct State {
           Field::number().within(0, 255).says(
               "Event code that is sent as the state begins; 0 is none."));
         v("place", places, says("Bodies that are put somewhere as the state begins."));
+        v("drive", drives, says("Bodies that move on paths while the state lasts."));
         v("exits", exits, says("Ways out of the state; the first whose condition is met counts."));
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(

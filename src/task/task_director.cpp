@@ -66,13 +66,16 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     share_ = static_cast<double>(queue_.done()) / queue_.all();
     size_t ways = 0;
     size_t puts = 0;
+    size_t drives = 0;
     for (const TaskPlan::Stage& stage : plan.stages) {
         ways = std::max(ways, stage.ways.size());
         puts = std::max(puts, stage.puts.size());
+        drives = std::max(drives, stage.drives.size());
     }
     judged_.assign(ways, {});
     is_put_.assign(puts, 0);
     put_at_.resize(puts);
+    drive_from_.resize(drives);
 }
 
 void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
@@ -118,6 +121,7 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
         enter(way->state, now, commands);
     }
     put_bodies(last, commands);
+    drive_bodies(last, now, commands);
     order(now, commands);
 }
 
@@ -187,6 +191,7 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
     rating_.begin();
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
+    driving_ = false;
     const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
     const bool waits = now < feedback_until_ && !plan_.task.feedback_beside;
     if (stage.message >= 0) (waits ? next_message_ : message_) = stage.message;
@@ -443,6 +448,25 @@ void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& command
             put_at_[i] = wanted.moves ? home.X_WB : pose_of(body, last, commands);
         }
         put(body, put_at_[i], commands);
+    }
+}
+
+/// Orders where the state's drives get by the end of the tick, each from where its body is as the
+/// state begins.
+void TaskDirector::drive_bodies(const servo::Frame& last, double now,
+                                servo::Commands& commands) noexcept {
+    if (state_ < 0 || last.sequence < 0) return;
+    const auto& drives = plan_.stages[static_cast<size_t>(state_)].drives;
+    if (!driving_) {
+        for (size_t i = 0; i < drives.size(); ++i)
+            drive_from_[i] = pose_of(drives[i].body(), last, commands);
+        driving_ = true;
+    }
+    const auto of = [&](const Number& number) { return numbers_.of(number); };
+    for (size_t i = 0; i < drives.size(); ++i) {
+        Pose X_WB = drive_from_[i];
+        X_WB.p = drives[i].at(now + tick_ - entered_, X_WB.p, of, numbers_.values());
+        add(commands.task.drives, {drives[i].body(), X_WB});
     }
 }
 

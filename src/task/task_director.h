@@ -65,6 +65,7 @@ class TaskDirector {
     void order_end(double now, servo::Commands& commands) const noexcept;
     void order(double now, servo::Commands& commands) const noexcept;
     void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
+    void drive_bodies(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
     /// Takes what was typed, or where the hands are, as the answer that the state asks for.
     void ask(std::span<const haptics::Handle> handles, const Input& input) noexcept;
 
@@ -113,8 +114,10 @@ class TaskDirector {
         int count = 0;      // how often it was met in the state
     };
     std::vector<Judged> judged_;
-    std::vector<char> is_put_;  // by the state's puts: whether it could be done yet
-    std::vector<Pose> put_at_;  // and where
+    std::vector<char> is_put_;      // by the state's puts: whether it could be done yet
+    std::vector<Pose> put_at_;      // and where
+    std::vector<Pose> drive_from_;  // by drive of the state: where its body was as it began
+    bool driving_ = false;          // drive_from_ is of this state
     Motions motions_;
     // by perturbation: when a state in which it acts was entered from one in which it does not [s]
     std::vector<double> began_;

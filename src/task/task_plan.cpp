@@ -224,6 +224,7 @@ class Planner {
         if (state.ask) out.question = question(*state.ask);
         check_answered(state);
         for (const StatePlace& place : state.places) add_put(place, out.puts);
+        for (const DriveSpec& drive : state.drives) add_drive(drive, out);
         for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
         for (const HandStep& step : state.hand) {
             const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
@@ -323,6 +324,26 @@ class Planner {
             place.removed ? as_formula(away) : place.position.value_or(as_formula(body.position));
         puts.push_back(
             {home(index, position), place.position || place.removed, place.held || place.removed});
+    }
+
+    void add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
+        const int index = body(spec.body, spec.place, "body");
+        if (index < 0) return;
+        const scene::Body& driven = scene_.bodies[static_cast<size_t>(index)];
+        if (!driven.driven && !driven.moves_at_all())
+            error(spec.place, "body", fmt::format("'{}' is fixed in the scene", spec.body),
+                  "Write driven: yes there, in place of fixed: yes.");
+        const auto same = [&](const auto& other) {
+            if constexpr (requires { other.home; })
+                return other.home.body == index && other.stays;
+            else
+                return other.body() == index;
+        };
+        if (std::any_of(out.drives.begin(), out.drives.end(), same) ||
+            std::any_of(out.puts.begin(), out.puts.end(), same))
+            error(spec.place, "body", fmt::format("'{}' is driven or held twice", spec.body),
+                  "Keep one of the two.");
+        out.drives.emplace_back(spec, index, plan_.quantities, diagnostics_);
     }
 
     TaskPlan::Way way(const Exit& exit) {
@@ -590,7 +611,7 @@ class Planner {
         std::vector<TaskPlan::Home> out;
         for (size_t i = 0; i < scene_.bodies.size(); ++i) {
             const scene::Body& body = scene_.bodies[i];
-            if (!body.moves_at_all() && !is_placed(body.name)) continue;
+            if (!body.moves_at_all() && !body.driven && !is_placed(body.name)) continue;
             FormulaVec3 position = as_formula(body.position);
             const BodyPlace* by_joint = nullptr;
             for (const Condition* condition : conditions) {

@@ -104,6 +104,7 @@ struct TaskPlan {
         int interval = 0;
         std::optional<Question> question;
         std::vector<Put> puts;
+        std::vector<Drive> drives;
         std::vector<Way> ways;
         std::vector<Step> hand;
     };

@@ -27,6 +27,7 @@ class TrialNumbers {
 
     const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
     double of(const Formula& formula) const noexcept { return Number(formula).in(resolved_); }
+    double of(const Number& number) const noexcept { return number.in(resolved_); }
     Vec3 of(const std::array<Number, 3>& n) const noexcept {
         return {n[0].in(resolved_), n[1].in(resolved_), n[2].in(resolved_)};
     }

@@ -210,6 +210,21 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\npairs:\n  - "
             "{between: [b, thumb]}\n",
             "friction: is missing, and there is no surface"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\njoints:\n  - "
+            "{name: j, kind: hinge, between: [b], low_deg: 5, high_deg: 50}\n",
+            "warning: low: j begins at 0 deg, beyond its stop at 5"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\njoints:\n  - "
+            "{name: j, kind: distance, between: [b], position_mm: [0, 0, 0], second_position_mm: "
+            "[0, 0, 90], high_mm: 50}\n",
+            "warning: high: j begins at 90 mm, beyond its stop at 50"},
+        Bad{"bodies:\n  - {name: a, shape: box, size_mm: [40, 40, 40], mass_g: 0.002}\n  - {name: "
+            "b, "
+            "shape: box, size_mm: [40, 40, 40], mass_g: 15000}\njoints:\n  - {name: j, kind: "
+            "hinge, "
+            "between: [a, b]}\n",
+            "a ratio above 1e+06"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], driven: yes, mass_g: 4}\n",
+            "mass: goes with no body that is driven"},
         Bad{"title: x\n", "bodies: is missing"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n",
             "scene.yaml:2: error: mass_g: must be positive, is -100"},

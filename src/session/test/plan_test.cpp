@@ -273,6 +273,17 @@ TEST(Plan, TakesSoftFingersWithEverySolver) {
     EXPECT_EQ(files.messages(), "");
 }
 
+TEST(Plan, SaysThatSweepsDoNotTakeJoints) {
+    Files files;
+    files.scene += "joints: [{ name: rail, kind: slider, between: [block] }]\n";
+    EXPECT_EQ(files.messages(), "");
+    files.experiment += "settings: {dynamics: {solver: sequential_impulse}}\n";
+    EXPECT_NE(files.messages().find("experiment.yaml:3: warning: dynamics.solver: "
+                                    "sequential_impulse does not take joints: newton solves"),
+              std::string::npos)
+        << files.messages();
+}
+
 TEST(Plan, WarnsOfWhatAPointHasNoUseFor) {
     Files files;
     files.experiment += "settings: {proxy: {kind: point}}\n";

@@ -1,0 +1,68 @@
+// The command `dihaptic-bench mechanics`: measures joints, springs, bounces and soft surfaces
+// against closed forms and independent integrations. docs/measures.md defines the figures.
+#pragma once
+
+#include <string>
+
+#include "dynamics/settings.h"
+#include "measure/grasp.h"
+
+namespace dihaptic::bench {
+
+struct MechanicsFigures {
+    std::string solver;
+    double pendulum_period = 0;
+    double pendulum_period_170 = 0;
+    double pendulum_drift_mm = 0;
+    double double_pendulum_mm = 0;
+    double double_pendulum_order = 0;
+    double cart_pendulum_mm = 0;
+    double spring_deflection = 0;
+    double spring_hz = 0;
+    double spring_form = 0;
+    double four_bar_mm = 0;
+    double door_force_growth = 0;
+    double bounce = 0;
+    double bounce_bias = 0;
+    double soft_k = 0;
+    double energy = 0;
+    double energy_above = 0;
+    double whip_energy = 0;
+    double whip_energy_above = 0;
+    double reaction = 0;
+
+    /// Whether every figure that has a bar keeps it.
+    bool within_bars() const;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("solver", f.solver, "", "");
+        v("pendulum_period", f.pendulum_period, "1", "relative error up to 90 degrees; 1e-4");
+        v("pendulum_period_170", f.pendulum_period_170, "1", "and up to 170 degrees; 1e-3");
+        v("pendulum_drift_mm", f.pendulum_drift_mm, "mm", "of its hinge in 60 s; 0.001");
+        v("double_pendulum_mm", f.double_pendulum_mm, "mm", "in 2 s, from its equations; 1");
+        v("double_pendulum_order", f.double_pendulum_order, "1", "by the error at half the step");
+        v("cart_pendulum_mm", f.cart_pendulum_mm, "mm", "in 5 s, from its equations; 0.5");
+        v("spring_deflection", f.spring_deflection, "1", "10 to 100 000 N/m, relative; 1e-6");
+        v("spring_hz", f.spring_hz, "1", "frequency up to 15 Hz, relative; 1e-3");
+        v("spring_form", f.spring_form, "1", "up to 100 Hz, from the closed form; 1e-3");
+        v("four_bar_mm", f.four_bar_mm, "mm", "path of the coupler of a crank and rocker; 0.01");
+        v("door_force_growth", f.door_force_growth, "1",
+          "on three hinges: largest force of the last 5 s over that of the first 5 s");
+        v("bounce", f.bounce, "1", "worst error of a height over its own; 1e-2");
+        v("bounce_bias", f.bounce_bias, "1", "its mean over start heights");
+        v("soft_k", f.soft_k, "1", "stiffness felt of 50 to 5000 N/m, relative; 5e-3");
+        v("energy", f.energy, "1", "ten links in 60 s, from 45 degrees: change of the mean; 1e-3");
+        v("energy_above", f.energy_above, "1", "and how far it was above the start; 1e-2");
+        v("whip_energy", f.whip_energy, "1",
+          "the same from the horizontal, which cracks like a whip");
+        v("whip_energy_above", f.whip_energy_above, "1", "and how far it was above the start");
+        v("reaction", f.reaction, "1", "force in a loaded hinge, relative; 1e-6");
+        v("within_bars", f.within_bars(), "", "all of them");
+    }
+};
+
+/// All figures of one solver, at 1 kHz.
+MechanicsFigures bench_mechanics(dynamics::Solver solver, const measure::Progress& progress);
+
+}  // namespace dihaptic::bench

@@ -1,0 +1,53 @@
+#include "task/drive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dihaptic::task {
+namespace {
+
+/// A path has one form, and what goes with it.
+void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
+    const int forms = spec.to.has_value() + spec.by.has_value() + !spec.along.empty();
+    if (forms != 1) {
+        diagnostics.error(spec.place, "to", forms == 0 ? "leads nowhere" : "leads two ways at once",
+                          "Give it to_mm, by_mm or along.");
+        return;
+    }
+    if (spec.along.empty()) {
+        if (!spec.duration)
+            diagnostics.error(spec.place, "duration", "is missing", "Add e.g. duration_s: 0.8.");
+        return;
+    }
+    if (spec.along.size() != 3)
+        diagnostics.error(spec.place, "along", "must be three expressions, for x, y and z",
+                          "Write e.g. along: [0, 0, 10 mm * sin(12 * time_in_state / (1 s))].");
+    if (spec.duration || spec.delay != 0)
+        diagnostics.error(spec.place, "duration", "belongs to to_mm and by_mm",
+                          "Let the expressions say when, e.g. with time_in_state.");
+}
+
+}  // namespace
+
+Drive::Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics)
+    : body_(body), relative_(spec.by.has_value()), delay_(spec.delay), shape_(spec.shape) {
+    check_form(spec, diagnostics);
+    if (spec.to || spec.by) way_ = numbers(spec.to ? *spec.to : *spec.by);
+    if (spec.duration) duration_ = *spec.duration;
+    if (spec.along.size() != 3) return;
+    for (const std::string& text : spec.along) {
+        Expression& one = along_.emplace_back(
+            Expression::compile(text, quantities, spec.place, "along", diagnostics));
+        if (one.empty()) continue;
+        const bool length = one.type() == Expression::Type::number &&
+                            one.dimension() == dimension(Quantity::length);
+        if (!length && text != "0")
+            diagnostics.error(spec.place, "along", fmt::format("'{}' is no length", text),
+                              "Write a length with its unit, e.g. 10 mm * share.");
+    }
+    if (std::any_of(along_.begin(), along_.end(), [](const auto& e) { return e.empty(); }))
+        along_.clear();
+}
+
+}  // namespace dihaptic::task
