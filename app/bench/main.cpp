@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/figure_text.h"
+#include "bench/chain.h"
 #include "bench/contact.h"
 #include "bench/friction.h"
 #include "bench/heap.h"
@@ -292,6 +293,35 @@ void add_mechanics(CLI::App& app) {
     });
 }
 
+void add_chain(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "chain",
+        "Chains of 2 to 50 links on hinges: cost and exactness, beside Bullet's own joints");
+    auto options = std::make_shared<BenchOptions>();
+    auto links = std::make_shared<std::vector<int>>(std::vector{2, 10, 50});
+    add_choice(*command, "--solver", options->solver, "only this one and Bullet; otherwise all");
+    command->add_option("--links", *links, "numbers of links")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 200))
+        ->capture_default_str();
+    add_json(*command, options->json);
+    command->footer("\nExample:\n  dihaptic-bench chain --solver newton");
+    command->callback([command, options, links] {
+        std::vector<bench::Simulator> simulators;
+        for (int i = 0; i < contact::kSolvers; ++i) {
+            dynamics::Settings settings;
+            settings.solver = static_cast<dynamics::Solver>(i);
+            if (command->count("--solver") == 0 || settings.solver == options->solver)
+                simulators.push_back(bench::world_simulator(settings));
+        }
+        simulators.push_back(bench::bullet_simulator());
+        const auto figures = with_progress("bench chain", [&](const measure::Progress& progress) {
+            return bench::bench_chain(simulators, *links, progress);
+        });
+        print_rows("chains", figures, options->json);
+    });
+}
+
 void add_view(CLI::App& app) {
     auto* command = app.add_subcommand(
         "view", "What a picture costs, beside the same one with a plain shadow map");
@@ -327,6 +357,7 @@ int main(int argc, char** argv) {
     cli::add_jitter(app);
     cli::add_task(app);
     cli::add_mechanics(app);
+    cli::add_chain(app);
     cli::add_view(app);
     return cli::run_program(app, argc, argv);
 }

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kLayers{"path",      "forces",  "contacts",
-                                       "grip-axis", "handles", "workspace"};
+const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip-axis",
+                                       "handles", "workspace", "joints"};
 
 /// Adds the box in which hands are kept: the rig's wall, or else the workspace of the finger's
 /// device.
@@ -135,6 +135,7 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
     overlays_.contacts = wanted("contacts");
     overlays_.grip_axis = wanted("grip-axis");
     overlays_.handles = wanted("handles");
+    overlays_.joints = wanted("joints");
     if (wanted("workspace")) overlays_.workspaces = showing.workspaces;
     const auto [width, height] = pixels(options.size);
     offscreen_.emplace(width, height);

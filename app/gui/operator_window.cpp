@@ -236,6 +236,7 @@ void OperatorWindow::make_view_menu() {
     layer("C&ontacts", &SceneWidget::Layers::contacts);
     layer("&Grip axis", &SceneWidget::Layers::grip_axis);
     layer("P&ath of the object", &SceneWidget::Layers::path);
+    layer("&Joints", &SceneWidget::Layers::joints);
     layer("Works&paces", &SceneWidget::Layers::workspaces);
     view_menu_->addSeparator();
     subject_action_ = view_menu_->addAction("&Subject's window");

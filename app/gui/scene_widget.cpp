@@ -178,6 +178,7 @@ void SceneWidget::paintGL() {
         overlays.forces = layers_.forces;
         overlays.contacts = layers_.contacts;
         overlays.grip_axis = layers_.grip_axis;
+        overlays.joints = layers_.joints;
         if (layers_.path) overlays.path = path;
         std::vector<view::Workspace> workspaces;
         for (const view::Workspace& workspace : workspaces_)

@@ -47,6 +47,7 @@ class SceneWidget : public QOpenGLWidget {
         bool contacts = false;
         bool grip_axis = false;
         bool path = false;
+        bool joints = false;
         bool workspaces = false;
     };
     void set_layers(const Layers& layers);

@@ -54,7 +54,8 @@ void EventFinder::add_trial(const servo::Frame& frame) {
 
 void EventFinder::add_task(const servo::Frame& frame) {
     const servo::TaskFrame& task = frame.task;
-    const bool perturbed = !(task.visual.empty() && task.properties.empty() && task.loads.empty());
+    const bool perturbed = !(task.visual.empty() && task.properties.empty() &&
+                             task.joint_properties.empty() && task.loads.empty());
     if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
     perturbed_ = perturbed;
     if (task.marker != 0) say(frame, "marker", std::to_string(task.marker));

@@ -55,6 +55,15 @@ void say_kinds(const task::BodySpec& body, std::vector<std::string>& out) {
     add_factor(out, "restitution", body.restitution_scale);
 }
 
+void say_kinds(const task::JointSpec& joint, std::vector<std::string>& out) {
+    const auto add = [&](const char* what, const Formula& factor) {
+        add_factor(out, (std::string(what) + " of " + joint.joint).c_str(), factor);
+    };
+    add("stiffness", joint.stiffness_scale);
+    add("damping", joint.damping_scale);
+    add("friction", joint.friction_scale);
+}
+
 std::string kind_and_size(const task::LoadSpec& load) {
     switch (load.kind) {
         case task::LoadKind::constant:
@@ -82,6 +91,7 @@ std::string kind_and_size(const task::PerturbationSpec& perturbation) {
     std::vector<std::string> out;
     if (perturbation.visual) say_kinds(*perturbation.visual, out);
     if (perturbation.body) say_kinds(*perturbation.body, out);
+    if (perturbation.joint) say_kinds(*perturbation.joint, out);
     for (const task::LoadSpec& load : perturbation.all_loads()) out.push_back(kind_and_size(load));
     return fmt::format("{}", fmt::join(out, "; "));
 }

@@ -27,6 +27,8 @@ constexpr std::array kTurnStiffness{Unit{"Nm_rad", 1}, Unit{"mNm_rad", 1e-3}};
 constexpr std::array kTurnDamping{Unit{"Nms_rad", 1}, Unit{"mNms_rad", 1e-3}};
 constexpr std::array kTorqueRate{Unit{"Nm_s", 1}, Unit{"mNm_ms", 1}};
 constexpr std::array kInertia{Unit{"kg_m2", 1}, Unit{"g_cm2", 1e-7}};
+constexpr std::array kAngularSpeed{Unit{"rad_s", 1}, Unit{"deg_s", kDegree}};
+constexpr std::array kPressure{Unit{"Pa", 1}, Unit{"kPa", 1e3}, Unit{"MPa", 1e6}};
 
 struct Kind {
     Quantity quantity;
@@ -55,6 +57,8 @@ constexpr std::array kKinds{
     Kind{Quantity::turn_damping, "rotational damping", kTurnDamping, "N*m*s/rad"},
     Kind{Quantity::torque_rate, "rate of torque", kTorqueRate, "N*m/s"},
     Kind{Quantity::inertia, "inertia", kInertia, "kg*m^2"},
+    Kind{Quantity::pressure, "pressure", kPressure, "N/m^2"},
+    Kind{Quantity::angular_speed, "angular speed", kAngularSpeed, "rad/s"},
 };
 
 constexpr bool in_order() {

@@ -33,6 +33,8 @@ enum class Quantity {
     turn_damping,
     torque_rate,
     inertia,
+    pressure,
+    angular_speed,
 };
 
 struct Unit {

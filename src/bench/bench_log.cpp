@@ -8,7 +8,7 @@ BenchLog::BenchLog(const scene::Scene& scene, const servo::Settings& settings) {
     head_.tick = settings.tick();
     head_.fingers = scene::finger_names(scene);
     for (const scene::Body& body : scene.bodies) head_.bodies.push_back(body.name);
-    for (const scene::Joint& joint : scene.joints) head_.joints.push_back(joint.name);
+    for (const scene::Joint& joint : recorded_joints(scene)) head_.joints.push_back(joint.name);
 }
 
 recording::Recorder BenchLog::record(recording::Writing writing) const {

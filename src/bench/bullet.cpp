@@ -40,6 +40,33 @@ Body make_body(const scene::Body& body) {
     return out;
 }
 
+/// Of a scene whose joints are all hinges.
+std::vector<std::unique_ptr<btHingeConstraint>> make_hinges(const scene::Scene& scene,
+                                                            std::span<const Body> bodies) {
+    std::vector<std::unique_ptr<btHingeConstraint>> out;
+    for (const scene::Joint& joint : scene.joints) {
+        const auto body = [&](size_t i) -> btRigidBody& {
+            return *bodies[static_cast<size_t>(scene.find(joint.between[i]))].body;
+        };
+        const auto place = [&](btRigidBody& of, btVector3& pivot, btVector3& axis) {
+            const btTransform to_body = of.getWorldTransform().inverse();
+            pivot = to_body * to_bullet(joint.position);
+            axis = to_body.getBasis() * to_bullet(joint.axis);
+        };
+        btVector3 p_A, p_B, axis_A, axis_B;
+        btRigidBody& a = body(0);
+        place(a, p_A, axis_A);
+        if (joint.between.size() == 1) {
+            out.push_back(std::make_unique<btHingeConstraint>(a, p_A, axis_A));
+            continue;
+        }
+        btRigidBody& b = body(1);
+        place(b, p_B, axis_B);
+        out.push_back(std::make_unique<btHingeConstraint>(a, b, p_A, p_B, axis_A, axis_B));
+    }
+    return out;
+}
+
 void run(const Trial& trial, int steps, const Watch& watch) {
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher(&configuration);
@@ -52,6 +79,8 @@ void run(const Trial& trial, int steps, const Watch& watch) {
         bodies.push_back(make_body(body));
         world.addRigidBody(bodies.back().body.get());
     }
+    const std::vector<std::unique_ptr<btHingeConstraint>> hinges = make_hinges(trial.scene, bodies);
+    for (const auto& hinge : hinges) world.addConstraint(hinge.get(), true);
     std::vector<Pose> X_WB(bodies.size());
     for (int i = 0; i < steps; ++i) {
         for (const Trial::Push& push : trial.pushes)
@@ -61,6 +90,7 @@ void run(const Trial& trial, int steps, const Watch& watch) {
             X_WB[b] = from_bullet(bodies[b].body->getWorldTransform()) * bodies[b].X_MB;
         if (!watch(X_WB)) break;
     }
+    for (const auto& hinge : hinges) world.removeConstraint(hinge.get());
     for (const Body& body : bodies) world.removeRigidBody(body.body.get());
 }
 

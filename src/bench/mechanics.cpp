@@ -1,12 +1,14 @@
 #include "bench/mechanics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "base/random.h"
 #include "base/unit.h"
+#include "bench/held.h"
 #include "dynamics/world.h"
 #include "haptics/finger.h"
 
@@ -455,15 +457,65 @@ Energy energy_of_chain(const Bench& bench, double angle) {
     return {std::abs(last / first - 1), most / start - 1};
 }
 
+/// A rod of ten blocks that is glued to the world at one end and pushed at the other: error of its
+/// deflection, which is a hundredth of its length, against beam theory.
+double cantilever_error(const Bench& bench) {
+    constexpr double kLength = 0.2, kWide = 0.02, kHigh = 0.01, kYoung = 1e7, kForce = 0.0125;
+    constexpr int kBlocks = 10;
+    scene::Scene scene;
+    scene.gravity.setZero();
+    scene::Lattice rod;
+    rod.name = "rod";
+    rod.size = {kLength, kWide, kHigh};
+    rod.parts = {kBlocks, 1, 1};
+    rod.mass = 0.05;
+    rod.young = kYoung;
+    rod.retardation = 0.08;
+    rod.glued = {{scene::Side::x_low, "", {}}};
+    scene.lattices = {rod};
+    Diagnostics diagnostics;
+    scene::expand_lattices(scene, diagnostics);
+    World world(scene, bench.settings());
+    world.activate();
+    const auto tip = [&] {
+        return Vec3(world.states()[kBlocks - 1].X_WB * Vec3(kLength / kBlocks / 2, 0, 0));
+    };
+    for (int i = 0; i < 4000; ++i) {
+        world.apply_at({kBlocks - 1}, {0, 0, -kForce}, tip());
+        world.step(kStep);
+    }
+    const double second_moment = kWide * std::pow(kHigh, 3) / 12;
+    const double expected = kForce * std::pow(kLength, 3) / (3 * kYoung * second_moment);
+    return std::abs(-tip().z() / expected - 1);
+}
+
 }  // namespace
 }  // namespace mechanics
 
 bool MechanicsFigures::within_bars() const {
-    return pendulum_period <= 1e-4 && pendulum_period_170 <= 1e-3 && pendulum_drift_mm <= 1e-3 &&
-           double_pendulum_mm <= 1 && cart_pendulum_mm <= 0.5 && spring_deflection <= 1e-6 &&
-           spring_hz <= 1e-3 && spring_form <= 1e-3 && four_bar_mm <= 0.01 &&
-           door_force_growth <= 1.001 && bounce <= 1e-2 && soft_k <= 5e-3 && energy <= 1e-3 &&
-           energy_above <= 1e-2 && reaction <= 1e-6;
+    struct Bar {
+        double figure;
+        double most;
+    };
+    const std::array bars{Bar{pendulum_period, 1e-4},
+                          Bar{pendulum_period_170, 1e-3},
+                          Bar{pendulum_drift_mm, 1e-3},
+                          Bar{double_pendulum_mm, 1},
+                          Bar{cart_pendulum_mm, 0.5},
+                          Bar{spring_deflection, 1e-6},
+                          Bar{spring_hz, 1e-3},
+                          Bar{spring_form, 1e-3},
+                          Bar{four_bar_mm, 0.01},
+                          Bar{door_force_growth, 1.001},
+                          Bar{bounce, 1e-2},
+                          Bar{soft_k, 5e-3},
+                          Bar{energy, 1e-3},
+                          Bar{energy_above, 1e-2},
+                          Bar{reaction, 1e-6},
+                          Bar{lattice, 3e-2}};
+    return std::all_of(bars.begin(), bars.end(),
+                       [](const Bar& bar) { return bar.figure <= bar.most; }) &&
+           std::min({calm_k_hinge, calm_k_slider, calm_k_spring}) >= calm_k_rigid;
 }
 
 MechanicsFigures bench_mechanics(dynamics::Solver solver, const measure::Progress& progress) {
@@ -493,6 +545,15 @@ MechanicsFigures bench_mechanics(dynamics::Solver solver, const measure::Progres
     const Energy whip = energy_of_chain(bench, 90 * kDegree);
     out.whip_energy = whip.change;
     out.whip_energy_above = whip.above;
+    progress("soft rods", 0.7);
+    out.lattice = cantilever_error(bench);
+    progress("objects that are held", 0.75);
+    out.calm_k_rigid = calm_k(Held::nothing, solver);
+    out.calm_k_hinge = calm_k(Held::hinge, solver);
+    out.calm_k_slider = calm_k(Held::slider, solver);
+    out.calm_k_spring = calm_k(Held::spring, solver);
+    out.tick_us = tick_p99(Held::nothing, solver);
+    out.tick_six_us = tick_p99(Held::six_hinges, solver);
     return out;
 }
 

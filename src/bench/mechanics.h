@@ -30,6 +30,13 @@ struct MechanicsFigures {
     double whip_energy = 0;
     double whip_energy_above = 0;
     double reaction = 0;
+    double lattice = 0;
+    double calm_k_rigid = 0;
+    double calm_k_hinge = 0;
+    double calm_k_slider = 0;
+    double calm_k_spring = 0;
+    double tick_us = 0;
+    double tick_six_us = 0;
 
     /// Whether every figure that has a bar keeps it.
     bool within_bars() const;
@@ -58,7 +65,14 @@ struct MechanicsFigures {
           "the same from the horizontal, which cracks like a whip");
         v("whip_energy_above", f.whip_energy_above, "1", "and how far it was above the start");
         v("reaction", f.reaction, "1", "force in a loaded hinge, relative; 1e-6");
-        v("within_bars", f.within_bars(), "", "all of them");
+        v("lattice", f.lattice, "1", "a cantilever of ten blocks, from beam theory; 3e-2");
+        v("calm_k_rigid", f.calm_k_rigid, "N/m", "highest stiffness that holds a block calmly");
+        v("calm_k_hinge", f.calm_k_hinge, "N/m", "with a part on it that turns; not lower");
+        v("calm_k_slider", f.calm_k_slider, "N/m", "with one that slides; not lower");
+        v("calm_k_spring", f.calm_k_spring, "N/m", "with one on a spring; not lower");
+        v("tick_us", f.tick_us, "us", "p99 of a tick with the block held");
+        v("tick_six_us", f.tick_six_us, "us", "the same with six joints on it; 10 us more");
+        v("within_bars", f.within_bars(), "", "all but of ticks");
     }
 };
 

@@ -61,6 +61,17 @@ void World::Impl::add(const scene::Joint& joint) {
     b.body->setIgnoreCollisionCheck(a.body, true);
 }
 
+void World::Impl::part_groups() {
+    for (size_t i = 0; i < scene.bodies.size(); ++i) {
+        for (size_t k = 0; k < i; ++k) {
+            const std::string& group = scene.bodies[i].group;
+            if (group.empty() || group != scene.bodies[k].group) continue;
+            items[i].body->setIgnoreCollisionCheck(items[k].body.get(), true);
+            items[k].body->setIgnoreCollisionCheck(items[i].body.get(), true);
+        }
+    }
+}
+
 World::World(const scene::Scene& scene, const Settings& settings)
     : impl_(std::make_unique<Impl>()), gravity_(scene.gravity) {
     impl_->scene = scene;
@@ -75,6 +86,8 @@ World::World(const scene::Scene& scene, const Settings& settings)
         impl_->items.back().surface = body.surface;
     }
     for (const scene::Joint& joint : scene.joints) impl_->add(joint);
+    impl_->recorded_joints = scene::recorded_joints(scene).size();
+    impl_->part_groups();
 }
 
 World::~World() = default;
@@ -228,6 +241,14 @@ double World::friction(BodyIndex a, BodyIndex b) const {
     return impl_->friction_of(static_cast<size_t>(a.value), static_cast<size_t>(b.value));
 }
 
+double World::friction_at(BodyIndex a, BodyIndex b, const Vec3& p_W,
+                          const Vec3& n_W) const noexcept {
+    const auto i = static_cast<size_t>(a.value);
+    const auto j = static_cast<size_t>(b.value);
+    return impl_->friction_of(i, j) * impl_->texture_at(i, p_W, n_W) *
+           impl_->texture_at(j, p_W, n_W);
+}
+
 const scene::PairSurface& World::surface(BodyIndex a, BodyIndex b) const {
     return impl_->surface_of(static_cast<size_t>(a.value), static_cast<size_t>(b.value));
 }
@@ -272,7 +293,7 @@ void World::watch_problems(ProblemWatcher watcher) {
 }
 
 std::span<const JointState> World::joints() const noexcept {
-    return impl_->joints.states();
+    return impl_->joints.states().first(impl_->recorded_joints);
 }
 
 double World::held_residual() const noexcept {
@@ -318,6 +339,20 @@ void World::set_velocity(BodyIndex body, const Vec3& v_WB) noexcept {
     const Vec3 arm_W = R_WB * item.X_BM.p;
     const Vec3 w = from_bullet(item.body->getAngularVelocity());
     item.body->setLinearVelocity(to_bullet(v_WB + w.cross(arm_W)));
+}
+
+void World::set_motion(BodyIndex body, const Vec3& v_WB, const Vec3& w_WB) noexcept {
+    const auto i = static_cast<size_t>(body.value);
+    Impl::Item& item = impl_->items[i];
+    if (!item.can_move || item.is_driven) return;
+    item.body->setAngularVelocity(to_bullet(Vec3(w_WB.cwiseProduct(item.turns))));
+    set_velocity(body, v_WB);
+    const Vec3 v = from_bullet(item.body->getLinearVelocity());
+    item.body->setLinearVelocity(to_bullet(Vec3(v.cwiseProduct(item.moves))));
+    if (!impl_->is_sound(i)) impl_->diverged = true;
+    impl_->wake(i, states_);
+    impl_->read_state(i, states_[i]);
+    impl_->joints.read();
 }
 
 double World::inertia(BodyIndex proxy) const {
@@ -369,6 +404,27 @@ void World::drive(BodyIndex body, const Pose& X_WB) noexcept {
     impl_->wake(i, states_);
 }
 
+void World::Impl::wake_sides(size_t joint, std::vector<BodyState>& states) {
+    for (const Joints::Side& side : {joints.a(joint), joints.b(joint)}) {
+        if (!side.fixed) wake(side.at(), states);
+    }
+}
+
+void World::set_joint_properties(size_t joint, const JointProperties& properties) noexcept {
+    if (impl_->joints.set(joint, properties)) impl_->wake_sides(joint, states_);
+}
+
+void World::drive_joint(size_t joint, const Motor& motor) noexcept {
+    Joints& joints = impl_->joints;
+    joints.drive(joint, motor);
+    impl_->wake_sides(joint, states_);
+    const auto push = [&](const Joints::Side& side, const contact::Vec6& load) {
+        if (!side.fixed) apply({side.item}, load.head<3>(), load.tail<3>());
+    };
+    push(joints.a(joint), motor.push * joints.along(joint, false));
+    push(joints.b(joint), motor.push * joints.along(joint, true));
+}
+
 void World::apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept {
     const auto i = static_cast<size_t>(body.value);
     Impl::Item& item = impl_->items[i];
@@ -399,7 +455,12 @@ void World::meet(BodyIndex point, const PointContact& contact) noexcept {
     if (body.can_move) impl_->wake(b, states_);
     impl_->point_contacts.add(
         {body.body.get(), impl_->items[p].body.get(), contact.part, contact.face, contact.n_W,
-         contact.gap, contact.friction_share * friction(contact.body, point), contact.compliance});
+         contact.gap,
+         contact.friction_share *
+             friction_at(contact.body, point,
+                         from_bullet(impl_->items[p].body->getWorldTransform().getOrigin()),
+                         contact.n_W),
+         contact.compliance});
 }
 
 }  // namespace dihaptic::dynamics

@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -52,6 +53,21 @@ struct BodyProperties {
     double stiffness = 1;    ///< of its own surface, with its damping
     double restitution = 1;  ///< of its own surface, whose restitution stays at most 1
     bool operator==(const BodyProperties&) const = default;
+};
+
+/// Factors by which a joint's properties differ from those of the scene.
+struct JointProperties {
+    double stiffness = 1;
+    double damping = 1;
+    double friction = 1;  ///< dry
+    bool operator==(const JointProperties&) const = default;
+};
+
+/// What a motor does to a joint that has a coordinate.
+struct Motor {
+    std::optional<double> position;  ///< where the joint is to be at the end of the step
+    double most_force = 0;           ///< with which it gets there [N] or [N*m]
+    double push = 0;                 ///< of the first body on the second, besides [N] or [N*m]
 };
 
 /// Why a step could not do as asked.
@@ -98,6 +114,8 @@ class World {
     const std::string& name(BodyIndex body) const;
     /// Coefficient of friction between two bodies.
     double friction(BodyIndex a, BodyIndex b) const;
+    /// The same where b touches a face of a with the normal n_W at p_W: with the textures of both.
+    double friction_at(BodyIndex a, BodyIndex b, const Vec3& p_W, const Vec3& n_W) const noexcept;
     /// What the surfaces of two bodies do where they touch; of friction, what the scene says.
     const scene::PairSurface& surface(BodyIndex a, BodyIndex b) const;
 
@@ -115,7 +133,7 @@ class World {
     const contact::SolveStats& solve_stats() const { return stats_; }
     /// The largest residual of the islands with a finger in the last step: 0 if there was none.
     double held_residual() const noexcept;
-    /// Joints of the scene, in its order, after the last step.
+    /// Joints of the scene that are recorded, in its order, after the last step.
     std::span<const JointState> joints() const noexcept;
     double mass(BodyIndex body) const;
     /// Inertia of a proxy that turns, about P [kg*m^2].
@@ -132,6 +150,9 @@ class World {
     double friction_scale() const noexcept;
     /// Sets the velocity of B's origin.
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
+    /// Sets the velocity of B's origin and the angular velocity of a body that is not fixed or
+    /// driven, as far as it can move.
+    void set_motion(BodyIndex body, const Vec3& v_WB, const Vec3& w_WB) noexcept;
     /// For a proxy that turns: inertia about P [kg*m^2] and angular velocity [rad/s].
     void set_inertia(BodyIndex proxy, double inertia) noexcept;
     void set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept;
@@ -144,6 +165,11 @@ class World {
     /// keeps the velocity that takes it there. A body that is driven in the scene stays where no
     /// call moves it on.
     void drive(BodyIndex body, const Pose& X_WB) noexcept;
+    /// Sets the properties of a joint from the next step on; its bodies wake if they change.
+    void set_joint_properties(size_t joint, const JointProperties& properties) noexcept;
+    /// Drives a joint in the next step. A motor that goes to a position overcomes the joint's dry
+    /// friction by itself, and approaches no faster than half of its force can stop.
+    void drive_joint(size_t joint, const Motor& motor) noexcept;
     /// Adds to the loads of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
     /// Adds a force that acts at p_W [m] to the loads of the next step.

@@ -74,6 +74,7 @@ struct World::Impl {
     std::unique_ptr<Collision> collision;
     PointContacts point_contacts;
     Joints joints;
+    size_t recorded_joints = 0;  // the first ones
     std::vector<OfIsland<size_t>> joints_of_islands;
     std::vector<size_t> island_joints;
     std::vector<contact::Vec6> island_change;  // of velocities, by the problem's bodies
@@ -102,12 +103,17 @@ struct World::Impl {
         return surface_of(a, b).friction * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
     }
+    /// Factor of a body's texture on friction where it is touched; 1 without one.
+    double texture_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept;
     void add(const scene::Joint& joint);
+    /// Bodies of one group do not touch each other.
+    void part_groups();
     void reserve_bodies(size_t count);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
     /// Whether a joint moves this side in the step.
     bool works(const Joints::Side& side) const { return !side.fixed && is_awake(side.at()); }
     void wake(size_t i, std::vector<BodyState>& states);
+    void wake_sides(size_t joint, std::vector<BodyState>& states);
     /// Makes a fixed body's new pose known to what rests on it, and to the search for contacts.
     void place_fixed(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
@@ -127,6 +133,8 @@ struct World::Impl {
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);
     /// Adds the contacts of points to those that were found.
     void take_points(double h);
+    /// Changes the friction of those on textured surfaces by where they are.
+    void let_feel(btPersistentManifold& manifold) const;
     /// Changes the friction of those that slide as their surfaces ask, by the speeds and forces of
     /// the last step.
     void let_slide(btPersistentManifold& manifold, double h) const;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "dynamics/world_impl.h"
 
@@ -32,6 +33,14 @@ ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
     return out;
 }
 
+/// Beyond an eighth of a turn in a step, where a body gets no longer follows from how fast it
+/// turns: it is slowed down to this.
+void limit_turn(btRigidBody& body, double h) {
+    const double most = std::numbers::pi / (4 * h);
+    const btVector3& w = body.getAngularVelocity();
+    if (w.length2() > most * most) body.setAngularVelocity(w * (most / w.length()));
+}
+
 }  // namespace
 
 StepStatus World::step(double h) noexcept {
@@ -59,6 +68,7 @@ StepStatus World::step(double h) noexcept {
     w.take_points(h);
     stats_ = w.solve_with_entered(h, states_);
     w.integrate_positions(h, states_);
+    w.joints.end_step();
     w.joints.read();
     w.note_stepped();
     if (stats_.refused || !w.all_sound()) return diverge();
@@ -195,6 +205,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
                        : btVector3(0, 0, 0);
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())) +
                                 turn);
+        limit_turn(body, h);
         item.force.setZero();
         item.torque.setZero();
         // contacts are searched ahead by these velocities
@@ -271,7 +282,25 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
             // a finger does not bounce: what is held would drum on it
             if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
         }
+        if (items[a].surface.texture || items[b].surface.texture) let_feel(*manifold);
         let_slide(*manifold, h);
+    }
+}
+
+double World::Impl::texture_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept {
+    const Item& item = items[i];
+    if (!item.surface.texture) return 1;
+    const Pose X_BW = (from_bullet(item.body->getWorldTransform()) * item.X_BM.inverse()).inverse();
+    return item.surface.texture->factor(X_BW * p_W, X_BW.R * n_W);
+}
+
+void World::Impl::let_feel(btPersistentManifold& manifold) const {
+    const auto [a, b] = bodies_of(manifold);
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        btManifoldPoint& point = manifold.getContactPoint(i);
+        const Vec3 p_W = from_bullet(point.getPositionWorldOnB());
+        const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
+        point.m_combinedFriction *= texture_at(a, p_W, n_W) * texture_at(b, p_W, n_W);
     }
 }
 
@@ -405,13 +434,17 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
         const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
         body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
+        limit_turn(body, h);
     }
     return stats;
 }
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
-    constexpr int kMostGuesses = 4;
+    constexpr int kMostGuesses = 8;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
+    /// Guesses that are still this far apart lead nowhere: the step is too long for how fast what
+    /// is joined turns [m/s], [rad/s].
+    constexpr double kLost = 1e-2;
     // sweeps leave errors in chains of joints, which then gain energy from step to step
     const bool sweeps = settings.solver == Solver::sequential_impulse;
     const Solver solver = sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
@@ -423,11 +456,14 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
                       stats);
         iterations = stats.iterations += iterations;
         work = stats.work += work;
-        if (island_joints.empty() || stats.refused || guess == kMostGuesses) return stats;
+        stats.missed = stats.missed || guess > kMostGuesses;  // its joints are off a little then
+        if (island_joints.empty() || stats.refused || guess > kMostGuesses) return stats;
         island_change.clear();
         for (size_t i = 0; i < island_bodies.size(); ++i)
             island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
-        if (problem.guess(joints, island_joints, h, island_change) <= kSame) return stats;
+        const double off = problem.guess(joints, island_joints, h, island_change);
+        if (off <= kSame || (guess == kMostGuesses && off < kLost)) return stats;
+        if (guess == kMostGuesses) problem.hold(joints, island_joints, h);
     }
 }
 

@@ -19,7 +19,11 @@ void PointProxy::feel_surfaces(const World& world) noexcept {
         const scene::PairSurface& surface = world.surface(body, body_);
         shares_[i] =
             surface.is_soft() ? surface.stiffness / (surface.stiffness + coupling_.stiffness) : 1;
-        point_.set_friction(i, shares_[i] * world.friction(body, body_));
+        Vec3 n_W = Vec3::UnitZ();
+        for (const PointContact& c : point_.contacts()) {
+            if (c.body == i) n_W = c.n_W;
+        }
+        point_.set_friction(i, shares_[i] * world.friction_at(body, body_, point_.position(), n_W));
     }
 }
 

@@ -88,7 +88,11 @@ GraspFigures described(const BenchSetup& base) {
 }  // namespace
 
 HoldFigures measure_hold(const BenchSetup& setup) {
-    Bench bench(grasp_scene(setup), grasp_hand(setup), setup);
+    return measure_hold(setup, grasp_scene(setup));
+}
+
+HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene) {
+    Bench bench(scene, grasp_hand(setup), setup);
     analysis::GraspTrace trace(1, setup.settings.tick());
     bench.run([&](const servo::Frame& frame) { trace.add(frame); });
 

@@ -124,6 +124,8 @@ struct GraspFigures {
 
 /// Measures one lift and hold, with setup.settings.coupling.stiffness.
 HoldFigures measure_hold(const BenchSetup& setup);
+/// The same in another scene, whose object weighs as much as the setup's.
+HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene);
 /// `grip_slack`: share of the grip that the device's friction may take.
 bool calm_grasp(const HoldFigures& hold, double grip_slack = 0);
 /// Whether one finger that is pressed 15 mm into a fixed wall is calm.

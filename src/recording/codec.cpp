@@ -71,9 +71,11 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.task.visual.resize(1);
     frame.task.targets.resize(servo::TaskFrame::kMostTargets);
     frame.task.properties.resize(servo::TaskFrame::kMostProperties);
+    frame.task.joint_properties.resize(servo::TaskFrame::kMostProperties);
     frame.task.loads.resize(servo::TaskFrame::kMostLoads);
     frame.task.placements.resize(layout.bodies);
     frame.task.drives.resize(layout.bodies);
+    frame.task.motors.resize(servo::TaskFrame::kMostMotors);
     frame.task.variables.resize(servo::TaskFrame::kMostVariables);
     frame.task.looks.resize(layout.bodies + layout.fingers);
     frame.task.displaced.resize(1 + layout.fingers);

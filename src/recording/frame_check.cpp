@@ -32,13 +32,20 @@ bool is_possible(const servo::ContactFrame& contact, size_t all) noexcept {
            is_index(contact.b, all);
 }
 
-bool is_possible(const servo::TaskFrame& task, size_t bodies, size_t all) noexcept {
+bool is_possible(const servo::TaskFrame& task, const Layout& layout) noexcept {
+    const size_t bodies = layout.bodies;
+    const size_t all = layout.bodies + layout.fingers;
     const auto each = [](const auto& list, size_t count) {
         return std::all_of(list.begin(), list.end(),
                            [count](const auto& item) { return is_index(item.body, count); });
     };
+    const auto of_joints = [&](const auto& list) {
+        return std::all_of(list.begin(), list.end(),
+                           [&](const auto& item) { return is_index(item.joint, layout.joints); });
+    };
     return each(task.properties, all) && each(task.loads, all) && each(task.placements, bodies) &&
            each(task.drives, bodies) && each(task.looks, all) && each(task.displaced, all) &&
+           of_joints(task.joint_properties) && of_joints(task.motors) &&
            std::all_of(task.visual.begin(), task.visual.end(),
                        [&](const servo::VisualMap& map) { return is_index(map.object, bodies); });
 }
@@ -53,8 +60,7 @@ bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept {
     return frame.sequence >= 0 && frame.sequence < kMostTicks && frame.time >= Time{0} &&
            frame.time < kLongest && frame.trial >= 0 && frame.phase >= -1 &&
            is_possible(static_cast<const servo::Knobs&>(frame)) &&
-           names<contact::Route>(frame.solver_route) &&
-           is_possible(frame.task, layout.bodies, all) &&
+           names<contact::Route>(frame.solver_route) && is_possible(frame.task, layout) &&
            std::all_of(
                frame.contacts.begin(), frame.contacts.end(),
                [&](const servo::ContactFrame& contact) { return is_possible(contact, all); });

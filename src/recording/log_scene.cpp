@@ -11,7 +11,7 @@ bool fits(const LogHead& head, const scene::Scene& scene) {
             [](const std::string& name, const auto& thing) { return name == thing.name; });
     };
     return head.fingers == scene::finger_names(scene) && same(head.bodies, scene.bodies) &&
-           same(head.joints, scene.joints);
+           same(head.joints, scene::recorded_joints(scene));
 }
 
 void check_fits(const LogHead& head, const scene::Scene& scene, const std::string& file) {

@@ -12,10 +12,11 @@ namespace dihaptic::scene {
 
 /// What a joint leaves free: to turn about its axis; to slide along it; to turn about its point; to
 /// turn about its axis, which the first body has, and its second one, which the second body has;
-/// nothing; all but the distance of a point of the first body from one of the second.
-enum class JointKind { hinge, slider, ball, universal, fixed, distance };
+/// nothing; all but the distance of a point of the first body from one of the second; everything,
+/// against springs and dampers.
+enum class JointKind { hinge, slider, ball, universal, fixed, distance, bushing };
 constexpr auto enum_names(JointKind) {
-    return std::array{"hinge", "slider", "ball", "universal", "fixed", "distance"};
+    return std::array{"hinge", "slider", "ball", "universal", "fixed", "distance", "bushing"};
 }
 
 /// Bodies that are joined do not meet each other, unless `collide`, or but for a distance between
@@ -25,6 +26,7 @@ struct Joint {
     std::string name;
     JointKind kind = JointKind::hinge;
     std::vector<std::string> between;     ///< two bodies, or one that is joined to the world
+    std::string in;                       ///< of a file; complete() puts all in the world's frame
     Vec3 position = Vec3::Zero();         ///< of the joint's point at the start [m]
     Vec3 axis = Vec3::UnitZ();            ///< at the start, of any length
     Vec3 second_axis = Vec3::UnitX();     ///< of a universal joint
@@ -36,10 +38,25 @@ struct Joint {
     double friction = 0;        ///< dry [N] or [N*m]
     std::optional<double> low;  ///< stops [m] or [rad]
     std::optional<double> high;
+    /// Of a bushing: its axes at the start, turned from the world's about x, then y, then z, which
+    /// the first body carries along. An axis without a spring and a damper is free.
+    Vec3 rotation = Vec3::Zero();          ///< [rad]
+    Vec3 stiffnesses = Vec3::Zero();       ///< [N/m]
+    Vec3 turn_stiffnesses = Vec3::Zero();  ///< [N*m/rad]
+    Vec3 dampings = Vec3::Zero();          ///< [N*s/m]
+    Vec3 turn_dampings = Vec3::Zero();     ///< [N*m*s/rad]
     bool collide = false;
+    bool recorded = true;  ///< and known to tasks by its name
     Place place;
 
     bool is_distance() const { return kind == JointKind::distance; }
+    bool is_bushing() const { return kind == JointKind::bushing; }
+    bool has_spring() const {
+        return stiffness > 0 || !stiffnesses.isZero(0) || !turn_stiffnesses.isZero(0);
+    }
+    bool has_damper() const {
+        return damping > 0 || !dampings.isZero(0) || !turn_dampings.isZero(0);
+    }
     /// Whether its coordinate, if it has one, is a length.
     bool slides() const { return kind == JointKind::slider || is_distance(); }
     /// Whether it has a coordinate: a free axis, or a distance.
@@ -57,6 +74,9 @@ struct Joint {
         v("kind", kind, Field::text().required().says("What the joint leaves free."));
         v("between", between,
           Field::text().required().says("Two bodies, or one that is joined to the world."));
+        v("in", in,
+          Field::text().says("Body in whose frame its places and directions are given, which is "
+                             "that of its mesh's file; left out, the world's."));
         v("position", position,
           Field::length().within(-100, 100).says("Where the joint is at the start."));
         v("axis", axis,
@@ -98,7 +118,30 @@ struct Joint {
               .within(-kMostWay, kMostWay)
               .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
                     "distance is the length of a rope."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-100, 100)
+              .says("Of a bushing: how its axes are turned from the world's at the start, about x, "
+                    "then y, then z."));
+        v("stiffnesses", stiffnesses,
+          Field::of(Quantity::stiffness)
+              .within(0, kStiffest)
+              .says("Of a bushing, along its axes x, y and z."));
+        v("turn_stiffnesses", turn_stiffnesses,
+          Field::of(Quantity::turn_stiffness)
+              .within(0, kStiffest)
+              .says("Of a bushing, about these axes."));
+        v("dampings", dampings,
+          Field::of(Quantity::damping)
+              .within(0, kMostDamping)
+              .says("Of a bushing's dampers, along these axes."));
+        v("turn_dampings", turn_dampings,
+          Field::of(Quantity::turn_damping)
+              .within(0, kMostDamping)
+              .says("Of a bushing's dampers, about these axes."));
         v("collide", collide, says("Whether the two bodies touch each other all the same."));
+        v("recorded", recorded,
+          says("Whether what it does is recorded, so that tasks may name it."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -254,6 +254,19 @@ void check_points(const Joint& joint, Diagnostics& diagnostics) {
     }
 }
 
+/// A bushing has stiffnesses or dampings, and no other joint has.
+void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
+    const bool bushes = !joint.stiffnesses.isZero(0) || !joint.turn_stiffnesses.isZero(0) ||
+                        !joint.dampings.isZero(0) || !joint.turn_dampings.isZero(0);
+    if (bushes != joint.is_bushing())
+        diagnostics.error(
+            joint.place, "stiffnesses",
+            bushes ? fmt::format("belongs to a bushing, not to a {}", enum_name(joint.kind))
+                   : "is missing",
+            bushes ? "Give one stiffness, or make it kind: bushing."
+                   : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
+}
+
 /// A joint's springs, dampers, friction and stops are those of a free axis.
 void check_axis(const Joint& joint, Diagnostics& diagnostics) {
     const bool asks =
@@ -264,7 +277,8 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
             fmt::format("has a spring, damper, friction or stop, and a {} joint has no "
                         "single axis that it could act along",
                         enum_name(joint.kind)),
-            "Leave it out, or make it a hinge, a slider or a distance.");
+            joint.is_bushing() ? "Give it stiffnesses and dampings, one for each axis."
+                               : "Leave it out, or make it a hinge, a slider or a distance.");
     }
     constexpr double kShort = 1e-9;
     if (joint.axis.norm() < kShort)
@@ -368,8 +382,17 @@ void check_softness(const Scene& scene, Diagnostics& diagnostics) {
 
 void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
     for (const Body& body : scene.bodies) check(body.surface, body.friction, diagnostics);
-    for (const Finger& finger : scene.fingers) check(finger.surface, finger.friction, diagnostics);
+    const auto has_no_texture = [&](const Surface& surface) {
+        if (surface.texture)
+            diagnostics.error(surface.texture->place, "texture", "is of a body, and of no other",
+                              "Give it to the body that is felt.");
+    };
+    for (const Finger& finger : scene.fingers) {
+        check(finger.surface, finger.friction, diagnostics);
+        has_no_texture(finger.surface);
+    }
     for (const Pair& pair : scene.pairs) {
+        has_no_texture(pair.surface);
         check(pair.surface, pair.friction, diagnostics);
         if (!pair.friction && pair.surface == Surface{})
             diagnostics.error(pair.place, "friction", "is missing, and there is no surface",
@@ -380,10 +403,35 @@ void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
 void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     for (const Joint& joint : scene.joints) {
         check_axis(joint, diagnostics);
+        check_bushing(joint, diagnostics);
         check_points(joint, diagnostics);
         check_start(joint, diagnostics);
         check_masses(joint, scene, diagnostics);
         check_between(joint, scene, diagnostics);
+    }
+}
+
+/// Puts joints that are given in a body's frame into the world's.
+void place_joints(Scene& scene, Diagnostics& diagnostics) {
+    for (Joint& joint : scene.joints) {
+        if (joint.in.empty()) continue;
+        const int index = scene.find(joint.in);
+        if (index < 0) {
+            std::vector<std::string> bodies;
+            for (const Body& body : scene.bodies) bodies.push_back(body.name);
+            const std::string guess = nearest(joint.in, bodies);
+            diagnostics.error(joint.place, "in", fmt::format("there is no body '{}'", joint.in),
+                              guess.empty() ? "Name a body of the scene, or leave it out."
+                                            : fmt::format("Did you mean {}?", guess));
+            continue;
+        }
+        const Pose X_WB = scene.bodies[static_cast<size_t>(index)].pose();
+        joint.position = X_WB * joint.position;
+        if (joint.second_position) joint.second_position = X_WB * *joint.second_position;
+        joint.axis = X_WB.R * joint.axis;
+        joint.second_axis = X_WB.R * joint.second_axis;
+        joint.rotation = angles_xyz(X_WB.R * rotation_xyz(joint.rotation));
+        joint.in.clear();
     }
 }
 
@@ -455,6 +503,12 @@ double mass(const Body& body) {
     return body.mass ? *body.mass : body.density.value_or(0) * integrate(body.shape).volume;
 }
 
+std::span<const Joint> recorded_joints(const Scene& scene) {
+    const auto end = std::find_if_not(scene.joints.begin(), scene.joints.end(),
+                                      [](const Joint& joint) { return joint.recorded; });
+    return {scene.joints.begin(), end};
+}
+
 bool flies(const Scene& scene, const Body& body) {
     const auto holds = [&](const Joint& joint) {
         return std::find(joint.between.begin(), joint.between.end(), body.name) !=
@@ -467,6 +521,10 @@ bool flies(const Scene& scene, const Body& body) {
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
               const std::stop_token& stop) {
     if (scene.fingers.empty()) scene.fingers = default_fingers();
+    place_joints(scene, diagnostics);
+    expand_lattices(scene, diagnostics);
+    std::stable_partition(scene.joints.begin(), scene.joints.end(),
+                          [](const Joint& joint) { return joint.recorded; });
     for (Body& body : scene.bodies) {
         load_meshes(body.shape, folder, diagnostics, stop);
         check_parts(body.shape, body.place, diagnostics);

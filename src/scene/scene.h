@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "base/field_reader.h"
 #include "scene/camera.h"
 #include "scene/joint.h"
+#include "scene/lattice.h"
 #include "scene/shape.h"
 #include "scene/surface.h"
 
@@ -46,6 +48,7 @@ struct Body {
         Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
     Surface surface;
+    std::string group;     ///< bodies of one group do not touch each other; empty: of none
     std::string colour;    ///< "#rrggbb"; empty: the view chooses
     Place place;           ///< in the scene file
     bool weighed = false;  ///< the file has a key for its mass or density, even if a wrong one
@@ -81,6 +84,8 @@ struct Body {
         v("surface", surface, says("How its surface slides, gives way and bounces."));
         v("moves", moves, says("World axes along which it may move."));
         v("turns", turns, says("World axes about which it may turn: none, one, or xyz."));
+        v("group", group,
+          Field::text().says("A word; bodies with the same one do not touch each other."));
         v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
         if constexpr (requires { v.place(); }) {
             place = v.place();
@@ -166,6 +171,7 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Pair> pairs;
     std::vector<Joint> joints;
+    std::vector<Lattice> lattices;  ///< of a file; complete() makes bodies and joints of them
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that summaries are about; empty: the first one that can move
     std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
@@ -182,6 +188,7 @@ struct Scene {
         v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
         v("pairs", pairs, says("Pairs with a friction or surface of their own."));
         v("joints", joints, says("Joints between two bodies, or a body and the world."));
+        v("lattices", lattices, says("Soft bodies that are made of parts joined by springs."));
         v("fingers", fingers,
           says("Fingers, each with a device of its own in the rig; left out, thumb "
                "and index with pads for a grip along x."));
@@ -209,6 +216,9 @@ struct Scene {
 
 /// Names of the fingers, in order.
 std::vector<std::string> finger_names(const Scene& scene);
+
+/// The joints that are recorded and may be named in tasks; complete() puts them first.
+std::span<const Joint> recorded_joints(const Scene& scene);
 
 /// What the file says of a pair of bodies or fingers, in any order, or null.
 const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b);

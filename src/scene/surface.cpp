@@ -70,6 +70,9 @@ PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf
 }
 
 void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics) {
+    if (surface.texture && surface.texture->along.norm() < 1e-9)
+        diagnostics.error(surface.texture->place, "along", "has no direction",
+                          "Write e.g. along: [1, 0, 0].");
     if (surface.damping && !surface.stiffness)
         diagnostics.error(surface.place, "damping",
                           "is beside no stiffness, which a rigid face has not",

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/field_reader.h"
+#include "scene/texture.h"
 
 namespace dihaptic::scene {
 
@@ -23,12 +24,14 @@ struct Surface {
     std::optional<double> dynamic_friction;  ///< coefficient while it slides; none: the static one
     std::optional<double> stribeck_speed;    ///< see friction_at() [m/s]
     std::optional<double> film;              ///< viscous drag of a face that slides [N*s/m]
+    std::optional<Texture> texture;          ///< of a body, not of fingers and pairs
     Place place;
 
     bool operator==(const Surface& other) const {
         return stiffness == other.stiffness && damping == other.damping &&
                restitution == other.restitution && dynamic_friction == other.dynamic_friction &&
-               stribeck_speed == other.stribeck_speed && film == other.film;
+               stribeck_speed == other.stribeck_speed && film == other.film &&
+               texture == other.texture;
     }
 
     template <class Visitor>
@@ -61,6 +64,7 @@ struct Surface {
               .within(0, 1000)
               .says("Viscous drag of a face that slides, besides its friction; those of two "
                     "surfaces are added."));
+        v("texture", texture, says("Friction that rises and falls along a body's surface."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

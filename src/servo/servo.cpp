@@ -256,13 +256,12 @@ void Servo::turn_knobs() noexcept {
 dynamics::StepStatus Servo::advance_world() noexcept {
     if (world_.diverged()) return dynamics::StepStatus::diverged;
     order_bodies();
+    order_joints();
     const double h = settings_.step();
     for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].begin_tick(world_, handles_[i], h);
     if (!steps_now()) return dynamics::StepStatus::ok;
     world_.set_solver(commands_.knobs.solver);
-    for (const LoadFrame& load : commands_.task.loads) {
-        if (load.body < world_.scene_size()) world_.apply({load.body}, load.force_W, load.torque_W);
-    }
+    apply_loads();
     for (size_t i = 0; i < fingers_.size(); ++i) fingers_[i].before_step(world_, handles_[i], h);
     const dynamics::StepStatus status = world_.step(h);
     if (status == dynamics::StepStatus::diverged) return status;
@@ -373,6 +372,10 @@ void Servo::order_bodies() noexcept {
     const TaskFrame& task = commands_.task;
     for (const PlacementFrame& placement : task.placements)
         world_.set_pose({placement.body}, placement.X_WB);
+    for (const PlacementFrame& placement : task.placements) {
+        if (!placement.v_WB.isZero(0) || !placement.w_WB.isZero(0))
+            world_.set_motion({placement.body}, placement.v_WB, placement.w_WB);
+    }
     for (const DriveFrame& drive : task.drives) world_.drive({drive.body}, drive.X_WB);
     const auto ordered = [&](const PropertiesFrame& before) {
         return std::any_of(task.properties.begin(), task.properties.end(),
@@ -385,6 +388,33 @@ void Servo::order_bodies() noexcept {
         world_.set_properties(
             {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale,
                          now.stiffness_scale, now.restitution_scale});
+    }
+}
+
+void Servo::order_joints() noexcept {
+    const TaskFrame& task = commands_.task;
+    const auto ordered = [&](const JointPropertiesFrame& before) {
+        return std::any_of(
+            task.joint_properties.begin(), task.joint_properties.end(),
+            [&](const JointPropertiesFrame& now) { return now.joint == before.joint; });
+    };
+    for (const JointPropertiesFrame& before : frame_.task.joint_properties) {
+        if (!ordered(before)) world_.set_joint_properties(static_cast<size_t>(before.joint), {});
+    }
+    for (const JointPropertiesFrame& now : task.joint_properties) {
+        world_.set_joint_properties(static_cast<size_t>(now.joint),
+                                    {now.stiffness_scale, now.damping_scale, now.friction_scale});
+    }
+}
+
+void Servo::apply_loads() noexcept {
+    for (const LoadFrame& load : commands_.task.loads) {
+        if (load.body < world_.scene_size()) world_.apply({load.body}, load.force_W, load.torque_W);
+    }
+    for (const MotorFrame& ordered : commands_.task.motors) {
+        dynamics::Motor motor{{}, ordered.most_force, ordered.push};
+        if (ordered.follows != 0) motor.position = ordered.position;
+        world_.drive_joint(static_cast<size_t>(ordered.joint), motor);
     }
 }
 

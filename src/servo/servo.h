@@ -143,6 +143,9 @@ class Servo {
     bool turns_with_handle(haptics::ProxyKind kind) const noexcept;
     /// Puts bodies where they are ordered to be, and sets their ordered properties.
     void order_bodies() noexcept;
+    void order_joints() noexcept;
+    /// Applies the loads on bodies, and of motors, to the coming step.
+    void apply_loads() noexcept;
     /// Adds the loads on a handle to what it feels.
     void add_loads(size_t finger, Wrench& felt_W) const noexcept;
     bool switch_held() const noexcept;

@@ -4,6 +4,7 @@
 // Perturbations act at three places:
 //   visual map        from true to displayed pose, of the things it names
 //   body properties   inertia and weight independently, and friction; scale those of the scene
+//   joint properties  springs, dampers and dry friction; scale those of the scene
 //   loads             forces and torques on handles and bodies
 //
 // Besides, things are hidden, coloured and sized (looks), or shown where they were (displaced);
@@ -103,6 +104,21 @@ struct PropertiesFrame {
     }
 };
 
+struct JointPropertiesFrame {
+    int32_t joint = -1;
+    double stiffness_scale = 1;
+    double damping_scale = 1;
+    double friction_scale = 1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& p, Visitor& v) {
+        v(p.joint, {"joint", "1", "", "Index of the joint in the scene."});
+        v(p.stiffness_scale, {"stiffness_scale", "1", "", "Factor on its spring's stiffness."});
+        v(p.damping_scale, {"damping_scale", "1", "", "Factor on its damper's damping."});
+        v(p.friction_scale, {"friction_scale", "1", "", "Factor on its dry friction."});
+    }
+};
+
 struct LoadFrame {
     int32_t body = -1;
     Vec3 force_W = Vec3::Zero();
@@ -120,6 +136,8 @@ struct LoadFrame {
 struct PlacementFrame {
     int32_t body = -1;
     Pose X_WB;
+    Vec3 v_WB = Vec3::Zero();
+    Vec3 w_WB = Vec3::Zero();
 
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
@@ -127,6 +145,8 @@ struct PlacementFrame {
         v(p.X_WB.p, {"position", "m", "W", "Position of the body's origin."});
         v(p.X_WB.R, {"orientation", "1", "W",
                      "Unit quaternion that turns the body's axes into the world's."});
+        v(p.v_WB, {"velocity", "m/s", "W", "Velocity that its origin is given there."});
+        v(p.w_WB, {"angular_velocity", "rad/s", "W", "Angular velocity that it is given."});
     }
 };
 
@@ -140,6 +160,25 @@ struct DriveFrame {
         v(d.X_WB.p, {"position", "m", "W", "Where its origin is at the end of the tick."});
         v(d.X_WB.R,
           {"orientation", "1", "W", "Unit quaternion that turns its axes into the world's, then."});
+    }
+};
+
+struct MotorFrame {
+    int32_t joint = -1;
+    uint32_t follows = 0;
+    double position = 0;
+    double most_force = 0;
+    double push = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& m, Visitor& v) {
+        v(m.joint, {"joint", "1", "", "Index of the joint in the scene."});
+        v(m.follows, {"follows", "1", "", "1 if the motor moves the joint to a position, or 0."});
+        v(m.position,
+          {"position", "1", "", "Where the joint is to be at the tick's end, in m or rad."});
+        v(m.most_force, {"most_force", "1", "",
+                         "The most with which it is moved there, in N, or N*m of a hinge."});
+        v(m.push, {"push", "1", "", "With what it is pushed besides, in N, or N*m of a hinge."});
     }
 };
 
@@ -206,6 +245,7 @@ struct TaskFrame {
     static constexpr size_t kMostTargets = 16;
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
+    static constexpr size_t kMostMotors = 8;
     static constexpr size_t kMostVariables = 32;
     static constexpr size_t kMostFingers = 32;
     static constexpr size_t kMostLines = 6;
@@ -220,9 +260,11 @@ struct TaskFrame {
     std::vector<VisualMap> visual;
     std::vector<TargetFrame> targets;
     std::vector<PropertiesFrame> properties;
+    std::vector<JointPropertiesFrame> joint_properties;
     std::vector<LoadFrame> loads;
     std::vector<PlacementFrame> placements;
     std::vector<DriveFrame> drives;
+    std::vector<MotorFrame> motors;
     std::vector<VariableFrame> variables;
     std::vector<LookFrame> looks;
     std::vector<DisplacedFrame> displaced;
@@ -233,9 +275,11 @@ struct TaskFrame {
         visual.reserve(1);
         targets.reserve(kMostTargets);
         properties.reserve(kMostProperties);
+        joint_properties.reserve(kMostProperties);
         loads.reserve(kMostLoads);
         placements.reserve(bodies);
         drives.reserve(bodies);
+        motors.reserve(kMostMotors);
         variables.reserve(kMostVariables);
         looks.reserve(bodies + kMostFingers);
         displaced.reserve(1 + kMostFingers);
@@ -251,9 +295,11 @@ struct TaskFrame {
         visual.clear();
         targets.clear();
         properties.clear();
+        joint_properties.clear();
         loads.clear();
         placements.clear();
         drives.clear();
+        motors.clear();
         variables.clear();
         looks.clear();
         displaced.clear();
@@ -275,9 +321,12 @@ struct TaskFrame {
         v.each("targets", t.targets, "One for each target, which is shown as a sphere.");
         v.each("properties", t.properties,
                "One for each body whose properties differ from the scene's.");
+        v.each("joint_properties", t.joint_properties,
+               "One for each joint whose properties differ from the scene's.");
         v.each("loads", t.loads, "One for each force on a body or a handle.");
-        v.each("placements", t.placements, "One for each body that is put at a pose, at rest.");
+        v.each("placements", t.placements, "One for each body that is put at a pose.");
         v.each("drives", t.drives, "One for each body that is driven: where it gets in the tick.");
+        v.each("motors", t.motors, "One for each joint that a motor turns or moves.");
         v.each(
             "variables", t.variables,
             "One for each variable of the task: its value in this trial, and in the trial's last "

@@ -375,7 +375,7 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
 /// Whether the perturbation does no more than to hold what moves in a plane.
 bool is_plane(const task::PerturbationSpec& spec) {
     const std::vector<task::LoadSpec> loads = spec.all_loads();
-    return !spec.visual && !spec.body &&
+    return !spec.visual && !spec.body && !spec.joint &&
            std::all_of(loads.begin(), loads.end(), [](const task::LoadSpec& load) {
                return load.kind == task::LoadKind::channel && load.normal;
            });

@@ -51,7 +51,7 @@ recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& se
     head.tick = settings.tick();
     head.fingers = scene::finger_names(scene);
     for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
-    for (const scene::Joint& joint : scene.joints) head.joints.push_back(joint.name);
+    for (const scene::Joint& joint : recorded_joints(scene)) head.joints.push_back(joint.name);
     return head;
 }
 

@@ -4,17 +4,23 @@
 
 #include <algorithm>
 
+#include "task/lookup.h"
+
 namespace dihaptic::task {
 namespace {
 
 /// A path has one form, and what goes with it.
 void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
     const int forms = spec.to.has_value() + spec.by.has_value() + !spec.along.empty();
-    if (forms != 1) {
+    const bool turns = spec.axis || spec.angle != 0;
+    if (forms > 1 || (forms == 0 && !turns)) {
         diagnostics.error(spec.place, "to", forms == 0 ? "leads nowhere" : "leads two ways at once",
-                          "Give it to_mm, by_mm or along.");
+                          "Give it to_mm, by_mm, angle_deg or along.");
         return;
     }
+    if (turns && !spec.along.empty())
+        diagnostics.error(spec.place, "angle", "is no part of a way that expressions say",
+                          "Leave it out, or give to_mm or by_mm in place of along.");
     if (spec.along.empty()) {
         if (!spec.duration)
             diagnostics.error(spec.place, "duration", "is missing", "Add e.g. duration_s: 0.8.");
@@ -24,15 +30,16 @@ void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(spec.place, "along", "must be three expressions, for x, y and z",
                           "Write e.g. along: [0, 0, 10 mm * sin(12 * time_in_state / (1 s))].");
     if (spec.duration || spec.delay != 0)
-        diagnostics.error(spec.place, "duration", "belongs to to_mm and by_mm",
+        diagnostics.error(spec.place, "duration", "belongs to to_mm, by_mm and angle_deg",
                           "Let the expressions say when, e.g. with time_in_state.");
 }
 
 }  // namespace
 
 Drive::Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics)
-    : body_(body), relative_(spec.by.has_value()), delay_(spec.delay), shape_(spec.shape) {
+    : body_(body), relative_(!spec.to), angle_(spec.angle), delay_(spec.delay), shape_(spec.shape) {
     check_form(spec, diagnostics);
+    if (spec.axis || spec.angle != 0) axis_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
     if (spec.to || spec.by) way_ = numbers(spec.to ? *spec.to : *spec.by);
     if (spec.duration) duration_ = *spec.duration;
     if (spec.along.size() != 3) return;

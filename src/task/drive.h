@@ -15,12 +15,15 @@
 
 namespace dihaptic::task {
 
-/// A body's path while a state lasts: to a place, by a way, or along expressions.
+/// A body's path while a state lasts: to a place, by a way, or along expressions. While it goes
+/// somewhere it may turn, or it turns where it is.
 struct DriveSpec {
     std::string body;
     std::optional<FormulaVec3> to;    ///< where its origin ends [m]
     std::optional<FormulaVec3> by;    ///< the way from where it begins [m]
-    std::optional<Formula> duration;  ///< of either [s]
+    std::optional<Vec3> axis;         ///< about which it turns, through its origin
+    Formula angle = 0;                ///< by which it turns, right-handed [rad]
+    std::optional<Formula> duration;  ///< of all of these [s]
     Formula delay = 0;                ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
     std::vector<std::string> along;  ///< the way from where it begins, anew in each tick: x, y, z
@@ -33,7 +36,14 @@ struct DriveSpec {
         v("body", body, Field::text().required().says("Body that moves."));
         v("to", to, way.says("Where its origin ends."));
         v("by", by, way.says("How far it goes from where it is as the state begins."));
-        v("duration", duration, time.says("How long it takes to go there."));
+        v("axis", axis,
+          Field::number().within(-1e6, 1e6).says(
+              "Axis through its origin about which it turns meanwhile, of any length."));
+        v("angle", angle,
+          Field::of(Quantity::angle)
+              .within(-1000, 1000)
+              .says("By how much it turns from how it is as the state begins, right-handed."));
+        v("duration", duration, time.says("How long it takes to go and turn there."));
         v("delay", delay, time.says("How long it waits from the beginning of the state."));
         v("shape", shape, says("How it speeds up and slows down on its way."));
         v("along", along,
@@ -50,27 +60,34 @@ class Drive {
     Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics);
 
     int body() const noexcept { return body_; }
-    /// Where the body is `t` after the beginning of the state [s], in which it began at `from_W`.
+    /// Where the body is `t` after the beginning of the state [s], in which it began at `from`.
     /// `of(Number)` is a number in this trial, `values` are those of the quantities.
     template <class Of>
-    Vec3 at(double t, const Vec3& from_W, const Of& of,
+    Pose at(double t, const Pose& from, const Of& of,
             std::span<const double> values) const noexcept {
+        Pose out = from;
         if (!along_.empty()) {
             const Vec3 way(along_[0](values), along_[1](values), along_[2](values));
-            return way.allFinite() ? Vec3(from_W + way) : from_W;
+            if (way.allFinite()) out.p += way;
+            return out;
         }
         Profile course;
         course.delay = of(delay_);
         course.rise = of(duration_);
         course.shape = shape_;
+        const double share = course.share(t);
         const Vec3 to_W(of(way_[0]), of(way_[1]), of(way_[2]));
-        return from_W + course.share(t) * (relative_ ? to_W : Vec3(to_W - from_W));
+        out.p += share * (relative_ ? to_W : Vec3(to_W - from.p));
+        out.R = Quat(Eigen::AngleAxisd(share * of(angle_), axis_)) * from.R;
+        return out;
     }
 
   private:
     int body_;
-    bool relative_ = false;
+    bool relative_ = true;
     std::array<Number, 3> way_{};
+    Vec3 axis_ = Vec3::UnitZ();
+    Number angle_{};
     Number duration_{};
     Number delay_{};
     ProfileShape shape_;

@@ -16,10 +16,10 @@
 
 namespace dihaptic::task {
 
-template <class T>
-std::vector<std::string> names_of(const std::vector<T>& list) {
+template <class List>
+std::vector<std::string> names_of(const List& list) {
     std::vector<std::string> out;
-    for (const T& item : list) out.push_back(item.name);
+    for (const auto& item : list) out.push_back(item.name);
     return out;
 }
 

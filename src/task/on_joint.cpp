@@ -16,6 +16,20 @@ Pose OnJoint::pose(const Pose& X_WA_then, double q) const noexcept {
     return X_WA_then * (X_WA.inverse() * moved);
 }
 
+BodyMotion OnJoint::motion(const Pose& X_WA_then, const BodyMotion& of_a, const Pose& X_WB_then,
+                           double rate) const noexcept {
+    const Pose moved = X_WA_then * X_WA.inverse();
+    const Vec3 along = moved.R * axis_W * rate;
+    BodyMotion out{of_a.v + of_a.w.cross(X_WB_then.p - X_WA_then.p), of_a.w};
+    if (slides) {
+        out.v += along;
+    } else {
+        out.v += along.cross(X_WB_then.p - moved * p_W);
+        out.w += along;
+    }
+    return out;
+}
+
 OnJoint on_joint(const scene::Scene& scene, const scene::Joint& joint) {
     const bool to_world = joint.between.size() == 1;
     const auto body = [&](size_t i) { return scene.find(joint.between[i]); };
@@ -40,6 +54,8 @@ void check_body(const BodyPlace& place, Diagnostics& diagnostics) {
     };
     refuse_key("angle", place.angle.has_value());
     refuse_key("displacement", place.displacement.has_value());
+    refuse_key("rate", place.rate != 0);
+    refuse_key("speed", place.speed != 0);
     if (place.body.empty() || !place.position)
         diagnostics.error(place.place, place.body.empty() ? "body" : "position", "is missing",
                           "Name a body and its position_mm, or a joint and its angle_deg or "
@@ -53,6 +69,14 @@ void check_coordinate(const BodyPlace& place, const scene::Joint& joint, Diagnos
                           "Name one that is, or place its bodies.");
         return;
     }
+    if (joint.slides() ? place.rate != 0 : place.speed != 0)
+        diagnostics.error(
+            place.place, joint.slides() ? "rate" : "speed",
+            fmt::format("is not how a {} moves", enum_name(joint.kind)),
+            fmt::format("Give {} in its place.", joint.slides() ? "speed_mm_s" : "rate_deg_s"));
+    if (place.velocity)
+        diagnostics.error(place.place, "velocity", "belongs to a body, and a joint is named",
+                          "Give the joint's rate_deg_s or speed_mm_s.");
     const auto& own = joint.slides() ? place.displacement : place.angle;
     const auto& other = joint.slides() ? place.angle : place.displacement;
     if (own && !other) return;
@@ -71,7 +95,7 @@ void check_joint(const BodyPlace& place, const scene::Scene& scene, Diagnostics&
     if (!place.body.empty() || place.position)
         diagnostics.error(place.place, "joint", "says where its second body is, as body does",
                           "Keep one of the two.");
-    const int index = look_up(names_of(scene.joints), place.joint, place.place, "joint",
+    const int index = look_up(names_of(recorded_joints(scene)), place.joint, place.place, "joint",
                               "no joint of the scene", diagnostics);
     if (index >= 0) check_coordinate(place, scene.joints[static_cast<size_t>(index)], diagnostics);
 }

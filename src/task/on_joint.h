@@ -8,6 +8,12 @@ namespace dihaptic::task {
 
 struct BodyPlace;
 
+/// Velocity of a body's origin and angular velocity, in the world [m/s], [rad/s].
+struct BodyMotion {
+    Vec3 v = Vec3::Zero();
+    Vec3 w = Vec3::Zero();
+};
+
 struct OnJoint {
     int first = -1;  ///< index of the joint's first body; -1: the world
     bool slides = false;
@@ -18,6 +24,9 @@ struct OnJoint {
 
     /// The second body's pose, with the first one's and the coordinate as they are then.
     Pose pose(const Pose& X_WA_then, double q) const noexcept;
+    /// The second body's motion at that pose, with the first one's and the coordinate's rate.
+    BodyMotion motion(const Pose& X_WA_then, const BodyMotion& of_a, const Pose& X_WB_then,
+                      double rate) const noexcept;
 };
 
 OnJoint on_joint(const scene::Scene& scene, const scene::Joint& joint);

@@ -33,6 +33,21 @@ void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFr
     same->restitution_scale *= now.restitution_scale;
 }
 
+void add_to(std::vector<servo::JointPropertiesFrame>& list,
+            const servo::JointPropertiesFrame& now) noexcept {
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const auto& other) { return other.joint == now.joint; });
+    if (same == list.end()) return add(list, now);
+    same->stiffness_scale *= now.stiffness_scale;
+    same->damping_scale *= now.damping_scale;
+    same->friction_scale *= now.friction_scale;
+}
+
+/// What becomes of a factor at a share.
+double part_of(double share, double factor) {
+    return 1 + share * (factor - 1);
+}
+
 bool displaces(const VisualSpec& visual) {
     return visual.delay != 0 || !visual.noise.isZero(0);
 }
@@ -55,6 +70,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Regio
                            const scene::Scene& scene, Diagnostics& diagnostics) {
     if (spec.visual) look_up_map(*spec.visual, regions, scene, diagnostics);
     if (spec.body) look_up_body(*spec.body, scene, diagnostics);
+    if (spec.joint) look_up_joint(*spec.joint, scene, diagnostics);
     for (const LoadSpec& load : spec.all_loads())
         loads_.emplace_back(load, regions, scene, diagnostics);
     profile_ = spec.profile;
@@ -62,9 +78,9 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Regio
         diagnostics.error(profile_->place, "fall", "when it falls is missing",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }
-    if (!spec.visual && !spec.body && loads_.empty()) {
+    if (!spec.visual && !spec.body && !spec.joint && loads_.empty()) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
-                          "Give it visual, body, loads or field.");
+                          "Give it visual, body, joint, loads or field.");
     }
     resolve({});
 }
@@ -87,6 +103,11 @@ void Perturbation::resolve(std::span<const double> resolved) noexcept {
         properties_->friction_scale = properties_as_given_.friction.in(resolved);
         properties_->stiffness_scale = properties_as_given_.stiffness.in(resolved);
         properties_->restitution_scale = properties_as_given_.restitution.in(resolved);
+    }
+    if (joint_) {
+        joint_->stiffness_scale = joint_as_given_[0].in(resolved);
+        joint_->damping_scale = joint_as_given_[1].in(resolved);
+        joint_->friction_scale = joint_as_given_[2].in(resolved);
     }
     for (Load& load : loads_) load.resolve(resolved);
 }
@@ -151,6 +172,25 @@ void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
           "restitution");
 }
 
+void Perturbation::look_up_joint(const JointSpec& spec, const scene::Scene& scene,
+                                 Diagnostics& diagnostics) {
+    servo::JointPropertiesFrame& out = joint_.emplace();
+    joint_as_given_ = {spec.stiffness_scale, spec.damping_scale, spec.friction_scale};
+    out.joint = look_up(names_of(recorded_joints(scene)), spec.joint, spec.place, "joint",
+                        "no joint of the scene", diagnostics);
+    if (out.joint < 0) return;
+    const scene::Joint& joint = scene.joints[static_cast<size_t>(out.joint)];
+    const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
+        if (factor == 1 || there) return;
+        diagnostics.error(
+            spec.place, key, "'" + spec.joint + "' has no " + what + " to change",
+            std::string("Give the joint a ") + what + " in the scene, which this multiplies.");
+    };
+    needs(spec.stiffness_scale, "stiffness_scale", joint.has_spring(), "stiffness");
+    needs(spec.damping_scale, "damping_scale", joint.has_damper(), "damping");
+    needs(spec.friction_scale, "friction_scale", joint.friction > 0, "friction");
+}
+
 Mat3 Perturbation::field_gain() const {
     Mat3 gain = Mat3::Zero();
     for (const Load& load : loads_) gain += load.velocity_gain();
@@ -187,12 +227,16 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const Mo
     if (properties_) {
         servo::PropertiesFrame now = *properties_;
         now.mass_scale = Vec3::Ones() + share * (now.mass_scale - Vec3::Ones());
-        now.weight_scale = 1 + share * (now.weight_scale - 1);
-        now.turning_scale = 1 + share * (now.turning_scale - 1);
-        now.friction_scale = 1 + share * (now.friction_scale - 1);
-        now.stiffness_scale = 1 + share * (now.stiffness_scale - 1);
-        now.restitution_scale = 1 + share * (now.restitution_scale - 1);
+        for (double* factor : {&now.weight_scale, &now.turning_scale, &now.friction_scale,
+                               &now.stiffness_scale, &now.restitution_scale})
+            *factor = part_of(share, *factor);
         add_to(out.properties, now);
+    }
+    if (joint_) {
+        servo::JointPropertiesFrame now = *joint_;
+        for (double* factor : {&now.stiffness_scale, &now.damping_scale, &now.friction_scale})
+            *factor = part_of(share, *factor);
+        add_to(out.joint_properties, now);
     }
     for (const Load& load : loads_) {
         for (const int thing : load.on()) {

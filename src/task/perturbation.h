@@ -118,13 +118,34 @@ struct BodySpec {
     }
 };
 
-/// Any combination of a visual map, a body's properties and loads, under one name.
+/// Factors on a joint's properties in the scene.
+struct JointSpec {
+    std::string joint;
+    Formula stiffness_scale = 1;  ///< of its spring
+    Formula damping_scale = 1;    ///< of its damper
+    Formula friction_scale = 1;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const Field factor = Field::number().within(0, 100);
+        v("joint", joint, Field::text().required().says("Joint whose properties are changed."));
+        v("stiffness_scale", stiffness_scale,
+          factor.says("Factor on the stiffness of its spring."));
+        v("damping_scale", damping_scale, factor.says("Factor on the damping of its damper."));
+        v("friction_scale", friction_scale, factor.says("Factor on its dry friction."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
     std::string name;
     Texts during;  ///< states in which it acts; empty: all that are perturbed
     std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
+    std::optional<JointSpec> joint;
     std::optional<LoadSpec> field;  ///< the only load, or the first
     std::vector<LoadSpec> loads;
     Place place;
@@ -145,6 +166,7 @@ struct PerturbationSpec {
           says("Its course in time within a trial; left out, it acts at once and stays."));
         v("visual", visual, says("Difference between what is shown and what is."));
         v("body", body, says("Change of a body's properties."));
+        v("joint", joint, says("Change of a joint's properties."));
         v("field", field, says("A load, as in loads; it is the only one, or the first."));
         v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
         if constexpr (requires { v.place(); }) place = v.place();
@@ -213,10 +235,13 @@ class Perturbation {
     void look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
                      const scene::Scene& scene, Diagnostics& diagnostics);
     void look_up_body(const BodySpec& body, const scene::Scene& scene, Diagnostics& diagnostics);
+    void look_up_joint(const JointSpec& joint, const scene::Scene& scene, Diagnostics& diagnostics);
 
     std::optional<Map> map_;
     Properties properties_as_given_;
     std::optional<servo::PropertiesFrame> properties_;
+    std::array<Number, 3> joint_as_given_{};  // factors on stiffness, damping, friction
+    std::optional<servo::JointPropertiesFrame> joint_;
     std::vector<Load> loads_;
     std::optional<Profile> profile_;
 };

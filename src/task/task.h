@@ -11,6 +11,7 @@
 #include "task/draws.h"
 #include "task/drive.h"
 #include "task/measures.h"
+#include "task/motor.h"
 #include "task/perturbation.h"
 #include "task/procedure_spec.h"
 #include "task/rating.h"
@@ -214,6 +215,7 @@ struct HandStep {
 struct StatePlace {
     std::string body;
     std::optional<FormulaVec3> position;  ///< unset: where it is [m]
+    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if it is put anywhere [m/s]
     bool held = false;                    ///< it is held still there while the state lasts
     bool removed = false;                 ///< it is out of reach and sight while the state lasts
     Place place;
@@ -225,6 +227,10 @@ struct StatePlace {
         v("position", position,
           Field::length().within(-100, 100).says(
               "Where its origin is put; left out, it stays where it is."));
+        v("velocity", velocity,
+          Field::of(Quantity::speed)
+              .within(-100, 100)
+              .says("Velocity with which it is thrown from there; left out, it is at rest."));
         v("held", held, says("Whether the body is kept there while the state lasts."));
         v("removed", removed,
           says("Whether the body is out of reach and sight while the state lasts."));
@@ -245,6 +251,7 @@ struct State {
     int marker = 0;                  ///< event code on entering; 0: none
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
+    std::vector<MotorSpec> motors;
     std::vector<Exit> exits;     ///< the first whose condition holds is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entering the state on
     Place place;
@@ -271,6 +278,7 @@ struct State {
               "Event code that is sent as the state begins; 0 is none."));
         v("place", places, says("Bodies that are put somewhere as the state begins."));
         v("drive", drives, says("Bodies that move on paths while the state lasts."));
+        v("motors", motors, says("Joints that are moved or pushed while the state lasts."));
         v("exits", exits, says("Ways out of the state; the first whose condition is met counts."));
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(
@@ -287,6 +295,9 @@ struct BodyPlace {
     std::string joint;
     std::optional<Formula> angle;         ///< [rad]
     std::optional<Formula> displacement;  ///< [m]
+    std::optional<FormulaVec3> velocity;  ///< of the body, with which it begins [m/s]
+    Formula rate = 0;                     ///< of the joint, a hinge [rad/s]
+    Formula speed = 0;                    ///< of the joint, a slider [m/s]
     Place place;
 
     template <class Visitor>
@@ -303,6 +314,16 @@ struct BodyPlace {
           Field::of(Quantity::angle).within(-100, 100).says("Angle of that joint, a hinge, then."));
         v("displacement", displacement,
           Field::length().within(-100, 100).says("Displacement of that joint, a slider, then."));
+        v("velocity", velocity,
+          Field::of(Quantity::speed).within(-100, 100).says("Velocity that the body begins with."));
+        v("rate", rate,
+          Field::of(Quantity::angular_speed)
+              .within(-1000, 1000)
+              .says("Angular speed that the joint, a hinge, begins with."));
+        v("speed", speed,
+          Field::of(Quantity::speed)
+              .within(-100, 100)
+              .says("Speed that the joint, a slider, begins with."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -39,6 +39,12 @@ Pose pose_of(int body, const servo::Frame& last, const servo::Commands& commands
     return last.bodies[static_cast<size_t>(body)].X_WB;
 }
 
+/// Where the joint's coordinate is.
+double coordinate_of(int joint, const servo::Frame& last) noexcept {
+    const servo::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
+    return std::isnan(frame.angle) ? frame.displacement : frame.angle;
+}
+
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
@@ -67,15 +73,18 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     size_t ways = 0;
     size_t puts = 0;
     size_t drives = 0;
+    size_t motors = 0;
     for (const TaskPlan::Stage& stage : plan.stages) {
         ways = std::max(ways, stage.ways.size());
         puts = std::max(puts, stage.puts.size());
         drives = std::max(drives, stage.drives.size());
+        motors = std::max(motors, stage.motors.size());
     }
     judged_.assign(ways, {});
     is_put_.assign(puts, 0);
     put_at_.resize(puts);
     drive_from_.resize(drives);
+    motor_from_.resize(motors);
 }
 
 void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
@@ -138,8 +147,9 @@ void TaskDirector::begin(const servo::Frame& last, char key, double now,
         const bool there =
             last.sequence >= 0 &&
             (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
-             last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome);
-        if (!there) put(home.body, home.X_WB, commands);
+             last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome &&
+             home.motion.v.isZero(0) && home.motion.w.isZero(0));
+        if (!there) put(home.body, home.X_WB, home.motion, commands);
     }
     if (message_ == plan_.move_away) message_ = -1;
     enter(0, now, commands);
@@ -166,14 +176,15 @@ bool TaskDirector::clear(const servo::Frame& last, const TaskPlan::Home& home) c
 }
 
 /// Orders that the body be put there in this tick, whatever was ordered of it before.
-void TaskDirector::put(int body, const Pose& X_WB, servo::Commands& commands) noexcept {
+void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
+                       servo::Commands& commands) noexcept {
     std::vector<servo::PlacementFrame>& list = commands.task.placements;
     const auto same = std::find_if(list.begin(), list.end(),
                                    [&](const auto& placed) { return placed.body == body; });
     if (same == list.end()) {
-        add(list, {body, X_WB});
+        add(list, {body, X_WB, motion.v, motion.w});
     } else {
-        same->X_WB = X_WB;
+        *same = {body, X_WB, motion.v, motion.w};
     }
     motions_.put(body, X_WB.p);
 }
@@ -447,25 +458,32 @@ void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& command
             is_put_[i] = 1;
             put_at_[i] = wanted.moves ? home.X_WB : pose_of(body, last, commands);
         }
-        put(body, put_at_[i], commands);
+        const auto& v = wanted.home.velocity_as_given;
+        const Vec3 thrown(numbers_.of(v[0]), numbers_.of(v[1]), numbers_.of(v[2]));
+        put(body, put_at_[i], {thrown, Vec3::Zero()}, commands);
     }
 }
 
-/// Orders where the state's drives get by the end of the tick, each from where its body is as the
-/// state begins.
+/// Orders where the state's drives and motors get by the end of the tick, each from where its body
+/// or joint is as the state begins.
 void TaskDirector::drive_bodies(const servo::Frame& last, double now,
                                 servo::Commands& commands) noexcept {
     if (state_ < 0 || last.sequence < 0) return;
     const auto& drives = plan_.stages[static_cast<size_t>(state_)].drives;
+    const auto& motors = plan_.stages[static_cast<size_t>(state_)].motors;
     if (!driving_) {
         for (size_t i = 0; i < drives.size(); ++i)
             drive_from_[i] = pose_of(drives[i].body(), last, commands);
+        for (size_t i = 0; i < motors.size(); ++i)
+            motor_from_[i] = coordinate_of(motors[i].joint(), last);
         driving_ = true;
     }
     const auto of = [&](const Number& number) { return numbers_.of(number); };
+    const double t = now + tick_ - entered_;
+    for (size_t i = 0; i < motors.size(); ++i)
+        add(commands.task.motors, motors[i].at(t, motor_from_[i], of, numbers_.values()));
     for (size_t i = 0; i < drives.size(); ++i) {
-        Pose X_WB = drive_from_[i];
-        X_WB.p = drives[i].at(now + tick_ - entered_, X_WB.p, of, numbers_.values());
+        const Pose X_WB = drives[i].at(t, drive_from_[i], of, numbers_.values());
         add(commands.task.drives, {drives[i].body(), X_WB});
     }
 }

@@ -47,7 +47,8 @@ class TaskDirector {
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const servo::Frame& last) const noexcept;
     bool clear(const servo::Frame& last, const TaskPlan::Home& home) const noexcept;
-    void put(int body, const Pose& X_WB, servo::Commands& commands) noexcept;
+    void put(int body, const Pose& X_WB, const BodyMotion& motion,
+             servo::Commands& commands) noexcept;
     /// Begins the next trial once the last feedback and its block's pages have been read and bodies
     /// can be put back.
     void begin(const servo::Frame& last, char key, double now, servo::Commands& commands) noexcept;
@@ -114,10 +115,11 @@ class TaskDirector {
         int count = 0;      // how often it was met in the state
     };
     std::vector<Judged> judged_;
-    std::vector<char> is_put_;      // by the state's puts: whether it could be done yet
-    std::vector<Pose> put_at_;      // and where
-    std::vector<Pose> drive_from_;  // by drive of the state: where its body was as it began
-    bool driving_ = false;          // drive_from_ is of this state
+    std::vector<char> is_put_;        // by the state's puts: whether it could be done yet
+    std::vector<Pose> put_at_;        // and where
+    std::vector<Pose> drive_from_;    // by drive of the state: where its body was as it began
+    std::vector<double> motor_from_;  // by motor of the state: where its joint was then
+    bool driving_ = false;            // drive_from_ and motor_from_ are of this state
     Motions motions_;
     // by perturbation: when a state in which it acts was entered from one in which it does not [s]
     std::vector<double> began_;

@@ -97,7 +97,7 @@ class Planner {
           seen_(plan_, scene, diagnostics) {
         plan_.quantities = Quantities({.fingers = fingers_,
                                        .bodies = bodies_,
-                                       .joints = names_of(scene.joints),
+                                       .joints = names_of(recorded_joints(scene)),
                                        .regions = regions_,
                                        .hands = hands()});
         // what no trial places stays there
@@ -225,6 +225,7 @@ class Planner {
         check_answered(state);
         for (const StatePlace& place : state.places) add_put(place, out.puts);
         for (const DriveSpec& drive : state.drives) add_drive(drive, out);
+        for (const MotorSpec& motor : state.motors) add_motor(motor, out);
         for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
         for (const HandStep& step : state.hand) {
             const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
@@ -287,7 +288,7 @@ class Planner {
         std::vector<Quantities::Names::Hand> out;
         for (const Hand& hand : plan_.task.hands) {
             out.push_back({hand.name, bits(hand.fingers, hand.place)});
-            const std::vector<std::string> joints = names_of(scene_.joints);
+            const std::vector<std::string> joints = names_of(recorded_joints(scene_));
             const auto is = [&](const std::string& other) { return other == hand.name; };
             if (std::any_of(fingers_.begin(), fingers_.end(), is) ||
                 std::any_of(bodies_.begin(), bodies_.end(), is) ||
@@ -301,29 +302,37 @@ class Planner {
         return out;
     }
 
+    void check_put(const StatePlace& place, const scene::Body& body) {
+        if (!place.position && !place.velocity && !place.held && !place.removed)
+            error(place.place, "position", "what becomes of the body is missing",
+                  "Add position_mm, velocity_mm_s, held: yes or removed: yes.");
+        if (place.velocity && (place.held || place.removed || body.fixed || body.driven))
+            error(place.place, "velocity", "is of a body that is free to move",
+                  "Leave it out, or held and removed, or let the body move in the scene.");
+        if (place.removed && (place.position || place.held))
+            error(place.place, "removed", "a body that is removed is nowhere else",
+                  "Leave out position_mm and held.");
+        if (place.held && body.fixed)
+            error(place.place, "held", fmt::format("'{}' is fixed: it stays anyway", place.body),
+                  "Leave it out.");
+    }
+
     void add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
         const int index = placeable(place.body, place.place);
         if (index < 0) return;
         const scene::Body& body = scene_.bodies[static_cast<size_t>(index)];
-        if (!place.position && !place.held && !place.removed)
-            error(place.place, "position", "what becomes of the body is missing",
-                  "Add position_mm, held: yes or removed: yes.");
-        if (place.removed && (place.position || place.held))
-            error(place.place, "removed", "a body that is removed is nowhere else",
-                  "Leave out position_mm and held.");
+        check_put(place, body);
         for (const TaskPlan::Put& put : puts) {
             if (put.home.body == index)
                 error(place.place, "body", fmt::format("'{}' is put twice", place.body),
                       "Keep one of the two.");
         }
-        if (place.held && body.fixed)
-            error(place.place, "held", fmt::format("'{}' is fixed: it stays anyway", place.body),
-                  "Leave it out.");
         const Vec3 away(kApart * index, 0, kAway);
         const FormulaVec3 position =
             place.removed ? as_formula(away) : place.position.value_or(as_formula(body.position));
-        puts.push_back(
-            {home(index, position), place.position || place.removed, place.held || place.removed});
+        TaskPlan::Put& put = puts.emplace_back(TaskPlan::Put{
+            home(index, position), place.position || place.removed, place.held || place.removed});
+        if (place.velocity) put.home.velocity_as_given = numbers(*place.velocity);
     }
 
     void add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
@@ -344,6 +353,29 @@ class Planner {
             error(spec.place, "body", fmt::format("'{}' is driven or held twice", spec.body),
                   "Keep one of the two.");
         out.drives.emplace_back(spec, index, plan_.quantities, diagnostics_);
+    }
+
+    void add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
+        const int index = look_up(names_of(recorded_joints(scene_)), spec.joint, spec.place,
+                                  "joint", "no joint of the scene", diagnostics_);
+        if (index < 0) return;
+        const scene::Joint& joint = scene_.joints[static_cast<size_t>(index)];
+        if (!joint.has_coordinate()) {
+            error(spec.place, "joint",
+                  fmt::format("'{}' has no axis that a motor could move: it is a {} joint",
+                              joint.name, enum_name(joint.kind)),
+                  "Name a hinge, a slider or a distance.");
+            return;
+        }
+        if (std::any_of(out.motors.begin(), out.motors.end(),
+                        [&](const Motor& other) { return other.joint() == index; }))
+            error(spec.place, "joint", fmt::format("'{}' has two motors", joint.name),
+                  "Keep one of the two: it may both go somewhere and push.");
+        if (out.motors.size() == servo::TaskFrame::kMostMotors)
+            error(spec.place, "joint",
+                  fmt::format("there are more than {} motors", out.motors.size()),
+                  "Leave out some.");
+        out.motors.emplace_back(spec, joint, index, plan_.quantities, diagnostics_);
     }
 
     TaskPlan::Way way(const Exit& exit) {
@@ -613,17 +645,20 @@ class Planner {
             const scene::Body& body = scene_.bodies[i];
             if (!body.moves_at_all() && !body.driven && !is_placed(body.name)) continue;
             FormulaVec3 position = as_formula(body.position);
+            FormulaVec3 velocity{};
             const BodyPlace* by_joint = nullptr;
             for (const Condition* condition : conditions) {
                 for (const BodyPlace& place : condition->places) {
                     if (place.body == body.name && place.position) {
                         position = *place.position;
+                        velocity = place.velocity.value_or(FormulaVec3{});
                         by_joint = nullptr;
                     }
                     if (moved_by(place) == static_cast<int>(i)) by_joint = &place;
                 }
             }
             TaskPlan::Home& added = out.emplace_back(home(static_cast<int>(i), position));
+            added.velocity_as_given = numbers(velocity);
             if (by_joint != nullptr) put_by_joint(*by_joint, added);
         }
         hang(out);
@@ -646,6 +681,7 @@ class Planner {
         const scene::Joint& joint = *joint_of(place);
         home.joint = on_joint(scene_, joint);
         home.coordinate = (joint.slides() ? place.displacement : place.angle).value_or(0.0);
+        home.rate = joint.slides() ? place.speed : place.rate;
     }
 
     /// What hangs on a body that a joint places comes along; and each comes after what it hangs on.
@@ -723,7 +759,9 @@ std::vector<int> TaskPlan::used_in(const Trial& trial) const {
     std::for_each(cell.radius_as_given.begin(), cell.radius_as_given.end(), use);
     for (const Home& home : cell.homes) {
         std::for_each(home.position_as_given.begin(), home.position_as_given.end(), use);
+        std::for_each(home.velocity_as_given.begin(), home.velocity_as_given.end(), use);
         use(home.coordinate);
+        use(home.rate);
     }
     out.insert(out.end(), cell.in_perturbations.begin(), cell.in_perturbations.end());
     return out;

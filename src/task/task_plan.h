@@ -82,6 +82,10 @@ struct TaskPlan {
         /// In place of that position: homes with it come after that of their joint's first body.
         std::optional<OnJoint> joint = std::nullopt;
         Number coordinate{};
+        /// The body's velocity then, or its joint's rate.
+        std::array<Number, 3> velocity_as_given{};
+        Number rate{};
+        BodyMotion motion{};
     };
     /// A body that a state puts somewhere.
     struct Put {
@@ -105,6 +109,7 @@ struct TaskPlan {
         std::optional<Question> question;
         std::vector<Put> puts;
         std::vector<Drive> drives;
+        std::vector<Motor> motors;
         std::vector<Way> ways;
         std::vector<Step> hand;
     };

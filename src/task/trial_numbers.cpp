@@ -121,18 +121,19 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const servo::Variable
         quantities_.set(quantities_.region(i), cell.p_W[i]);
         quantities_.set(quantities_.region(i) + 3, cell.radius[i]);
     }
-    const auto pose_of = [&](int body, const Pose& otherwise) {
-        for (const TaskPlan::Home& home : cell.homes) {
-            if (home.body == body) return home.X_WB;
-        }
-        return otherwise;
-    };
     for (TaskPlan::Home& home : cell.homes) {
         if (home.joint) {
-            home.X_WB = home.joint->pose(pose_of(home.joint->first, home.joint->X_WA),
-                                         resolve(home.coordinate));
+            const auto first = std::find_if(
+                cell.homes.begin(), cell.homes.end(),
+                [&](const TaskPlan::Home& other) { return other.body == home.joint->first; });
+            const bool placed = first != cell.homes.end();
+            const Pose X_WA = placed ? first->X_WB : home.joint->X_WA;
+            home.X_WB = home.joint->pose(X_WA, resolve(home.coordinate));
+            home.motion = home.joint->motion(X_WA, placed ? first->motion : BodyMotion{}, home.X_WB,
+                                             resolve(home.rate));
         } else {
             home.X_WB.p = vector(home.position_as_given);
+            home.motion.v = vector(home.velocity_as_given);
         }
         quantities_.set(quantities_.start(static_cast<size_t>(home.body)), home.X_WB.p);
     }

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 
 #include "base/diagnostics.h"
 #include "model/grasp.h"
 #include "servo/displayed.h"
 #include "view/colours.h"
 #include "view/gl.h"
+#include "view/joint_marks.h"
 #include "view/shaders.h"
 #include "view/shadow_map.h"
+#include "view/solids.h"
 
 namespace dihaptic::view {
 namespace {
@@ -38,10 +39,6 @@ Mat3 light_rotation() {
     return R_WL.transpose();
 }
 
-Vec3 ink(const char* hex) {
-    return linear_colour(hex);
-}
-
 /// The matrix that scales a model and puts it at a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
     Eigen::Matrix4d out = gl::matrix(X);
@@ -66,31 +63,6 @@ class KeepTarget {
 Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
 }
-
-/// The solids of which overlays are made.
-class Solids {
-  public:
-    struct Solid {
-        const gl::Model* model;
-        Eigen::Matrix4d world_from_model;
-        Vec3 colour;
-    };
-    /// `model` has to outlive this object.
-    void add(const gl::Model& model, const Eigen::Matrix4d& world_from_model, const Vec3& tint) {
-        all_.push_back({&model, world_from_model, tint});
-    }
-    void add(const Triangles& what, const Pose& X, const Vec3& tint) {
-        add(made_.emplace_back(what), gl::matrix(X), tint);
-    }
-    void add_line(const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
-        add(tube(std::array{a, b}, radius), {}, tint);
-    }
-    const std::vector<Solid>& all() const { return all_; }
-
-  private:
-    std::deque<gl::Model> made_;  // a deque, since all_ points into it as it grows
-    std::vector<Solid> all_;
-};
 
 /// Adds the edges of a workspace's box.
 void add_workspace(Solids& out, const Workspace& workspace) {
@@ -138,6 +110,7 @@ struct SceneView::Parts {
     std::vector<Thing> bodies;
     std::vector<Thing> fingers;
     Shadows kind;
+    std::vector<JointMark> joints;
     gl::Model floor;  // below everything, in the shadow map only: the depth beyond a table's edge
     Pose X_WF;
     Vec3 start = Vec3::Zero();  // middle of the bodies that throw shadows, at the start
@@ -175,6 +148,7 @@ struct SceneView::Parts {
         }
         for (size_t i = 0; i < scene.fingers.size(); ++i)
             fingers.push_back(make_thing(scene.fingers[i].shape, {}, finger_colour(i)));
+        joints = joint_marks(scene);
         floor = gl::Model(square(2 * kDepthRange));
         for (const Thing& thing : bodies) X_WF.p.z() = std::min(X_WF.p.z(), thing.lowest);
         find_start(scene);
@@ -435,6 +409,9 @@ void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& 
     add_contacts(solids, frame, overlays);
     if (overlays.grip_axis && fingers.size() > 1) add_grip_axis(solids, frame, fingers.size());
     for (const Workspace& workspace : overlays.workspaces) add_workspace(solids, workspace);
+    if (overlays.joints) {
+        for (const JointMark& joint : joints) joint.add_to(solids, frame);
+    }
     surface.set("shadowed", 0);
     surface.set("grid", 0.0);
     surface.set("fade", 0.0);

@@ -29,6 +29,7 @@ struct Overlays {
     bool forces = false;                    ///< contact forces on each finger, 25 mm/N
     bool contacts = false;                  ///< points where bodies and fingers touch
     bool grip_axis = false;                 ///< from the first finger to the middle of the others
+    bool joints = false;                    ///< axes, points and springs of joints
     std::span<const Vec3> path;             ///< of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< of devices
 };

@@ -230,7 +230,7 @@ MISTAKES = [
      "position", "Write position_m, position_mm"),
     ("held: yes }]", "held: yes, removed: yes }]", "removed", "Leave out position_mm and held"),
     ("position_mm: [0, 100, 20], held: yes }]", "held: no }]",
-     "position", "Add position_mm, held: yes or removed: yes"),
+     "position", "Add position_mm, velocity_mm_s, held: yes or removed: yes"),
     # conditions
     ("when: inside, region: start, what: pair", "when: inside, region: strat, what: pair",
      "region", "Did you mean start?"),

@@ -68,8 +68,31 @@ Quat frame_along(const Vec3& axis, const Vec3& second) {
     return Quat(R);
 }
 
+/// The rows of a bushing along and about axes that have neither a spring nor a damper.
+void close_free(const scene::Joint& bushing, std::span<ProblemJoint> rows) {
+    for (int k = 0; k < ProblemJoint::kRows; ++k) {
+        if (bushing.stiffnesses[k] == 0 && bushing.dampings[k] == 0) close(rows[0], k);
+        if (bushing.turn_stiffnesses[k] == 0 && bushing.turn_dampings[k] == 0) close(rows[1], k);
+    }
+}
+
 double inside(const ProblemJoint& rows, int row, const Vec6& a, const Vec6& b) {
     return rows.J_a.row(row).dot(a) + rows.J_b.row(row).dot(b);
+}
+
+/// The inverse masses that the rows along and about the axes move, each by itself.
+Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJoint> rows) {
+    Vec6 out = Vec6::Zero();
+    for (int k = 0; k < 6; ++k) {
+        const ProblemJoint& from = rows[static_cast<size_t>(k / 3)];
+        const auto add = [&](int body, const auto& J) {
+            if (body == contact::kFixed) return;
+            out[k] += J * problem.bodies[static_cast<size_t>(body)].inverse_mass * J.transpose();
+        };
+        add(from.a, from.J_a.row(k % 3));
+        add(from.b, from.J_b.row(k % 3));
+    }
+    return out;
 }
 
 /// The inverse mass that the coordinate moves, where the joint's other rows hold.
@@ -105,7 +128,9 @@ double along_coordinate(const contact::ContactProblem& problem,
 void Joints::add(const scene::Joint& spec, const Side& a, const Side& b) {
     const Vec3 second = spec.kind == scene::JointKind::universal ? spec.second_axis
                                                                  : Vec3(spec.axis.unitOrthogonal());
-    const Pose X_WF{frame_along(spec.axis, second), spec.position};
+    const Quat R_WF =
+        spec.is_bushing() ? rotation_xyz(spec.rotation) : frame_along(spec.axis, second);
+    const Pose X_WF{R_WF, spec.position};
     const Pose X_WG{X_WF.R, spec.second_position.value_or(spec.position)};
     Joint& added = joints_.emplace_back(
         Joint{spec, a, b, pose_of(a).inverse() * X_WF, pose_of(b).inverse() * X_WG});
@@ -142,6 +167,9 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
         case scene::JointKind::distance:
             out.q = X_FG.p.norm();
             break;
+        case scene::JointKind::bushing:
+            out.angular = rotation_vector(X_FG.R);
+            break;
         case scene::JointKind::ball:
             break;
     }
@@ -149,6 +177,7 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
 }
 
 Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
+    if (joint.spec.kind == scene::JointKind::slider) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
     constexpr double kTogether = 1e-9;  // points in one place, which any direction fits
     const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
     const double distance = between.norm();
@@ -175,7 +204,7 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
         } else {
             along(rows[0], k, F.col(k));
         }
-        if (kind == Kind::slider || kind == Kind::fixed) {
+        if (kind == Kind::slider || kind == Kind::fixed || kind == Kind::bushing) {
             turn(rows[1], k, F.col(k));
         } else if (kind == Kind::hinge && k > 0) {
             turn(rows[1], k, G.col(0).cross(F.col(k)));
@@ -184,35 +213,62 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
         } else {
             close(rows[1], k);
         }
-        if (kind == Kind::slider) {
-            along(rows[2], k, F.col(0));
-        } else if (kind == Kind::distance) {
-            along(rows[2], k, direction(joint, X_WA, X_WB));
-        } else if (kind == Kind::hinge) {
+        if (kind == Kind::hinge) {
             turn(rows[2], k, F.col(0));
+        } else if (joint.spec.slides()) {
+            along(rows[2], k, direction(joint, X_WA, X_WB));
         }
         close(rows[2], k);
+    }
+    if (kind == Kind::bushing) close_free(joint.spec, rows);
+}
+
+namespace {
+
+/// A row of a spring and a damper, which would be stretched by q at the end of a step in which it
+/// rests, and was stretched at the rate u before.
+void ask_of_spring(double stiffness, double damping, double inverse_mass, double q, double u,
+                   double h, int k, ProblemJoint& row) {
+    const double s = h * h * stiffness * inverse_mass;
+    const double damped = s / (1 + s);
+    const double ahead = h * (1 + 3 * damped) / 4;
+    const double in_step = h * (damping + ahead * stiffness);
+    if (in_step <= 0) return;
+    row.low[k] = -kNone;
+    row.high[k] = kNone;
+    row.compliance[k] = 1 / in_step;
+    row.bias[k] = h * stiffness * (q - ahead * (1 - damped) * u) / in_step;
+}
+
+}  // namespace
+
+void Joints::ask_of_bushing(const Joint& joint, const Gaps& then, double h, const Vec6& v_a,
+                            const Vec6& v_b, std::span<ProblemJoint> rows) noexcept {
+    for (int k = 0; k < 6; ++k) {
+        ProblemJoint& row = rows[static_cast<size_t>(k / 3)];
+        const int axis = k % 3;
+        if (row.low[axis] == row.high[axis]) continue;
+        const scene::Joint& spec = joint.spec;
+        const bool turns = k >= 3;
+        const double gap = turns ? then.angular[axis] : then.linear[axis];
+        ask_of_spring(
+            (turns ? spec.turn_stiffnesses : spec.stiffnesses)[axis] * joint.properties.stiffness,
+            (turns ? spec.turn_dampings : spec.dampings)[axis] * joint.properties.damping,
+            joint.inverse_masses[k], gap - h * inside(row, axis, v_a, v_b), joint.rates[k], h, axis,
+            row);
     }
 }
 
 /// Rows of the coordinate, which would be q at the end of a step in which it rests: a spring with
 /// its damper, dry friction, and the nearer stop.
 void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
-    enum { kSpring, kFriction, kStop };
-    const scene::Joint& spec = joints_[i].spec;
-    const double s = h * h * spec.stiffness * joints_[i].inverse_mass;
-    const double damped = s / (1 + s);
-    const double ahead = h * (1 + 3 * damped) / 4;
-    const double stiffness = h * (spec.damping + ahead * spec.stiffness);
-    if (stiffness > 0) {
-        row.low[kSpring] = -kNone;
-        row.high[kSpring] = kNone;
-        row.compliance[kSpring] = 1 / stiffness;
-        const double stretched = q - spec.rest - ahead * (1 - damped) * states_[i].velocity;
-        row.bias[kSpring] = h * spec.stiffness * stretched / stiffness;
-    }
-    row.low[kFriction] = -h * spec.friction;
-    row.high[kFriction] = h * spec.friction;
+    enum { kSpring, kMotor, kStop };
+    const Joint& joint = joints_[i];
+    const scene::Joint& spec = joint.spec;
+    ask_of_spring(spec.stiffness * joint.properties.stiffness,
+                  spec.damping * joint.properties.damping, joint.inverse_mass, q - spec.rest,
+                  states_[i].velocity, h, kSpring, row);
+    ask_of_motor(joint, q, h, kMotor, row);
     const double pull = spec.slides() ? kPull : kTurnPull;
     if (spec.low && spec.high && *spec.low == *spec.high) {
         row.low[kStop] = -kNone;
@@ -229,12 +285,53 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     row.bias[kStop] = below < above ? -gap : spec.low ? gap : 0;
 }
 
+void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
+                          ProblemJoint& row) const noexcept {
+    if (!joint.motor || !joint.motor->position) {
+        const double friction = joint.spec.friction * joint.properties.friction;
+        row.low[k] = -h * friction;
+        row.high[k] = h * friction;
+        return;
+    }
+    const double to = *joint.motor->position;
+    const double most = joint.motor->most_force;
+    row.low[k] = -h * most;
+    row.high[k] = h * most;
+    // half of its force stops it in time; what it follows moves by itself
+    const double led = joint.led_from ? std::abs(to - *joint.led_from) / h : 0;
+    const double fastest = led + std::sqrt(most * joint.inverse_mass * std::abs(q - to));
+    row.bias[k] = std::clamp((q - to) / h, -fastest, fastest);
+    row.compliance[k] = 1 / (h * h * (joint.spec.slides() ? kStiffness : kTurnStiffness));
+}
+
+bool Joints::set(size_t i, const JointProperties& properties) noexcept {
+    if (joints_[i].properties == properties) return false;
+    joints_[i].properties = properties;
+    return true;
+}
+
+void Joints::drive(size_t i, const Motor& motor) noexcept {
+    joints_[i].motor = motor;
+}
+
+Vec6 Joints::along(size_t i, bool second) const noexcept {
+    const Joint& joint = joints_[i];
+    std::array<ProblemJoint, kElements> rows;
+    fill(joint, pose_of(joint.a), pose_of(joint.b), rows);
+    return second ? rows[2].J_b.row(0) : rows[2].J_a.row(0);
+}
+
 double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b,
                    std::span<ProblemJoint> rows) const noexcept {
     const Joint& joint = joints_[i];
     const double q_near = states_[i].position;
     const Gaps now = gaps(joint, pose_of(joint.a), pose_of(joint.b), q_near);
     const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
+    if (joint.spec.is_bushing()) {
+        // what a guess is off changes a spring by the square of a step's turn: no further is asked
+        ask_of_bushing(joint, then, h, v_a, v_b, rows);
+        return 0;
+    }
     double most = 0;
     for (int k = 0; k < 3; ++k) {
         const auto set = [&](ProblemJoint& row, double gap, double gap_then, double stiffness,
@@ -270,6 +367,7 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
         const auto rows = std::span(problem.joints).subspan(first, kElements);
         fill(joint, pose_of(joint.a), pose_of(joint.b), rows);
         if (joint.spec.has_coordinate()) joint.inverse_mass = along_coordinate(problem, rows);
+        if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, rows);
         ask(i, h, velocity_of(joint.a), velocity_of(joint.b), rows);
     }
 }
@@ -289,6 +387,13 @@ double Joints::guess(std::span<const size_t> which, std::span<const int> index, 
         most = std::max(most, ask(which[n], h, then(joint.a), then(joint.b), rows));
     }
     return most;
+}
+
+void Joints::hold(std::span<const size_t> which, double h,
+                  contact::ContactProblem& problem) const noexcept {
+    for (size_t n = 0; n < which.size(); ++n)
+        ask(which[n], h, Vec6::Zero(), Vec6::Zero(),
+            std::span(problem.joints).subspan(kElements * n, kElements));
 }
 
 void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses,
@@ -323,21 +428,33 @@ void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses
     }
 }
 
+void Joints::end_step() noexcept {
+    for (Joint& joint : joints_) {
+        joint.led_from = joint.motor ? joint.motor->position : std::nullopt;
+        joint.motor.reset();
+    }
+}
+
 void Joints::read() noexcept {
     for (size_t i = 0; i < joints_.size(); ++i) {
-        const Joint& joint = joints_[i];
+        Joint& joint = joints_[i];
         JointState& state = states_[i];
         const Pose X_WA = pose_of(joint.a);
         const Pose X_WB = pose_of(joint.b);
+        if (!joint.spec.has_coordinate() && !joint.spec.is_bushing()) continue;
         state.position = gaps(joint, X_WA, X_WB, state.position).q;
-        if (!joint.spec.has_coordinate()) continue;
         std::array<ProblemJoint, kElements> rows;
         fill(joint, X_WA, X_WB, rows);
-        state.velocity = inside(rows[2], 0, velocity_of(joint.a), velocity_of(joint.b));
+        const Vec6 v_a = velocity_of(joint.a);
+        const Vec6 v_b = velocity_of(joint.b);
+        state.velocity = inside(rows[2], 0, v_a, v_b);
+        for (int k = 0; k < 6; ++k)
+            joint.rates[k] = inside(rows[static_cast<size_t>(k / 3)], k % 3, v_a, v_b);
     }
 }
 
 void Joints::forget() noexcept {
+    end_step();
     for (Joint& joint : joints_) joint.impulses.fill(Vec3::Zero());
 }
 

@@ -27,6 +27,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,14 @@ class Joints {
     const Side& b(size_t i) const noexcept { return joints_[i].b; }
     std::span<const JointState> states() const noexcept { return states_; }
 
+    /// Returns whether this changes anything.
+    bool set(size_t i, const JointProperties& properties) noexcept;
+    /// In the coming step.
+    void drive(size_t i, const Motor& motor) noexcept;
+    /// What the coordinate's unit force does to the first or the second body: a force at its centre
+    /// of mass and a torque; zero without a coordinate.
+    contact::Vec6 along(size_t i, bool second) const noexcept;
+
     /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
     /// by item. The first guess of velocities is the problem's own. Impulses to start from,
     /// somewhat less than those of the last step, go to `start`.
@@ -63,8 +72,14 @@ class Joints {
     double guess(std::span<const size_t> which, std::span<const int> index, double h,
                  std::span<const contact::Vec6> change,
                  contact::ContactProblem& problem) const noexcept;
+    /// Asks for the joint's equations of velocities alone, and for what they are off to be pulled
+    /// back: a step of first order, which gives no energy but by that pull.
+    void hold(std::span<const size_t> which, double h,
+              contact::ContactProblem& problem) const noexcept;
     /// Keeps the impulses of a step of h.
     void store(std::span<const size_t> which, std::span<const Vec3> impulses, double h) noexcept;
+    /// Motors rest until they are driven anew.
+    void end_step() noexcept;
     /// Reads the coordinates, after a step or after bodies were put elsewhere.
     void read() noexcept;
     /// Forgets the impulses.
@@ -79,7 +94,12 @@ class Joints {
         Pose X_AF;
         Pose X_BF;
         std::array<Vec3, kElements> impulses{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-        double inverse_mass = 0;  // that the coordinate moves
+        double inverse_mass = 0;                               // that the coordinate moves
+        contact::Vec6 inverse_masses = contact::Vec6::Zero();  // of a bushing, by axis
+        contact::Vec6 rates = contact::Vec6::Zero();           // of a bushing, before the step
+        JointProperties properties = {};
+        std::optional<Motor> motor = {};      // in this step
+        std::optional<double> led_from = {};  // where the motor was to be in the step before
     };
     /// What the relative pose of a joint's frames is to be: zero, but for the coordinate.
     struct Gaps {
@@ -95,8 +115,15 @@ class Joints {
     double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b,
                std::span<contact::ProblemJoint> rows) const noexcept;
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
+    /// Rows of a bushing that gets to `then` at these velocities.
+    static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
+                               const contact::Vec6& v_a, const contact::Vec6& v_b,
+                               std::span<contact::ProblemJoint> rows) noexcept;
+    /// The row in which a motor, or else dry friction, acts.
+    void ask_of_motor(const Joint& joint, double q, double h, int k,
+                      contact::ProblemJoint& row) const noexcept;
 
-    /// From the first body's point of a distance to the second one's, a unit vector.
+    /// Along a slider's axis, or from the first body's point of a distance to the second one's.
     static Vec3 direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept;
 
     std::vector<Joint> joints_;

@@ -151,6 +151,10 @@ double ManifoldProblem::guess(const Joints& joints, std::span<const size_t> whic
     return joints.guess(which, index_, h, change, problem_);
 }
 
+void ManifoldProblem::hold(const Joints& joints, std::span<const size_t> which, double h) noexcept {
+    joints.hold(which, h, problem_);
+}
+
 void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) noexcept {
     size_t j = 0;
     for (btPersistentManifold* manifold : manifolds) {

@@ -34,6 +34,8 @@ class ManifoldProblem {
     /// As Joints::guess().
     double guess(const Joints& joints, std::span<const size_t> which, double h,
                  std::span<const contact::Vec6> change) noexcept;
+    /// Asks for the joints' equations of velocities alone (Joints::hold).
+    void hold(const Joints& joints, std::span<const size_t> which, double h) noexcept;
 
     const contact::ContactProblem& problem() const noexcept { return problem_; }
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }

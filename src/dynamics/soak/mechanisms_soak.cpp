@@ -126,7 +126,7 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
                 worst_unreported = std::max(worst_unreported, world.solve_stats().residual);
             for (const BodyState& state : world.states()) {
                 ASSERT_TRUE(state.X_WB.p.allFinite() && state.v_WB.allFinite()) << n << " " << i;
-                // 20 N on 0.2 kg over 0.7 m give 12 m/s; a light body is thrown a few times faster
+                // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s where nothing is in its way
                 fastest = std::max(fastest, state.v_WB.norm());
             }
         }

@@ -452,6 +452,21 @@ TEST(Joints, SleepAndWakeWithWhatTheyJoin) {
     EXPECT_TRUE(world.states()[2].awake);
 }
 
+TEST(Joints, TakeBodiesThatSpinFasterThanAStepCanFollow) {
+    // a light arm on a ball joint is spun up without end
+    scene::Body arm = box("arm", {0.05, 0.005, 0.005}, {0.025, 0, 0}, 1e-3);
+    World world = make({arm}, {joint(JointKind::ball, {"arm"}, Vec3::Zero())});
+    const double fastest = std::numbers::pi / 4 / kStep;
+    for (int i = 0; i < 2000; ++i) {
+        world.apply({0}, Vec3::Zero(), {0, 0, 0.05});
+        ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;
+        const BodyState& state = world.states()[0];
+        ASSERT_LE(state.w_WB.norm(), 1.0001 * fastest) << i;
+        ASSERT_LT(state.v_WB.norm(), 0.03 * fastest) << i;
+        ASSERT_NEAR(state.X_WB.p.norm(), 0.025, 2e-3) << i;
+    }
+}
+
 TEST(Joints, StepWithoutAllocating) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     scene::Joint slider = joint(JointKind::slider, {"first"}, Vec3::Zero(), Vec3::UnitX());

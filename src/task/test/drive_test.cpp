@@ -92,6 +92,22 @@ TEST(Drive, ShakesAlongAnExpression) {
     EXPECT_LT(error, 0.005 * 2 * std::numbers::pi * 10 * 2 * kTick);
 }
 
+TEST(Drive, TurnsABodyAboutItsOriginWhileItGoes) {
+    WithPlatform files;
+    const auto frames = frames_of(
+        files, state("tilt", "to: back",
+                     "{ body: platform, axis: [0, 2, 0], angle_deg: 30, duration_s: 0.2 }") +
+                   state("back", "outcome: done",
+                         "{ body: platform, by_mm: [0, 0, 20], axis: [0, -1, 0], angle_deg: 30, "
+                         "duration_s: 0.2 }"));
+    ASSERT_GT(frames.size(), 550u);
+    const Quat tilted(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitY()));
+    EXPECT_LT(frames[290].bodies[kPlatform].X_WB.R.angularDistance(tilted), 1e-6);
+    EXPECT_LT((frames[290].bodies[kPlatform].X_WB.p - Vec3(0.2, 0, 0.1)).norm(), 1e-9);
+    EXPECT_LT(frames.back().bodies[kPlatform].X_WB.R.angularDistance(Quat::Identity()), 1e-6);
+    EXPECT_NEAR(frames.back().bodies[kPlatform].X_WB.p.z(), 0.12, 1e-6);
+}
+
 TEST(Drive, HandsABodyOverAndLetsItGo) {
     session::Files files;
     const auto frames =
@@ -131,7 +147,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0] }]\n", "three expressions"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 2 N] }]\n", "is no length"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], duration_s: 2 }]\n",
-                "belongs to to_mm and by_mm"},
+                "belongs to to_mm, by_mm and angle_deg"},
+        Mistake{kMarker, "      drive: [{ body: block, angle_deg: 9, duration_s: 2 }]\n",
+                "axis: is missing"},
+        Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], axis: [0, 0, 1] }]\n",
+                "is no part of a way"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, indx.z] }]\n",
                 "Did you mean index"},
         Mistake{kMarker,

@@ -1,0 +1,26 @@
+// Measures how calmly two fingers hold objects with joints, beside the rigid block of `bench
+// grasp`, and what they cost a tick.
+#pragma once
+
+#include <array>
+
+#include "measure/grasp.h"
+
+namespace dihaptic::bench {
+
+/// What stands on the block, which with it weighs as much as the rigid block.
+enum class Held {
+    nothing,
+    hinge,       ///< a second block that turns about an upright axis
+    slider,      ///< one that slides away from the grasp
+    spring,      ///< one on a spring of 200 N/m that swings up and down
+    six_hinges,  ///< a tower of six that turn on each other
+};
+
+/// The highest stiffness of the list of `bench grasp` up to which it is held calmly [N/m].
+double calm_k(Held held, dynamics::Solver solver);
+
+/// Time of a tick while it is held: the 99th percentile [us].
+double tick_p99(Held held, dynamics::Solver solver);
+
+}  // namespace dihaptic::bench

@@ -1,0 +1,28 @@
+// Tests that chains in `bench chain` hang together, ours as exactly as it is said of them.
+#include "bench/chain.h"
+
+#include <gtest/gtest.h>
+
+namespace dihaptic::bench::chain_test {
+namespace {
+
+TEST(BenchChain, OursHoldsTogetherAndKeepsItsEnergy) {
+    dynamics::Settings settings;
+    settings.solver = dynamics::Solver::newton;
+    const auto rows = bench_chain({world_simulator(settings), bullet_simulator()}, {2, 5},
+                                  [](const std::string&, double) {});
+    ASSERT_EQ(rows.size(), 4u);
+    for (const ChainFigures& row : rows) {
+        EXPECT_GT(row.step_us, 0);
+        if (row.simulator == "newton") {
+            EXPECT_LT(row.apart_mm, 1e-3) << row.links;
+            EXPECT_LT(std::abs(row.energy), 1e-3) << row.links;
+            EXPECT_LT(row.energy_above, 1e-2) << row.links;
+        } else {
+            EXPECT_LT(row.apart_mm, 60 * row.links) << row.links;  // it is jointed at all
+        }
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::bench::chain_test

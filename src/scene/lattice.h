@@ -1,0 +1,103 @@
+// Describes a soft body, such as a sponge or a flexible rod, as a scene file has it: rigid blocks
+// in rows and layers, with springs between neighbours that yield as the material would.
+//
+// With Young's modulus E and the shear modulus G, two blocks whose centres are L apart and that
+// meet in a face of area A are joined by a bushing in the middle of this face, with
+//
+//     k = E A / L across it     G A / L along it     E I / L about its sides     G J / L about its
+//     normal
+//
+// where I are the face's second moments of area and J is Saint-Venant's torsion constant. Bars and
+// beams that are made so are pulled, sheared and twisted as those of the textbooks, and n blocks
+// bend as these within 1 / (2 n^2). A block's sides do not bulge when it is pressed: Poisson's
+// ratio is 0. Its faces are soft, 2 E A / L, the mean of its three sides: what presses on them is
+// half a block away from the first link.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/field_reader.h"
+#include "scene/shape.h"
+#include "scene/surface.h"
+
+namespace dihaptic::scene {
+
+struct Scene;
+
+/// The face of a lattice that looks along -x, +x and so on, in its own axes.
+enum class Side { x_low, x_high, y_low, y_high, z_low, z_high };
+constexpr auto enum_names(Side) {
+    return std::array{"-x", "+x", "-y", "+y", "-z", "+z"};
+}
+
+/// A face of a lattice that is glued to a body, or to the world: by links half as long.
+struct Glued {
+    Side side = Side::x_low;
+    std::string to;  ///< body; empty: the world
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("side", side, says("The face that is glued, by the axis along which it looks."));
+        v("to", to, says("Body that it is glued to; left out, the world."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+struct Lattice {
+    std::string name;
+    Vec3 size = Vec3::Zero();       ///< of the whole [m]
+    Vec3 parts{2, 2, 2};            ///< how many blocks along its x, y and z
+    Vec3 position = Vec3::Zero();   ///< of its centre at the start [m]
+    Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
+    std::optional<double> mass;     ///< of the whole [kg]; this or the density
+    std::optional<double> density;  ///< [kg/m^3]
+    double young = 1e5;             ///< E [Pa]
+    std::optional<double> shear;    ///< G [Pa]; unset: E / 2
+    double retardation = 0;         ///< damping over stiffness (Kelvin and Voigt) [s]
+    double friction = 0.8;
+    std::string colour;
+    std::vector<Glued> glued;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const Field modulus = Field::of(Quantity::pressure).within(1, 1e12);
+        v("name", name,
+          Field::text().required().says(
+              "Name; its blocks are called name_1, name_2 and so on in a rod, otherwise "
+              "name_1_1_1, by x, y and z."));
+        v("size", size, Field::length().within(1e-4, 100).required().says("Size of the whole."));
+        v("parts", parts,
+          Field::number().within(1, 100).says("How many blocks it has along its x, y and z."));
+        v("position", position, Field::length().within(-100, 100).says("Its centre at the start."));
+        v("rotation", rotation,
+          Field::of(Quantity::angle)
+              .within(-kMostTurn, kMostTurn)
+              .says("Rotation at the start, about the world's axes x, then y, then z."));
+        v("mass", mass, Field::of(Quantity::mass).within(1e-6, 1000).says("Mass of the whole."));
+        v("density", density,
+          Field::of(Quantity::density).within(0.01, 1e5).says("Density, in place of the mass."));
+        v("young", young, modulus.says("Young's modulus of the material."));
+        v("shear", shear, modulus.says("Its shear modulus; left out, half of Young's."));
+        v("retardation", retardation,
+          Field::of(Quantity::time)
+              .within(0, 10)
+              .says("How long it takes to yield: each spring has a damper of this times its "
+                    "stiffness."));
+        v("friction", friction,
+          Field::number().within(0, kMostFriction).says("Coefficient of friction, as of a body."));
+        v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
+        v("glued", glued, says("Faces that are glued to bodies or to the world."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Makes bodies and joints of the scene's lattices, after those that it has.
+void expand_lattices(Scene& scene, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::scene

@@ -1,0 +1,35 @@
+// Marks that show a scene's joints: axes, points, rods, and springs as wide as they are stretched.
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.h"
+#include "servo/frame.h"
+#include "view/solids.h"
+
+namespace dihaptic::view {
+
+/// One joint, with its place on the bodies that it joins.
+class JointMark {
+  public:
+    JointMark(const scene::Joint& joint, const scene::Scene& scene);
+    /// Where the frame's bodies are shown.
+    void add_to(Solids& out, const servo::Frame& frame) const;
+
+  private:
+    void add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) const;
+
+    scene::JointKind kind_;
+    bool springs_;
+    int a_;        // index of the first body; -1: the world
+    int b_;        // of the second one
+    Vec3 p_A_;     // the joint's point on the first body
+    Vec3 p_B_;     // on the second one
+    Vec3 axis_A_;  // unit vectors
+    Vec3 second_B_;
+    Vec3 from_A_;  // where a slider's spring begins
+};
+
+std::vector<JointMark> joint_marks(const scene::Scene& scene);
+
+}  // namespace dihaptic::view

@@ -1,0 +1,43 @@
+// The solids of which overlays are made: tubes, arrows and balls over the picture of a scene.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "view/colours.h"
+#include "view/gl.h"
+#include "view/triangles.h"
+
+namespace dihaptic::view {
+
+/// A linear colour from "#rrggbb".
+inline Vec3 ink(const char* hex) {
+    return linear_colour(hex);
+}
+
+class Solids {
+  public:
+    struct Solid {
+        const gl::Model* model;
+        Eigen::Matrix4d world_from_model;
+        Vec3 colour;
+    };
+    /// `model` has to outlive this object.
+    void add(const gl::Model& model, const Eigen::Matrix4d& world_from_model, const Vec3& tint) {
+        all_.push_back({&model, world_from_model, tint});
+    }
+    void add(const Triangles& what, const Pose& X, const Vec3& tint) {
+        add(made_.emplace_back(what), gl::matrix(X), tint);
+    }
+    void add_line(const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
+        add(tube(std::array{a, b}, radius), {}, tint);
+    }
+    const std::vector<Solid>& all() const { return all_; }
+
+  private:
+    std::deque<gl::Model> made_;  // a deque, since all_ points into it as it grows
+    std::vector<Solid> all_;
+};
+
+}  // namespace dihaptic::view
