@@ -30,6 +30,14 @@ struct ChainFigures {
     }
 };
 
+/// Links of 60 x 10 x 10 mm and 20 g on hinges, that hang from the origin, stretched out at an
+/// angle from the vertical, and side by side, so that they do not meet.
+scene::Scene chain(int links, double angle);
+/// Energy of a link at a height, with a velocity, and an angular velocity in its own frame [J].
+double energy_of_link(double height, const Vec3& v, const Vec3& w_B);
+/// Energy of a chain that is still at that angle, over that of one that hangs [J].
+double energy_of_chain_at(int links, double angle);
+
 /// Each of the simulators with chains of so many links.
 std::vector<ChainFigures> bench_chain(const std::vector<Simulator>& simulators,
                                       const std::vector<int>& links,

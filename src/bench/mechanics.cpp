@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/unit.h"
+#include "bench/chain.h"
 #include "bench/held.h"
 #include "dynamics/world.h"
 #include "haptics/finger.h"
@@ -19,7 +20,6 @@ namespace {
 using dynamics::World;
 using scene::JointKind;
 
-constexpr double kStep = 1e-3;
 constexpr double kGravity = 9.81;
 constexpr double kSide = 0.04, kMass = 0.1, kArm = 0.25;  // of a pendulum's cube
 constexpr double kInertia = kMass * kSide * kSide / 6;
@@ -418,42 +418,23 @@ struct Energy {
 /// hangs its energy is zero.
 Energy energy_of_chain(const Bench& bench, double angle) {
     constexpr int kLinks = 10;
-    constexpr double kLink = 0.06, kLinkMass = 0.02;
-    const Vec3 size(kLink, 0.01, 0.01);
-    const Vec3 inertia =
-        kLinkMass / 12 *
-        Vec3(size.y() * size.y() + size.z() * size.z(), size.x() * size.x() + size.z() * size.z(),
-             size.x() * size.x() + size.y() * size.y());
-    std::vector<scene::Body> bodies;
-    std::vector<scene::Joint> joints;
-    for (int i = 0; i < kLinks; ++i) {
-        // side by side, so that they do not meet
-        const Vec3 beside(0, 2 * size.y() * i, 0);
-        bodies.push_back(box("link " + std::to_string(i), size,
-                             beside + hanging(angle, (i + 0.5) * kLink), kLinkMass));
-        bodies.back().rotation = {0, std::numbers::pi / 2 - angle, 0};
-        std::vector<std::string> between{bodies.back().name};
-        if (i > 0) between.insert(between.begin(), bodies[static_cast<size_t>(i) - 1].name);
-        joints.push_back(hinge(between, hanging(angle, i * kLink)));
-    }
-    World world = bench.make(bodies, joints);
-    const double highest = kLinkMass * kGravity * kLink * kLinks * kLinks / 2;
+    const scene::Scene scene = chain(kLinks, angle);
+    World world = bench.make(scene.bodies, scene.joints);
+    const double level = energy_of_chain_at(kLinks, 90 * kDegree);
     double first = 0, last = 0, most = 0;
     for (int i = 0; i < 60000; ++i) {
         world.step(kStep);
-        double energy = highest;
+        double energy = level;
         for (const dynamics::BodyState& s : world.states()) {
             // velocities are those of the middle of the step: heights too
-            const double z = s.X_WB.p.z() - kStep / 2 * s.v_WB.z();
-            const Vec3 w_B = s.X_WB.R.conjugate() * s.w_WB;
-            energy += kLinkMass * kGravity * z + kLinkMass * s.v_WB.squaredNorm() / 2 +
-                      w_B.dot(inertia.cwiseProduct(w_B)) / 2;
+            energy += energy_of_link(s.X_WB.p.z() - kStep / 2 * s.v_WB.z(), s.v_WB,
+                                     s.X_WB.R.conjugate() * s.w_WB);
         }
         most = std::max(most, energy);
         if (i < 10000) first += energy / 10000;
         if (i >= 50000) last += energy / 10000;
     }
-    const double start = highest * (1 - std::cos(angle));
+    const double start = energy_of_chain_at(kLinks, angle);
     return {std::abs(last / first - 1), most / start - 1};
 }
 

@@ -46,6 +46,16 @@ void World::Impl::add(const std::string& name, const scene::Shape& shape, double
     items.push_back(std::move(item));
 }
 
+namespace {
+
+/// Two bodies do not touch each other.
+void let_pass(btRigidBody& a, btRigidBody& b) {
+    a.setIgnoreCollisionCheck(&b, true);
+    b.setIgnoreCollisionCheck(&a, true);
+}
+
+}  // namespace
+
 void World::Impl::add(const scene::Joint& joint) {
     const auto side = [&](size_t i) -> Joints::Side {
         const int at = scene.find(joint.between[i]);
@@ -57,8 +67,7 @@ void World::Impl::add(const scene::Joint& joint) {
     const Joints::Side b = side(to_world ? 0 : 1);
     joints.add(joint, a, b);
     if (a.body == nullptr || joint.collide || joint.is_distance()) return;
-    a.body->setIgnoreCollisionCheck(b.body, true);
-    b.body->setIgnoreCollisionCheck(a.body, true);
+    let_pass(*a.body, *b.body);
 }
 
 void World::Impl::part_groups() {
@@ -66,8 +75,7 @@ void World::Impl::part_groups() {
         for (size_t k = 0; k < i; ++k) {
             const std::string& group = scene.bodies[i].group;
             if (group.empty() || group != scene.bodies[k].group) continue;
-            items[i].body->setIgnoreCollisionCheck(items[k].body.get(), true);
-            items[k].body->setIgnoreCollisionCheck(items[i].body.get(), true);
+            let_pass(*items[i].body, *items[k].body);
         }
     }
 }
@@ -418,11 +426,15 @@ void World::drive_joint(size_t joint, const Motor& motor) noexcept {
     Joints& joints = impl_->joints;
     joints.drive(joint, motor);
     impl_->wake_sides(joint, states_);
-    const auto push = [&](const Joints::Side& side, const contact::Vec6& load) {
-        if (!side.fixed) apply({side.item}, load.head<3>(), load.tail<3>());
+    if (motor.push == 0) return;
+    const auto push = [&](const Joints::Side& side, const contact::Vec6& along) {
+        if (side.fixed) return;
+        const contact::Vec6 load = motor.push * along;
+        apply({side.item}, load.head<3>(), load.tail<3>());
     };
-    push(joints.a(joint), motor.push * joints.along(joint, false));
-    push(joints.b(joint), motor.push * joints.along(joint, true));
+    const auto [of_a, of_b] = joints.along(joint);
+    push(joints.a(joint), of_a);
+    push(joints.b(joint), of_b);
 }
 
 void World::apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept {

@@ -66,8 +66,6 @@ struct Joint {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        constexpr double kStiffest = 1e7;
-        constexpr double kMostDamping = 1e5;
         constexpr double kMostForce = 1e4;
         constexpr double kMostWay = 1000;
         v("name", name, Field::text().required().says("Name of the joint."));
@@ -118,6 +116,19 @@ struct Joint {
               .within(-kMostWay, kMostWay)
               .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
                     "distance is the length of a rope."));
+        visit_bushing(v);
+        v("collide", collide, says("Whether the two bodies touch each other all the same."));
+        v("recorded", recorded,
+          says("Whether what it does is recorded, so that tasks may name it."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+  private:
+    static constexpr double kStiffest = 1e7;
+    static constexpr double kMostDamping = 1e5;
+
+    template <class Visitor>
+    void visit_bushing(Visitor& v) {
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-100, 100)
@@ -139,10 +150,6 @@ struct Joint {
           Field::of(Quantity::turn_damping)
               .within(0, kMostDamping)
               .says("Of a bushing's dampers, about these axes."));
-        v("collide", collide, says("Whether the two bodies touch each other all the same."));
-        v("recorded", recorded,
-          says("Whether what it does is recorded, so that tasks may name it."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

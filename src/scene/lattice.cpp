@@ -154,9 +154,9 @@ bool is_sound(const Lattice& lattice, const Scene& scene, Diagnostics& diagnosti
         error(lattice.place, "mass", lattice.mass ? "stands beside a density" : "is missing",
               "Give mass_g or density_kg_m3.");
     for (const Glued& glued : lattice.glued) {
-        if (!glued.to.empty() && scene.find(glued.to) < 0)
-            error(glued.place, "to", fmt::format("there is no body '{}'", glued.to),
-                  "Name a body of the scene, or leave it out: the world.");
+        if (glued.to.empty() || scene.find(glued.to) >= 0) continue;
+        report_unknown_body(glued.to, scene, glued.place, "to", diagnostics);
+        sound = false;
     }
     return sound;
 }

@@ -329,8 +329,6 @@ void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnosti
 }
 
 void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
-    std::vector<std::string> bodies;
-    for (const Body& body : scene.bodies) bodies.push_back(body.name);
     if (joint.between.empty() || joint.between.size() > 2) {
         diagnostics.error(joint.place, "between", "must be two bodies, or one",
                           "Write between: [cart, bob], or between: [door] for a joint to the "
@@ -344,10 +342,7 @@ void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnost
         known = known && body >= 0;
         moves = moves || (body >= 0 && scene.bodies[static_cast<size_t>(body)].moves_at_all());
         if (body >= 0) continue;
-        const std::string guess = nearest(name, bodies);
-        diagnostics.error(joint.place, "between", fmt::format("there is no body '{}'", name),
-                          guess.empty() ? fmt::format("There are {}.", fmt::join(bodies, ", "))
-                                        : fmt::format("Did you mean {}?", guess));
+        report_unknown_body(name, scene, joint.place, "between", diagnostics);
     }
     if (joint.between.front() == joint.between.back() && joint.between.size() == 2) {
         diagnostics.error(joint.place, "between",
@@ -417,12 +412,7 @@ void place_joints(Scene& scene, Diagnostics& diagnostics) {
         if (joint.in.empty()) continue;
         const int index = scene.find(joint.in);
         if (index < 0) {
-            std::vector<std::string> bodies;
-            for (const Body& body : scene.bodies) bodies.push_back(body.name);
-            const std::string guess = nearest(joint.in, bodies);
-            diagnostics.error(joint.place, "in", fmt::format("there is no body '{}'", joint.in),
-                              guess.empty() ? "Name a body of the scene, or leave it out."
-                                            : fmt::format("Did you mean {}?", guess));
+            report_unknown_body(joint.in, scene, joint.place, "in", diagnostics);
             continue;
         }
         const Pose X_WB = scene.bodies[static_cast<size_t>(index)].pose();
@@ -461,6 +451,16 @@ void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
+                         const char* key, Diagnostics& diagnostics) {
+    std::vector<std::string> bodies;
+    for (const Body& body : scene.bodies) bodies.push_back(body.name);
+    const std::string guess = nearest(name, bodies);
+    diagnostics.error(place, key, fmt::format("there is no body '{}'", name),
+                      guess.empty() ? fmt::format("There are {}.", fmt::join(bodies, ", "))
+                                    : fmt::format("Did you mean {}?", guess));
+}
 
 int Scene::find(const std::string& name) const {
     for (size_t i = 0; i < bodies.size(); ++i) {

@@ -239,6 +239,10 @@ bool flies(const Scene& scene, const Body& body);
 Scene read_scene(const std::string& file, Diagnostics& diagnostics,
                  const std::stop_token& stop = {});
 
+/// Reports the error that the scene has no body of this name, with the one that may be meant.
+void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
+                         const char* key, Diagnostics& diagnostics);
+
 /// Fills in the default fingers, loads meshes, and checks the scene as a whole. Paths of mesh files
 /// are relative to `folder`.
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,

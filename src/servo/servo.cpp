@@ -368,6 +368,21 @@ void Servo::make_forces(Time now) noexcept {
     }
 }
 
+namespace {
+
+/// Calls `act` with what was ordered of something in the last tick, and no longer is.
+template <class Order, class Act>
+void for_each_lapsed(const std::vector<Order>& before, const std::vector<Order>& now,
+                     int32_t Order::*of, const Act& act) {
+    for (const Order& last : before) {
+        const bool ordered = std::any_of(now.begin(), now.end(),
+                                         [&](const Order& other) { return other.*of == last.*of; });
+        if (!ordered) act(last.*of);
+    }
+}
+
+}  // namespace
+
 void Servo::order_bodies() noexcept {
     const TaskFrame& task = commands_.task;
     for (const PlacementFrame& placement : task.placements)
@@ -377,13 +392,8 @@ void Servo::order_bodies() noexcept {
             world_.set_motion({placement.body}, placement.v_WB, placement.w_WB);
     }
     for (const DriveFrame& drive : task.drives) world_.drive({drive.body}, drive.X_WB);
-    const auto ordered = [&](const PropertiesFrame& before) {
-        return std::any_of(task.properties.begin(), task.properties.end(),
-                           [&](const PropertiesFrame& now) { return now.body == before.body; });
-    };
-    for (const PropertiesFrame& before : frame_.task.properties) {
-        if (!ordered(before)) world_.set_properties({before.body}, {});
-    }
+    for_each_lapsed(frame_.task.properties, task.properties, &PropertiesFrame::body,
+                    [&](int32_t body) { world_.set_properties({body}, {}); });
     for (const PropertiesFrame& now : task.properties) {
         world_.set_properties(
             {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale,
@@ -393,14 +403,9 @@ void Servo::order_bodies() noexcept {
 
 void Servo::order_joints() noexcept {
     const TaskFrame& task = commands_.task;
-    const auto ordered = [&](const JointPropertiesFrame& before) {
-        return std::any_of(
-            task.joint_properties.begin(), task.joint_properties.end(),
-            [&](const JointPropertiesFrame& now) { return now.joint == before.joint; });
-    };
-    for (const JointPropertiesFrame& before : frame_.task.joint_properties) {
-        if (!ordered(before)) world_.set_joint_properties(static_cast<size_t>(before.joint), {});
-    }
+    for_each_lapsed(
+        frame_.task.joint_properties, task.joint_properties, &JointPropertiesFrame::joint,
+        [&](int32_t joint) { world_.set_joint_properties(static_cast<size_t>(joint), {}); });
     for (const JointPropertiesFrame& now : task.joint_properties) {
         world_.set_joint_properties(static_cast<size_t>(now.joint),
                                     {now.stiffness_scale, now.damping_scale, now.friction_scale});

@@ -37,21 +37,18 @@ void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
 }  // namespace
 
 Drive::Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics)
-    : body_(body), relative_(!spec.to), angle_(spec.angle), delay_(spec.delay), shape_(spec.shape) {
+    : body_(body),
+      relative_(!spec.to),
+      angle_(spec.angle),
+      course_{spec.delay, spec.duration.value_or(0), spec.shape} {
     check_form(spec, diagnostics);
     if (spec.axis || spec.angle != 0) axis_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
     if (spec.to || spec.by) way_ = numbers(spec.to ? *spec.to : *spec.by);
-    if (spec.duration) duration_ = *spec.duration;
     if (spec.along.size() != 3) return;
     for (const std::string& text : spec.along) {
-        Expression& one = along_.emplace_back(
-            Expression::compile(text, quantities, spec.place, "along", diagnostics));
-        if (one.empty()) continue;
-        const bool length = one.type() == Expression::Type::number &&
-                            one.dimension() == dimension(Quantity::length);
-        if (!length && text != "0")
-            diagnostics.error(spec.place, "along", fmt::format("'{}' is no length", text),
-                              "Write a length with its unit, e.g. 10 mm * share.");
+        along_.push_back(Expression::compile_of(
+            Quantity::length, "length", text, quantities, spec.place, "along",
+            "Write a length with its unit, e.g. 10 mm * share.", diagnostics));
     }
     if (std::any_of(along_.begin(), along_.end(), [](const auto& e) { return e.empty(); }))
         along_.clear();

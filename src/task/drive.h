@@ -71,11 +71,7 @@ class Drive {
             if (way.allFinite()) out.p += way;
             return out;
         }
-        Profile course;
-        course.delay = of(delay_);
-        course.rise = of(duration_);
-        course.shape = shape_;
-        const double share = course.share(t);
+        const double share = course_.share(t, of);
         const Vec3 to_W(of(way_[0]), of(way_[1]), of(way_[2]));
         out.p += share * (relative_ ? to_W : Vec3(to_W - from.p));
         out.R = Quat(Eigen::AngleAxisd(share * of(angle_), axis_)) * from.R;
@@ -88,9 +84,7 @@ class Drive {
     std::array<Number, 3> way_{};
     Vec3 axis_ = Vec3::UnitZ();
     Number angle_{};
-    Number duration_{};
-    Number delay_{};
-    ProfileShape shape_;
+    Course course_;
     std::vector<Expression> along_;  // none, or three
 };
 

@@ -594,6 +594,18 @@ bool Expression::names(int slot) const {
     });
 }
 
+Expression Expression::compile_of(Quantity quantity, const char* what, std::string_view text,
+                                  Quantities& quantities, const Place& place, std::string_view key,
+                                  const std::string& example, Diagnostics& diagnostics) {
+    if (text.empty()) return {};
+    Expression out = compile(text, quantities, place, key, diagnostics);
+    const bool fits =
+        out.type() == Type::number && out.dimension() == ::dihaptic::dimension(quantity);
+    if (out.empty() || fits || text == "0") return out;
+    diagnostics.error(place, std::string(key), fmt::format("'{}' is no {}", text, what), example);
+    return {};
+}
+
 double Expression::operator()(std::span<const double> values) const noexcept {
     std::array<double, kDeepest + 1> stack{};
     double* top = stack.data();  // where the next value goes

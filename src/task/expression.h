@@ -36,6 +36,12 @@ class Expression {
     static Expression compile(std::string_view text, Quantities& quantities, const Place& place,
                               std::string_view key, Diagnostics& diagnostics);
 
+    /// The same of an expression that is to have a quantity's unit, which `what` calls; empty for
+    /// an empty text. The error for any other has `example` as its remedy.
+    static Expression compile_of(Quantity quantity, const char* what, std::string_view text,
+                                 Quantities& quantities, const Place& place, std::string_view key,
+                                 const std::string& example, Diagnostics& diagnostics);
+
     bool empty() const { return program_.empty(); }
     /// truth: 0 or 1. text: the text's index, see Quantities::text().
     enum class Type { number, truth, text };

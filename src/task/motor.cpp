@@ -52,35 +52,28 @@ void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
               "Say how hard the motor may press: a hand that is in its way feels no more.");
 }
 
-/// The expression, or an empty one with the error that it is not what it is to be.
-Expression compiled(const std::string& text, Dimension wanted, const MotorSpec& spec,
-                    const char* key, const char* what, Quantities& quantities,
-                    Diagnostics& diagnostics) {
-    if (text.empty()) return {};
-    Expression out = Expression::compile(text, quantities, spec.place, key, diagnostics);
-    if (out.empty()) return out;
-    if (out.type() == Expression::Type::number && (out.dimension() == wanted || text == "0"))
-        return out;
-    diagnostics.error(spec.place, key, fmt::format("'{}' is no {}", text, what),
-                      fmt::format("Write a {} with its unit.", what));
-    return {};
-}
-
 }  // namespace
 
 Motor::Motor(const MotorSpec& spec, const scene::Joint& joint, int index, Quantities& quantities,
              Diagnostics& diagnostics)
-    : joint_(index), goes_(goes_somewhere(spec)), delay_(spec.delay), shape_(spec.shape) {
+    : joint_(index), goes_(goes_somewhere(spec)) {
+    course_ = {spec.delay, spec.duration.value_or(0), spec.shape};
     check_kind(spec, joint, diagnostics);
     check_form(spec, joint, diagnostics);
     if (goes_) to_ = spec.angle ? *spec.angle : *spec.displacement;
-    if (spec.duration) duration_ = *spec.duration;
     if (is_limited(spec)) most_ = spec.most_force ? *spec.most_force : *spec.most_torque;
-    const bool slides = joint.slides();
-    follow_ = compiled(spec.follow, dimension(slides ? Quantity::length : Quantity::angle), spec,
-                       "follow", slides ? "length" : "angle", quantities, diagnostics);
-    push_ = compiled(spec.push, dimension(slides ? Quantity::force : Quantity::torque), spec,
-                     "push", slides ? "force" : "torque", quantities, diagnostics);
+    const auto compiled = [&](const std::string& text, Quantity quantity, const char* key,
+                              const std::string& what) {
+        return Expression::compile_of(quantity, what.c_str(), text, quantities, spec.place, key,
+                                      "Write a " + what + " with its unit.", diagnostics);
+    };
+    if (joint.slides()) {
+        follow_ = compiled(spec.follow, Quantity::length, "follow", "length");
+        push_ = compiled(spec.push, Quantity::force, "push", "force");
+    } else {
+        follow_ = compiled(spec.follow, Quantity::angle, "follow", "angle");
+        push_ = compiled(spec.push, Quantity::torque, "push", "torque");
+    }
 }
 
 }  // namespace dihaptic::task

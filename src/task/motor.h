@@ -79,11 +79,7 @@ class Motor {
         out.follows = 1;
         out.most_force = of(most_);
         if (goes_) {
-            Profile course;
-            course.delay = of(delay_);
-            course.rise = of(duration_);
-            course.shape = shape_;
-            out.position = from + course.share(t) * (of(to_) - from);
+            out.position = from + course_.share(t, of) * (of(to_) - from);
         } else {
             out.position = number_or_0(follow_(values));
         }
@@ -97,10 +93,8 @@ class Motor {
     int joint_;
     bool goes_ = false;  ///< to a place; otherwise it follows an expression, if there is one
     Number to_{};
-    Number duration_{};
-    Number delay_{};
+    Course course_;
     Number most_{};
-    ProfileShape shape_;
     Expression follow_;
     Expression push_;
 };

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "base/field.h"
+#include "base/formula.h"
 #include "model/minimum_jerk.h"
 
 namespace dihaptic::task {
@@ -54,6 +55,23 @@ struct Profile {
   private:
     double risen(double s) const noexcept {
         return shape == ProfileShape::linear ? s : model::minimum_jerk(s).share;
+    }
+};
+
+/// The way from a place to another, as a share of it, in numbers that may be a trial's own.
+struct Course {
+    Number delay{};     ///< [s]
+    Number duration{};  ///< [s]
+    ProfileShape shape = ProfileShape::minimum_jerk;
+
+    /// The share at `t` since the beginning [s]; `of(Number)` is a number in this trial.
+    template <class Of>
+    double share(double t, const Of& of) const noexcept {
+        Profile course;
+        course.delay = of(delay);
+        course.rise = of(duration);
+        course.shape = shape;
+        return course.share(t);
     }
 };
 

@@ -60,7 +60,7 @@ JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
     from_A_ = p_A_ + axis_A_ * axis_W.dot(way);
 }
 
-void JointMark::add_to(Solids& out, const servo::Frame& frame) const {
+void JointMark::add_to(Solids& out, const servo::Frame& frame, const gl::Model& ball) const {
     using Kind = scene::JointKind;
     const Pose X_WA = shown(frame, a_);
     const Pose X_WB = shown(frame, b_);
@@ -71,7 +71,7 @@ void JointMark::add_to(Solids& out, const servo::Frame& frame) const {
         out.add_line(p - kHalfAxis * along, p + kHalfAxis * along, kThick, ink(kMetal));
     };
     const auto add_ball = [&](double radius, const char* tint) {
-        out.add(triangles(scene::Shape::sphere(radius)), {Quat::Identity(), p}, ink(tint));
+        out.add_ball(ball, p, radius, ink(tint));
     };
     if (kind_ == Kind::hinge || kind_ == Kind::universal) add_axis(axis);
     if (kind_ == Kind::hinge && springs_) add_ball(0.8 * kBall, kSpring);

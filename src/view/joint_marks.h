@@ -13,8 +13,8 @@ namespace dihaptic::view {
 class JointMark {
   public:
     JointMark(const scene::Joint& joint, const scene::Scene& scene);
-    /// Where the frame's bodies are shown.
-    void add_to(Solids& out, const servo::Frame& frame) const;
+    /// Where the frame's bodies are shown; `ball` is one of radius 1.
+    void add_to(Solids& out, const servo::Frame& frame, const gl::Model& ball) const;
 
   private:
     void add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) const;

@@ -371,9 +371,7 @@ void SceneView::Parts::add_contacts(Solids& out, const servo::Frame& frame,
     for (const servo::ContactFrame& contact : frame.contacts) {
         const bool a_finger = contact.a >= first_finger;
         const bool b_finger = contact.b >= first_finger;
-        if (overlays.contacts)
-            out.add(ball, placed({Quat::Identity(), contact.p_WC}, Vec3::Constant(0.0018)),
-                    ink("#ffffff"));
+        if (overlays.contacts) out.add_ball(ball, contact.p_WC, 0.0018, ink("#ffffff"));
         const double newton = contact.f_B_W.norm();
         if (!overlays.forces || a_finger == b_finger || newton < 0.02) continue;
         const Vec3 f_W = b_finger ? contact.f_B_W : Vec3(-contact.f_B_W);
@@ -410,7 +408,7 @@ void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& 
     if (overlays.grip_axis && fingers.size() > 1) add_grip_axis(solids, frame, fingers.size());
     for (const Workspace& workspace : overlays.workspaces) add_workspace(solids, workspace);
     if (overlays.joints) {
-        for (const JointMark& joint : joints) joint.add_to(solids, frame);
+        for (const JointMark& joint : joints) joint.add_to(solids, frame, ball);
     }
     surface.set("shadowed", 0);
     surface.set("grid", 0.0);

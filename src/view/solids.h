@@ -30,6 +30,12 @@ class Solids {
     void add(const Triangles& what, const Pose& X, const Vec3& tint) {
         add(made_.emplace_back(what), gl::matrix(X), tint);
     }
+    /// `ball` is one of radius 1.
+    void add_ball(const gl::Model& ball, const Vec3& p, double radius, const Vec3& tint) {
+        Eigen::Matrix4d world_from_ball = gl::matrix({Quat::Identity(), p});
+        world_from_ball.topLeftCorner<3, 3>() *= radius;
+        add(ball, world_from_ball, tint);
+    }
     void add_line(const Vec3& a, const Vec3& b, double radius, const Vec3& tint) {
         add(tube(std::array{a, b}, radius), {}, tint);
     }

@@ -286,7 +286,7 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
 }
 
 void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
-                          ProblemJoint& row) const noexcept {
+                          ProblemJoint& row) noexcept {
     if (!joint.motor || !joint.motor->position) {
         const double friction = joint.spec.friction * joint.properties.friction;
         row.low[k] = -h * friction;
@@ -314,11 +314,11 @@ void Joints::drive(size_t i, const Motor& motor) noexcept {
     joints_[i].motor = motor;
 }
 
-Vec6 Joints::along(size_t i, bool second) const noexcept {
+std::pair<Vec6, Vec6> Joints::along(size_t i) const noexcept {
     const Joint& joint = joints_[i];
     std::array<ProblemJoint, kElements> rows;
     fill(joint, pose_of(joint.a), pose_of(joint.b), rows);
-    return second ? rows[2].J_b.row(0) : rows[2].J_a.row(0);
+    return {rows[2].J_a.row(0), rows[2].J_b.row(0)};
 }
 
 double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b,
@@ -442,14 +442,17 @@ void Joints::read() noexcept {
         const Pose X_WA = pose_of(joint.a);
         const Pose X_WB = pose_of(joint.b);
         if (!joint.spec.has_coordinate() && !joint.spec.is_bushing()) continue;
-        state.position = gaps(joint, X_WA, X_WB, state.position).q;
         std::array<ProblemJoint, kElements> rows;
         fill(joint, X_WA, X_WB, rows);
         const Vec6 v_a = velocity_of(joint.a);
         const Vec6 v_b = velocity_of(joint.b);
+        if (joint.spec.is_bushing()) {
+            for (int k = 0; k < 6; ++k)
+                joint.rates[k] = inside(rows[static_cast<size_t>(k / 3)], k % 3, v_a, v_b);
+            continue;
+        }
+        state.position = gaps(joint, X_WA, X_WB, state.position).q;
         state.velocity = inside(rows[2], 0, v_a, v_b);
-        for (int k = 0; k < 6; ++k)
-            joint.rates[k] = inside(rows[static_cast<size_t>(k / 3)], k % 3, v_a, v_b);
     }
 }
 

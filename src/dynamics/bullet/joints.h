@@ -29,6 +29,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/problem.h"
@@ -58,9 +59,9 @@ class Joints {
     bool set(size_t i, const JointProperties& properties) noexcept;
     /// In the coming step.
     void drive(size_t i, const Motor& motor) noexcept;
-    /// What the coordinate's unit force does to the first or the second body: a force at its centre
-    /// of mass and a torque; zero without a coordinate.
-    contact::Vec6 along(size_t i, bool second) const noexcept;
+    /// What the coordinate's unit force does to the first and to the second body: a force at its
+    /// centre of mass and a torque; zero without a coordinate.
+    std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;
 
     /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
     /// by item. The first guess of velocities is the problem's own. Impulses to start from,
@@ -120,8 +121,8 @@ class Joints {
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
     /// The row in which a motor, or else dry friction, acts.
-    void ask_of_motor(const Joint& joint, double q, double h, int k,
-                      contact::ProblemJoint& row) const noexcept;
+    static void ask_of_motor(const Joint& joint, double q, double h, int k,
+                             contact::ProblemJoint& row) noexcept;
 
     /// Along a slider's axis, or from the first body's point of a distance to the second one's.
     static Vec3 direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept;

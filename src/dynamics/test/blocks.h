@@ -32,6 +32,17 @@ inline scene::Body block(const Vec3& position, double friction = 0.8) {
     return box("block", Vec3::Constant(0.04), position, 0.1, friction);
 }
 
+inline scene::Joint joint(scene::JointKind kind, std::vector<std::string> between,
+                          const Vec3& position, const Vec3& axis = Vec3::UnitY()) {
+    scene::Joint out;
+    out.name = "joint";
+    out.kind = kind;
+    out.between = std::move(between);
+    out.position = position;
+    out.axis = axis;
+    return out;
+}
+
 /// Settings with which nothing sleeps.
 inline Settings awake() {
     Settings settings;

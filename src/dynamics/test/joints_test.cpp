@@ -15,17 +15,6 @@ namespace {
 
 using scene::JointKind;
 
-scene::Joint joint(JointKind kind, std::vector<std::string> between, const Vec3& position,
-                   const Vec3& axis = Vec3::UnitY()) {
-    scene::Joint out;
-    out.name = "joint";
-    out.kind = kind;
-    out.between = std::move(between);
-    out.position = position;
-    out.axis = axis;
-    return out;
-}
-
 World make(std::vector<scene::Body> bodies, std::vector<scene::Joint> joints,
            const Settings& settings = awake()) {
     scene::Scene scene;

@@ -13,17 +13,6 @@ namespace {
 constexpr double kMass = 0.1, kSide = 0.04;
 constexpr double kInertia = kMass * kSide * kSide / 6;
 
-scene::Joint joint(scene::JointKind kind, std::vector<std::string> between, const Vec3& position,
-                   const Vec3& axis) {
-    scene::Joint out;
-    out.name = "joint";
-    out.kind = kind;
-    out.between = std::move(between);
-    out.position = position;
-    out.axis = axis;
-    return out;
-}
-
 /// A block that slides along x in mid-air.
 scene::Joint rail() {
     return joint(scene::JointKind::slider, {"block"}, {0, 0, 0.2}, Vec3::UnitX());

@@ -7,102 +7,18 @@
 #include <memory>
 #include <string>
 
-#include "haptics/finger.h"
+#include "haptics/test/pressed.h"
 
 namespace dihaptic::haptics::soft_surface_test {
 namespace {
 
-constexpr double kTick = 1e-3;
-constexpr double kCoupling = 1000;  // [N/m]
-
-enum class Proxy { rigid, point_apart, point_solved };
-
-/// A finger above a fixed block whose top is at z = 0.
-class Pressed {
-  public:
-    Pressed(Proxy proxy, const scene::Surface& surface, double friction, int every = 1)
-        : every_(every) {
-        scene::Body block;
-        block.name = "block";
-        block.shape = scene::Shape::box({0.4, 0.4, 0.4});
-        block.position = {0, 0, -0.2};
-        block.fixed = true;
-        block.friction = friction;
-        block.surface = surface;
-        scene::Finger spec;
-        spec.name = "index";
-        spec.shape = scene::Shape::sphere(kRadius);
-        spec.friction = friction;
-        scene_.bodies = {block};
-        scene_.fingers = {spec};
-        world_ = std::make_unique<World>(scene_, dynamics::Settings{});
-        CouplingSettings coupling;
-        coupling.stiffness = kCoupling;
-        lift_ = proxy == Proxy::rigid ? kRadius : 0;
-        const Vec3 at(0, 0, lift_ + 0.002);
-        if (proxy == Proxy::rigid) {
-            body_ = world_->add_proxy(spec, at);
-            finger_ = std::make_unique<Finger>(spec, body_, coupling, 50);
-        } else {
-            body_ = world_->add_point(spec, at);
-            finger_ = proxy == Proxy::point_apart
-                          ? std::make_unique<Finger>(
-                                PointProxy(scene_, body_, coupling, ProxySettings{}), body_)
-                          : std::make_unique<Finger>(
-                                SolvedPoint(scene_, body_, coupling, ProxySettings{}), body_);
-        }
-        world_->activate();
-        handle_ = {at, Vec3::Zero()};
-        finger_->place(*world_, handle_);
-    }
-
-    /// Moves the handle there at 50 mm/s, waits, and returns the force that it feels.
-    Vec3 go(const Vec3& p, int wait = 500) {
-        const Vec3 to = p + Vec3(0, 0, lift_);
-        const Vec3 from = handle_.p_WH;
-        const int ticks = std::max(1, static_cast<int>((to - from).norm() / (0.05 * kTick)));
-        Vec3 f = Vec3::Zero();
-        for (int i = 1; i <= ticks + wait; ++i)
-            f = tick(from + std::min(1.0, double(i) / ticks) * (to - from));
-        return f;
-    }
-    const Finger& finger() const { return *finger_; }
-
-  private:
-    static constexpr double kRadius = 0.008;
-
-    Vec3 tick(const Vec3& p) {
-        handle_.v_WH = (p - handle_.p_WH) / kTick;
-        handle_.p_WH = p;
-        const double step = kTick * every_;
-        finger_->begin_tick(*world_, handle_, step);
-        if (ticks_++ % every_ == 0) {
-            finger_->before_step(*world_, handle_, step);
-            world_->step(step);
-            finger_->after_step(*world_, handle_);
-        }
-        return finger_->force(*world_, handle_, kTick);
-    }
-
-    scene::Scene scene_;
-    std::unique_ptr<World> world_;
-    std::unique_ptr<Finger> finger_;
-    BodyIndex body_;
-    Handle handle_;
-    double lift_ = 0;  // of the handle over what touches the block [m]
-    int every_;
-    int ticks_ = 0;
-};
-
-std::string name_of(const ::testing::TestParamInfo<Proxy>& which) {
-    constexpr std::array kNames{"rigid", "point_apart", "point_solved"};
-    return kNames[static_cast<size_t>(which.param)];
-}
+constexpr double kCoupling = kPressedCoupling;
+using Proxy = PressedProxy;
 
 class SoftSurface : public ::testing::TestWithParam<Proxy> {};
 INSTANTIATE_TEST_SUITE_P(Haptics, SoftSurface,
                          ::testing::Values(Proxy::rigid, Proxy::point_apart, Proxy::point_solved),
-                         name_of);
+                         name_of_proxy);
 
 scene::Surface soft(double k) {
     scene::Surface out;

@@ -3,22 +3,19 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <vector>
 
-#include "haptics/finger.h"
+#include "haptics/test/pressed.h"
 
 namespace dihaptic::haptics::texture_test {
 namespace {
 
-constexpr double kTick = 1e-3;
-constexpr double kCoupling = 1000;  // [N/m]
+using Proxy = PressedProxy;
+
 constexpr double kFriction = 0.5;
 constexpr double kWave = 0.01;
 constexpr double kDeep = 0.003;
-
-enum class Proxy { rigid, point_apart, point_solved };
 
 scene::Texture grating() {
     scene::Texture out;
@@ -30,66 +27,23 @@ scene::Texture grating() {
 /// Friction over normal force while a finger is drawn over a block at 20 mm/s, by where it is.
 std::vector<std::pair<Vec3, double>> drawn(Proxy proxy, const scene::Texture& texture,
                                            const Vec3& direction) {
-    scene::Scene scene;
-    scene::Body block;
-    block.name = "block";
-    block.shape = scene::Shape::box({0.4, 0.4, 0.4});
-    block.position = {0, 0, -0.2};
-    block.fixed = true;
-    block.friction = kFriction;
-    block.surface.texture = texture;
-    scene.bodies = {block};
-    scene::Finger spec;
-    spec.name = "index";
-    constexpr double kRadius = 0.008;
-    spec.shape = scene::Shape::sphere(kRadius);
-    spec.friction = kFriction;
-    scene.fingers = {spec};
-    World world(scene, dynamics::Settings{});
-    CouplingSettings coupling;
-    coupling.stiffness = kCoupling;
-    const double lift = proxy == Proxy::rigid ? kRadius : 0;
-    Handle handle{{0, 0, lift + 0.002}, Vec3::Zero()};
-    const dynamics::BodyIndex body = proxy == Proxy::rigid ? world.add_proxy(spec, handle.p_WH)
-                                                           : world.add_point(spec, handle.p_WH);
-    std::unique_ptr<Finger> finger;
-    if (proxy == Proxy::rigid) {
-        finger = std::make_unique<Finger>(spec, body, coupling, 50);
-    } else if (proxy == Proxy::point_apart) {
-        finger = std::make_unique<Finger>(PointProxy(scene, body, coupling, ProxySettings{}), body);
-    } else {
-        finger =
-            std::make_unique<Finger>(SolvedPoint(scene, body, coupling, ProxySettings{}), body);
-    }
-    world.activate();
-    finger->place(world, handle);
+    scene::Surface surface;
+    surface.texture = texture;
+    Pressed pressed(proxy, surface, kFriction);
     std::vector<std::pair<Vec3, double>> out;
     for (int i = 0; i < 3000; ++i) {
-        const double t = i * kTick;
-        const Vec3 p = Vec3(0, 0, lift + std::max(-kDeep, 0.002 - 0.05 * t)) +
-                       std::max(0.0, t - 0.2) * 0.02 * direction;
-        handle.v_WH = (p - handle.p_WH) / kTick;
-        handle.p_WH = p;
-        finger->begin_tick(world, handle, kTick);
-        finger->before_step(world, handle, kTick);
-        world.step(kTick);
-        finger->after_step(world, handle);
-        const Vec3 f = finger->force(world, handle, kTick);
-        const Vec3 p_WP = world.state(body).X_WB.p;
-        if (t > 0.8 && f.z() > 0.5) out.emplace_back(p_WP, f.head<2>().norm() / f.z());
+        const double t = i * kPressedTick;
+        const Vec3 f = pressed.move(Vec3(0, 0, std::max(-kDeep, 0.002 - 0.05 * t)) +
+                                    std::max(0.0, t - 0.2) * 0.02 * direction);
+        if (t > 0.8 && f.z() > 0.5) out.emplace_back(pressed.proxy(), f.head<2>().norm() / f.z());
     }
     return out;
-}
-
-std::string name_of(const ::testing::TestParamInfo<Proxy>& which) {
-    constexpr std::array kNames{"rigid", "point_apart", "point_solved"};
-    return kNames[static_cast<size_t>(which.param)];
 }
 
 class Textured : public ::testing::TestWithParam<Proxy> {};
 INSTANTIATE_TEST_SUITE_P(Haptics, Textured,
                          ::testing::Values(Proxy::rigid, Proxy::point_apart, Proxy::point_solved),
-                         name_of);
+                         name_of_proxy);
 
 TEST_P(Textured, GratingsAreFeltAcrossTheirRidges) {
     const auto felt = drawn(GetParam(), grating(), Vec3::UnitX());

@@ -1,8 +1,7 @@
 // Tests joints that a file gives in the frame of a body.
 #include <gtest/gtest.h>
 
-#include "base/node.h"
-#include "scene/scene.h"
+#include "scene/test/read_text.h"
 
 namespace dihaptic::scene::joint_places_test {
 namespace {
@@ -17,16 +16,9 @@ joints:
   - { name: pad, kind: bushing, in: mug, between: [mug, spoon], rotation_deg: [0, 20, 0], stiffnesses_N_m: [1, 2, 3] }
 )";
 
-Scene read(const std::string& yaml, Diagnostics& diagnostics) {
-    Scene scene;
-    read_fields(scene, parse_yaml(yaml, "scene.yaml"), diagnostics);
-    complete(scene, "", diagnostics);
-    return scene;
-}
-
 TEST(JointPlaces, AreTurnedIntoTheWorlds) {
     Diagnostics diagnostics;
-    const Scene scene = read(kScene, diagnostics);
+    const Scene scene = read_text(kScene, diagnostics);
     for (const Problem& problem : diagnostics.problems()) ADD_FAILURE() << problem.text();
     ASSERT_EQ(scene.joints.size(), 3u);
     const Joint& hook = scene.joints[0];
@@ -44,7 +36,7 @@ TEST(JointPlaces, NameABodyThatThereIs) {
     std::string yaml = kScene;
     yaml.replace(yaml.find("in: mug"), 7, "in: mgu");
     Diagnostics diagnostics;
-    read(yaml, diagnostics);
+    read_text(yaml, diagnostics);
     ASSERT_TRUE(diagnostics.has_errors());
     EXPECT_NE(diagnostics.problems()[0].text().find("Did you mean mug?"), std::string::npos);
 }

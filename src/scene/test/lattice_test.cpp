@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/field_writer.h"
-#include "base/node.h"
-#include "scene/scene.h"
+#include "scene/test/read_text.h"
 
 namespace dihaptic::scene::lattice_test {
 namespace {
@@ -27,16 +26,9 @@ joints:
   - { name: first, kind: ball, between: [sponge_1_1_1] }
 )";
 
-Scene read(const std::string& yaml, Diagnostics& diagnostics) {
-    Scene scene;
-    read_fields(scene, parse_yaml(yaml, "scene.yaml"), diagnostics);
-    complete(scene, "", diagnostics);
-    return scene;
-}
-
 TEST(Lattices, BecomeBlocksAndBushings) {
     Diagnostics diagnostics;
-    const Scene scene = read(kScene, diagnostics);
+    const Scene scene = read_text(kScene, diagnostics);
     for (const Problem& problem : diagnostics.problems()) ADD_FAILURE() << problem.text();
     ASSERT_EQ(scene.bodies.size(), 5u);
     EXPECT_TRUE(scene.lattices.empty());
@@ -63,8 +55,8 @@ TEST(Lattices, BecomeBlocksAndBushings) {
 
 TEST(Lattices, StayTheSameOnceTheyAreWrittenAsBlocks) {
     Diagnostics diagnostics;
-    const Scene scene = read(kScene, diagnostics);
-    const Scene again = read(to_yaml(write_fields(scene)), diagnostics);
+    const Scene scene = read_text(kScene, diagnostics);
+    const Scene again = read_text(to_yaml(write_fields(scene)), diagnostics);
     for (const Problem& problem : diagnostics.problems()) ADD_FAILURE() << problem.text();
     EXPECT_EQ(to_yaml(write_fields(again)), to_yaml(write_fields(scene)));
 }
@@ -83,7 +75,7 @@ TEST_P(MistakenLattice, IsRefusedWithARemedy) {
     ASSERT_NE(at, std::string::npos);
     yaml.replace(at, std::string(GetParam().from).size(), GetParam().to);
     Diagnostics diagnostics;
-    read(yaml, diagnostics);
+    read_text(yaml, diagnostics);
     std::string all;
     for (const Problem& problem : diagnostics.problems()) all += problem.text() + "\n";
     EXPECT_NE(all.find(GetParam().says), std::string::npos) << all;
