@@ -35,7 +35,7 @@ struct Sessions {
             stop = stop || mover == Mover::mouse || (cut && share > 0.1);
         };
         // on the real clock the session is cut at the right place
-        if (cut) options.clock = Clock::real;
+        if (cut || mover == Mover::mouse) options.clock = Clock::real;
         return record(plan(mover, participant), options, stop, look).folder;
     }
 };
