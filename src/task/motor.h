@@ -74,21 +74,23 @@ class Motor {
                          std::span<const double> values) const noexcept {
         servo::MotorFrame out;
         out.joint = joint_;
-        if (!push_.empty()) out.push = number_or_0(push_(values));
+        if (!push_.empty()) out.push = finite_or(0, push_(values));
         if (!goes_ && follow_.empty()) return out;
         out.follows = 1;
         out.most_force = of(most_);
         if (goes_) {
             out.position = from + course_.share(t, of) * (of(to_) - from);
         } else {
-            out.position = number_or_0(follow_(values));
+            out.position = finite_or(from, follow_(values));
         }
         return out;
     }
 
   private:
     /// An expression may divide by what is zero just now.
-    static double number_or_0(double value) noexcept { return std::isfinite(value) ? value : 0; }
+    static double finite_or(double otherwise, double value) noexcept {
+        return std::isfinite(value) ? value : otherwise;
+    }
 
     int joint_;
     bool goes_ = false;  ///< to a place; otherwise it follows an expression, if there is one

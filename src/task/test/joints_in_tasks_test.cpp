@@ -183,6 +183,18 @@ TEST(JointsInTasks, BeginWhereTheyArePlacedAlsoWithMotors) {
     EXPECT_NEAR(most, 60 * M_PI / 180, 1e-3);
 }
 
+TEST(JointsInTasks, StayWhereAnExpressionHasNoValue) {
+    Jointed files;
+    files.does(
+        "motors: [{ joint: shoulder, follow: 10 deg / (time_in_state - time_in_state) * (1 s), "
+        "most_torque_Nm: 1, push: 1 Nm * (0 / share) }]",
+        "", "  conditions: [{ name: one, places: [{ joint: shoulder, angle_deg: 30 }] }]\n");
+    const std::vector<servo::Frame> last = files.last_frames();
+    ASSERT_EQ(last.size(), 1u);
+    EXPECT_NEAR(last[0].joints[kShoulder].angle, 30 * M_PI / 180, 1e-3);
+    EXPECT_EQ(last[0].task.motors[0].push, 0);
+}
+
 TEST(JointsInTasks, BeginWithTheRateThatATrialSays) {
     Jointed files;
     files.does(
