@@ -23,7 +23,7 @@ function(dihaptic_together target)
     endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
     # what a class keeps behind a pointer to its Impl may be of a type of its source's own
-    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and

@@ -55,27 +55,40 @@ void BlockLu::reserve(int nodes, int edges) {
     adjacency_.assign(n * words_, 0);
     degree_.assign(n, 0);
     eliminated_.assign(n, 0);
+    varies_.reserve(n);
     order_.reserve(n);
     later_.reserve(kBlocksPerNode * n);
     later_begin_.reserve(n + 1);
     slot_.assign(n * n, -1);
     blocks_.resize(kBlocksPerNode * n);
+    kept_.resize(kBlocksPerNode * n);
     nodes_ = 0;
     used_ = 0;
 }
 
-bool BlockLu::same_pattern(int nodes, std::span<const std::pair<int, int>> edges) const noexcept {
-    return nodes == nodes_ && std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end());
+bool BlockLu::same_pattern(int nodes, std::span<const std::pair<int, int>> edges,
+                           std::span<const char> varies) const noexcept {
+    return nodes == nodes_ &&
+           std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end()) &&
+           std::equal(varies.begin(), varies.end(), varies_.begin(), varies_.end());
 }
 
-bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept {
-    if (same_pattern(nodes, edges)) return true;
+bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
+                      std::span<const char> varies) noexcept {
+    if (same_pattern(nodes, edges, varies)) return true;
     forget_pattern();
     if (nodes > capacity_ || edges.size() > edges_.capacity()) return false;
+    varies_.assign(varies.begin(), varies.end());
     connect(nodes, edges);
     later_begin_.push_back(0);
-    for (int k = 0; k < nodes; ++k) {
-        if (!eliminate(least_connected(nodes))) return false;
+    const auto count = static_cast<size_t>(nodes);
+    constant_ = static_cast<size_t>(std::count(varies.begin(), varies.end(), 0));
+    while (order_.size() < constant_) {
+        if (!eliminate(least_connected(nodes, false))) return false;
+    }
+    first_varying_ = used_;
+    while (order_.size() < count) {
+        if (!eliminate(least_connected(nodes, true))) return false;
     }
     nodes_ = nodes;
     edges_.assign(edges.begin(), edges.end());
@@ -95,6 +108,8 @@ void BlockLu::forget_pattern() noexcept {
     later_begin_.clear();
     nodes_ = 0;
     used_ = 0;
+    constant_ = 0;
+    first_varying_ = 0;
 }
 
 void BlockLu::connect(int nodes, std::span<const std::pair<int, int>> edges) noexcept {
@@ -116,12 +131,14 @@ int BlockLu::degree_of(int node) noexcept {
     return degree;
 }
 
-/// Of the nodes not yet eliminated, the first with the fewest neighbours (minimum degree).
-int BlockLu::least_connected(int nodes) const noexcept {
+/// Of the nodes not yet eliminated that vary, or do not, the first with the fewest neighbours
+/// (minimum degree).
+int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     int least = -1;
     for (int i = 0; i < nodes; ++i) {
         const auto at = static_cast<size_t>(i);
-        if (eliminated_[at] == 0 &&
+        const bool can_vary = varies_.empty() || varies_[at] != 0;
+        if (eliminated_[at] == 0 && can_vary == varies &&
             (least < 0 || degree_[at] < degree_[static_cast<size_t>(least)])) {
             least = i;
         }
@@ -166,33 +183,42 @@ void BlockLu::set_identity() noexcept {
     for (int i = 0; i < nodes_; ++i) block(slot(i, i)).setIdentity();
 }
 
+void BlockLu::keep() noexcept {
+    for (size_t k = 0; k < constant_; ++k) factorise(k);
+    std::copy(blocks_.begin() + first_varying_, blocks_.begin() + used_, kept_.begin());
+}
+
+void BlockLu::again() noexcept {
+    std::copy_n(kept_.begin(), used_ - first_varying_, blocks_.begin() + first_varying_);
+}
+
+void BlockLu::factorise(size_t k) noexcept {
+    const int i = order_[k];
+    Block& diagonal = block(slot(i, i));
+    invert(diagonal);
+    for (const int m : later(k)) {
+        Block& right = block(slot(i, m));
+        right = (diagonal * right).eval();
+    }
+    for (const int j : later(k)) {
+        const Block& below = block(slot(j, i));
+        for (const int m : later(k))
+            block(slot(j, m)).noalias() -= below.lazyProduct(block(slot(i, m)));
+    }
+}
+
 void BlockLu::solve(std::span<Vector> x) noexcept {
     for (size_t k = 0; k < order_.size(); ++k) {
+        if (k >= constant_) factorise(k);
         const int i = order_[k];
-        Block& diagonal = block(slot(i, i));
-        invert(diagonal);
-        const Vector x_i = diagonal * x[static_cast<size_t>(i)];
+        const Vector x_i = block(slot(i, i)) * x[static_cast<size_t>(i)];
         x[static_cast<size_t>(i)] = x_i;
-        const std::span later(later_.data() + later_begin_[k],
-                              later_begin_[k + 1] - later_begin_[k]);
-        for (const int m : later) {
-            Block& right = block(slot(i, m));
-            right = (diagonal * right).eval();
-        }
-        for (const int j : later) {
-            const Block& below = block(slot(j, i));
-            x[static_cast<size_t>(j)].noalias() -= below * x_i;
-            for (const int m : later) {
-                block(slot(j, m)).noalias() -= below.lazyProduct(block(slot(i, m)));
-            }
-        }
+        for (const int j : later(k)) x[static_cast<size_t>(j)].noalias() -= block(slot(j, i)) * x_i;
     }
     for (size_t k = order_.size(); k-- > 0;) {
         const int i = order_[k];
-        for (size_t l = later_begin_[k]; l < later_begin_[k + 1]; ++l) {
-            const int m = later_[l];
+        for (const int m : later(k))
             x[static_cast<size_t>(i)].noalias() -= block(slot(i, m)) * x[static_cast<size_t>(m)];
-        }
     }
 }
 

@@ -2,6 +2,9 @@
 // a block wherever two bodies touch. Bodies are eliminated in order of least degree, so that a wall
 // or a chain fills in little; pivoting stays inside the diagonal blocks.
 //
+// Where the same pattern is solved again and again, and the blocks of some bodies never change,
+// those bodies are eliminated first, and once: keep() does so, and each solve begins with again().
+//
 // Memory is reserved once; everything else allocates nothing.
 #pragma once
 
@@ -21,8 +24,10 @@ class BlockLu {
     void reserve(int nodes, int edges);
 
     /// Finds the order of elimination, and where fill-in arises, for a pattern of unordered pairs.
-    /// Does nothing if the pattern is the last one. False if it is larger than reserved.
-    bool analyse(int nodes, std::span<const std::pair<int, int>> edges) noexcept;
+    /// `varies` says of each node whether its blocks change between solves; left out, all do. Does
+    /// nothing if the pattern is the last one. False if it is larger than reserved.
+    bool analyse(int nodes, std::span<const std::pair<int, int>> edges,
+                 std::span<const char> varies = {}) noexcept;
 
     /// Index of the block of two nodes; valid until another pattern is analysed.
     int slot(int row, int column) const noexcept {
@@ -32,18 +37,30 @@ class BlockLu {
     Block& block(int slot) noexcept { return blocks_[static_cast<size_t>(slot)]; }
     void set_identity() noexcept;
 
-    /// Solves for x in place; destroys the blocks.
+    /// Takes the blocks as they are for the beginning of solves: eliminates the nodes that do not
+    /// vary.
+    void keep() noexcept;
+    /// Has the blocks that can vary as they were kept.
+    void again() noexcept;
+    /// Solves for x in place; destroys the blocks that can vary. Needs keep() before.
     void solve(std::span<Vector> x) noexcept;
 
     int blocks() const noexcept { return used_; }
 
   private:
-    bool same_pattern(int nodes, std::span<const std::pair<int, int>> edges) const noexcept;
+    bool same_pattern(int nodes, std::span<const std::pair<int, int>> edges,
+                      std::span<const char> varies) const noexcept;
     void forget_pattern() noexcept;
     void connect(int nodes, std::span<const std::pair<int, int>> edges) noexcept;
     int degree_of(int node) noexcept;
-    int least_connected(int nodes) const noexcept;
+    int least_connected(int nodes, bool varies) const noexcept;
     bool eliminate(int node) noexcept;
+    /// Nodes of the order that are eliminated after its k-th.
+    std::span<const int> later(size_t k) const noexcept {
+        return {later_.data() + later_begin_[k], later_begin_[k + 1] - later_begin_[k]};
+    }
+    /// Eliminates the k-th node of the order from the blocks of later ones.
+    void factorise(size_t k) noexcept;
     int& slot_of(int row, int column) noexcept {
         return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
                      static_cast<size_t>(column)];
@@ -61,11 +78,15 @@ class BlockLu {
     std::vector<uint64_t> adjacency_;         // bit sets, by node
     std::vector<int> degree_;
     std::vector<char> eliminated_;
+    std::vector<char> varies_;  // by node
     std::vector<int> order_;
+    size_t constant_ = 0;     // nodes of the order that do not vary: the first ones
+    int first_varying_ = 0;   // of the blocks: those before are of nodes that do not vary
     std::vector<int> later_;  // for each node of the order: its neighbours eliminated later
     std::vector<size_t> later_begin_;
     std::vector<int> slot_;  // by row and column; -1: no block
     std::vector<Block> blocks_;
+    std::vector<Block> kept_;  // of nodes that vary
 };
 
 }  // namespace dihaptic::contact

@@ -35,6 +35,7 @@ void BodySystem<Dim>::reserve(int bodies, int contacts, int joints) {
     root_.reserve(static_cast<size_t>(bodies));
     y_.reserve(static_cast<size_t>(bodies));
     edges_.reserve(static_cast<size_t>(contacts) + static_cast<size_t>(joints));
+    varies_.reserve(static_cast<size_t>(bodies));
     lu_.reserve(bodies, contacts + joints);
 }
 
@@ -60,12 +61,18 @@ void BodySystem<Dim>::assemble(const ContactProblem& problem) noexcept {
 template <int Dim>
 bool BodySystem<Dim>::prepare_newton() noexcept {
     edges_.clear();
+    varies_.assign(root_.size(), joints_.empty());
+    kept_ = false;
     for (const ContactRows& row : rows_) {
+        if (!is_linear(row)) {
+            if (row.a != kFixed) varies_[static_cast<size_t>(row.a)] = 1;
+            if (row.b != kFixed) varies_[static_cast<size_t>(row.b)] = 1;
+        }
         if (row.a == kFixed || row.b == kFixed) continue;
         const std::pair<int, int> edge = std::minmax(row.a, row.b);
         if (edges_.empty() || edges_.back() != edge) edges_.push_back(edge);
     }
-    if (!lu_.analyse(static_cast<int>(root_.size()), edges_)) return false;
+    if (!lu_.analyse(static_cast<int>(root_.size()), edges_, varies_)) return false;
     for (ContactRows& row : rows_) find_blocks(row);
     return true;
 }
@@ -156,6 +163,9 @@ void BodySystem<Dim>::assemble_joint(const ContactProblem& problem, const Proble
     scale.compliance = joint.compliance * row.unit * row.unit;
     scale.low = joint.low / row.unit;
     scale.high = joint.high / row.unit;
+    scale.linear = true;
+    for (int i = 0; i < kRows; ++i)
+        scale.linear = scale.linear && (joint.low[i] == joint.high[i] || !scale.is_bounded(i));
     scale.W.setZero();
     for (const Ht* H_t : {&row.Ht_a, &row.Ht_b})
         scale.W.noalias() +=
@@ -201,28 +211,40 @@ void BodySystem<Dim>::soften(std::span<Linearised<D>> contacts) const noexcept {
 }
 
 template <int Dim>
+void BodySystem<Dim>::add_to_matrix(const ContactRows& row, const Linearised<D>& contact) noexcept {
+    if (contact.open) return;
+    const auto add = [&](int slot, const Ht& left, const Ht& G_right) {
+        lu_.block(slot).noalias() += left.lazyProduct(G_right.transpose());
+    };
+    if (row.a != kFixed) {
+        const Ht G_a = row.Ht_a.lazyProduct(contact.G.transpose());
+        add(row.aa, row.Ht_a, G_a);
+        if (row.b != kFixed) add(row.ba, row.Ht_b, G_a);
+    }
+    if (row.b != kFixed) {
+        const Ht G_b = row.Ht_b.lazyProduct(contact.G.transpose());
+        add(row.bb, row.Ht_b, G_b);
+        if (row.a != kFixed) add(row.ab, row.Ht_a, G_b);
+    }
+}
+
+template <int Dim>
 void BodySystem<Dim>::newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept {
     soften(contacts);
-    lu_.set_identity();
+    if (!kept_) {
+        lu_.set_identity();
+        for (size_t j = 0; j < rows_.size(); ++j) {
+            if (is_linear(rows_[j])) add_to_matrix(rows_[j], contacts[j]);
+        }
+        lu_.keep();
+        kept_ = true;
+    } else {
+        lu_.again();
+    }
     std::fill(y_.begin(), y_.end(), Vec6::Zero());
     for (size_t j = 0; j < rows_.size(); ++j) {
-        const ContactRows& row = rows_[j];
-        const Linearised<D>& contact = contacts[j];
-        apply(row, -contact.c);
-        if (contact.open) continue;
-        const auto add = [&](int slot, const Ht& left, const Ht& G_right) {
-            lu_.block(slot).noalias() += left.lazyProduct(G_right.transpose());
-        };
-        if (row.a != kFixed) {
-            const Ht G_a = row.Ht_a.lazyProduct(contact.G.transpose());
-            add(row.aa, row.Ht_a, G_a);
-            if (row.b != kFixed) add(row.ba, row.Ht_b, G_a);
-        }
-        if (row.b != kFixed) {
-            const Ht G_b = row.Ht_b.lazyProduct(contact.G.transpose());
-            add(row.bb, row.Ht_b, G_b);
-            if (row.a != kFixed) add(row.ab, row.Ht_a, G_b);
-        }
+        apply(rows_[j], -contacts[j].c);
+        if (!is_linear(rows_[j])) add_to_matrix(rows_[j], contacts[j]);
     }
     lu_.solve(y_);
     for (size_t j = 0; j < rows_.size(); ++j) {

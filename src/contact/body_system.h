@@ -106,6 +106,12 @@ class BodySystem {
     void assemble_joint(const ContactProblem& problem, const ProblemJoint& joint, ContactRows& row,
                         JointScale& scale) noexcept;
     void find_blocks(ContactRows& row) const noexcept;
+    /// Whether a row's G is the same in every step of Newton's method.
+    static bool is_linear(const ContactRows& row) noexcept {
+        return row.law.joint != nullptr && row.law.joint->linear;
+    }
+    /// Adds H' G H of one contact or joint to the matrix.
+    void add_to_matrix(const ContactRows& row, const Linearised<D>& contact) noexcept;
     /// Takes the compliance of contacts out of W and into G and c.
     void soften(std::span<Linearised<D>> contacts) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
@@ -125,7 +131,9 @@ class BodySystem {
     std::vector<Mat6> root_;  // of the inverse mass matrix, by body
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;
+    std::vector<char> varies_;  // by body: whether a row is on it that is not linear
     BlockLu lu_;
+    bool kept_ = false;  // what linear rows add to the matrix is in it
     bool finite_ = true;
 };
 

@@ -22,12 +22,16 @@
 //     between   G = 1 / (gamma + rho)                c = (u^ + gamma r) / (gamma + rho)
 //     at a bound  G = 0                              c = r - bound
 //
+// Rows without bounds are linear equations, which Newton's method solves in a step however large
+// they are: their rho is kLinearRho or none, and so their G is always the same.
+//
 // rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
 // r_k. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W have
 // a mean of 1.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/polygon.h"
 #include "contact/problem.h"
@@ -41,7 +45,18 @@ struct JointScale {
     Vec3 compliance = Vec3::Zero();
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();
+    bool linear = false;  ///< no row has bounds, but for rows that ask for nothing
+
+    bool is_bounded(int row) const noexcept {
+        return std::isfinite(low[row]) || std::isfinite(high[row]);
+    }
 };
+
+/// What regularises rows without bounds: their compliance, or rho where that is hardly any, since a
+/// G much larger than 1 / rho would cost Newton's step its digits. A larger rho would take a chain
+/// of joints many proximal steps, because motions of its whole length change its rows little.
+constexpr double kLinearRho = 1e-7;
+constexpr double kLeastCompliance = 1e-9;
 
 /// Scaling of one contact, or of a joint's rows, in a scaled system.
 struct Scale {
@@ -65,14 +80,18 @@ namespace law {
 struct Joint {
     template <int D>
     static double linearise(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
-                            const Eigen::Matrix<double, D, 1>& u, double rho,
+                            const Eigen::Matrix<double, D, 1>& u,
+                            const Eigen::Matrix<double, D, 1>& r_k, double rho_of_contacts,
                             Linearised<D>& out) noexcept {
         out.G.setZero();
         out.c = r;  // rows beyond the joint's are zero
         out.open = true;
         double error = 0;
         for (int i = 0; i < ProblemJoint::kRows; ++i) {
-            const double w = u[i] + joint.compliance[i] * r[i];
+            const double rho = joint.is_bounded(i)
+                                   ? rho_of_contacts
+                                   : (joint.compliance[i] < kLeastCompliance ? kLinearRho : 0);
+            const double w = u[i] + rho * (r[i] - r_k[i]) + joint.compliance[i] * r[i];
             const double z = r[i] - joint.a[i] * w;
             const double nearest = std::clamp(z, joint.low[i], joint.high[i]);
             error += (r[i] - nearest) * (r[i] - nearest);
@@ -356,13 +375,14 @@ struct Polygonal {
     }
 };
 
-/// What follows is by the law for a contact, and by the joint's own for a joint.
+/// What follows is by the law for a contact, and by the joint's own for a joint. This one is in a
+/// proximal step about r_k.
 template <int D, class Law>
 double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
-                 const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
-                 size_t j) noexcept {
-    if (scale.joint != nullptr) return Joint::linearise<D>(*scale.joint, r, u, rho, out);
-    return law.template linearise<D>(scale, r, u, rho, out, j);
+                 const Eigen::Matrix<double, D, 1>& u, const Eigen::Matrix<double, D, 1>& r_k,
+                 double rho, Linearised<D>& out, size_t j) noexcept {
+    if (scale.joint != nullptr) return Joint::linearise<D>(*scale.joint, r, u, r_k, rho, out);
+    return law.template linearise<D>(scale, r, u + rho * (r - r_k), rho, out, j);
 }
 template <int D, class Law>
 double residual(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,

@@ -428,10 +428,13 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
                                      has_fingers && !held ? kMostWork : contact::kUnbounded};
     const contact::SolveStats stats = solve_guessing(how, h);
     problem.store(island_contacts);
-    joints.store(island_joints, problem.joint_impulses(), h);
+    island_change.clear();
+    for (size_t i = 0; i < island_bodies.size(); ++i)
+        island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
+    problem.store(joints, island_joints, island_change, h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
-        const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
+        const contact::Vec6& change = island_change[i];
         body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
         limit_turn(body, h);

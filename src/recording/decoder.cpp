@@ -195,7 +195,7 @@ class FrameDecoder::Builder {
         list_name_ = first_word(line);
         if (list_ == nullptr) out_.unknown_.push_back(list_name_);
         if (out_.steps_.back().list) out_.steps_.emplace_back();
-        List& list = out_.steps_.back().list.emplace();
+        List& list = out_.steps_.back().list.emplace(List{});
         list.changed = changed;
         if (list_ != nullptr) list.target = list_->target;
     }

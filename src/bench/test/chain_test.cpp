@@ -24,5 +24,16 @@ TEST(BenchChain, OursHoldsTogetherAndKeepsItsEnergy) {
     }
 }
 
+TEST(BenchChain, OursHoldsFiftyLinks) {
+    dynamics::Settings settings;
+    settings.solver = dynamics::Solver::newton;
+    const auto rows =
+        bench_chain({world_simulator(settings)}, {50}, [](const std::string&, double) {});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_LT(rows[0].apart_mm, 1e-3);
+    EXPECT_LT(std::abs(rows[0].energy), 1e-3);
+    EXPECT_LT(rows[0].energy_above, 1e-2);
+}
+
 }  // namespace
 }  // namespace dihaptic::bench::chain_test

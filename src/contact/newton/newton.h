@@ -219,9 +219,8 @@ class ProximalNewton {
     double linearise() {
         double error = 0;
         for (size_t j = 0; j < r_.size(); ++j) {
-            const Vec u = memory_.u[j] + rho_ * (r_[j] - memory_.r_k[j]);
-            error += law::linearise<System::D>(law_, system_.scale(j), r_[j], u, rho_,
-                                               memory_.linearised[j], j);
+            error += law::linearise<System::D>(law_, system_.scale(j), r_[j], memory_.u[j],
+                                               memory_.r_k[j], rho_, memory_.linearised[j], j);
         }
         return error;
     }

@@ -63,35 +63,22 @@ TEST(LemkeTest, EndsOnDegenerateAndUnsolvableProblems) {
     EXPECT_NEAR(lemke.z(0) + lemke.z(1) + lemke.z(2) + lemke.z(3), 1, 1e-12);
 }
 
-TEST(BlockLuTest, SolvesWhatADenseFactorisationSolves) {
-    Random random(2, "block lu");
-    BlockLu lu;
-    lu.reserve(20, 60);
-    for (int trial = 0; trial < 20; ++trial) {
-        const int n = 1 + trial;
-        std::vector<std::pair<int, int>> edges;
-        for (int i = 1; i < n; ++i) {
-            edges.emplace_back(static_cast<int>(random.uniform(0, i)), i);
-            if (i > 2) edges.emplace_back(i - 2, i);
-        }
-        ASSERT_TRUE(lu.analyse(n, edges));
-        lu.set_identity();
-        Eigen::MatrixXd A = Eigen::MatrixXd::Identity(6 * n, 6 * n);
-        const auto add = [&](int i, int j) {
-            BlockLu::Block B;
-            for (double& x : B.reshaped()) x = random.uniform(-1, 1);
-            lu.block(lu.slot(i, j)) += B;
-            A.block<6, 6>(6 * i, 6 * j) += B;
-        };
-        for (int i = 0; i < n; ++i) {
-            add(i, i);
-            lu.block(lu.slot(i, i)) += 10 * BlockLu::Block::Identity();
-            A.block<6, 6>(6 * i, 6 * i) += 10 * BlockLu::Block::Identity();
-        }
-        for (const auto& [i, j] : edges) {
-            add(i, j);
-            add(j, i);
-        }
+/// A matrix in blocks, and the same as a dense one.
+struct BothMatrices {
+    BlockLu& lu;
+    Eigen::MatrixXd A;
+    Random& random;
+
+    void begin(int nodes) { A = Eigen::MatrixXd::Identity(6 * nodes, 6 * nodes); }
+    void add(int i, int j) {
+        BlockLu::Block B;
+        for (double& x : B.reshaped()) x = random.uniform(-1, 1);
+        if (i == j) B += 10 * BlockLu::Block::Identity();
+        lu.block(lu.slot(i, j)) += B;
+        A.block<6, 6>(6 * i, 6 * j) += B;
+    }
+    void solve_and_compare() {
+        const auto n = static_cast<int>(A.rows() / 6);
         std::vector<BlockLu::Vector> x(static_cast<size_t>(n));
         Eigen::VectorXd b(6 * n);
         for (int i = 0; i < n; ++i) {
@@ -102,6 +89,69 @@ TEST(BlockLuTest, SolvesWhatADenseFactorisationSolves) {
         const Eigen::VectorXd expected = A.partialPivLu().solve(b);
         for (int i = 0; i < n; ++i)
             EXPECT_LT((x[static_cast<size_t>(i)] - expected.segment<6>(6 * i)).norm(), 1e-10);
+    }
+};
+
+std::vector<std::pair<int, int>> random_edges(int nodes, Random& random) {
+    std::vector<std::pair<int, int>> out;
+    for (int i = 1; i < nodes; ++i) {
+        out.emplace_back(static_cast<int>(random.uniform(0, i)), i);
+        if (i > 2) out.emplace_back(i - 2, i);
+    }
+    return out;
+}
+
+TEST(BlockLuTest, SolvesWhatADenseFactorisationSolves) {
+    Random random(2, "block lu");
+    BlockLu lu;
+    lu.reserve(20, 60);
+    BothMatrices both{lu, {}, random};
+    for (int n = 1; n <= 20; ++n) {
+        const auto edges = random_edges(n, random);
+        ASSERT_TRUE(lu.analyse(n, edges));
+        lu.set_identity();
+        both.begin(n);
+        for (int i = 0; i < n; ++i) both.add(i, i);
+        for (const auto& [i, j] : edges) {
+            both.add(i, j);
+            both.add(j, i);
+        }
+        lu.keep();
+        both.solve_and_compare();
+    }
+}
+
+TEST(BlockLuTest, SolvesAgainWithOtherBlocksOfNodesThatVary) {
+    Random random(4, "block lu that varies");
+    BlockLu lu;
+    lu.reserve(20, 60);
+    BothMatrices both{lu, {}, random};
+    for (int n = 1; n <= 20; ++n) {
+        const auto edges = random_edges(n, random);
+        std::vector<char> varies;
+        for (int i = 0; i < n; ++i) varies.push_back(random.uniform(0, 1) < 0.5 ? 1 : 0);
+        const auto can_vary = [&](int i) { return varies[static_cast<size_t>(i)] != 0; };
+        ASSERT_TRUE(lu.analyse(n, edges, varies));
+        lu.set_identity();
+        both.begin(n);
+        for (int i = 0; i < n; ++i) both.add(i, i);
+        for (const auto& [i, j] : edges) {
+            both.add(i, j);
+            both.add(j, i);
+        }
+        lu.keep();
+        const Eigen::MatrixXd kept = both.A;
+        for (int again = 0; again < 3; ++again) {
+            lu.again();
+            both.A = kept;
+            for (int i = 0; i < n; ++i) {
+                if (can_vary(i)) both.add(i, i);
+            }
+            for (const auto& [i, j] : edges) {
+                if (can_vary(i) && can_vary(j)) both.add(j, i);
+            }
+            both.solve_and_compare();
+        }
     }
 }
 

@@ -321,18 +321,17 @@ std::pair<Vec6, Vec6> Joints::along(size_t i) const noexcept {
     return {rows[2].J_a.row(0), rows[2].J_b.row(0)};
 }
 
-double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b,
-                   std::span<ProblemJoint> rows) const noexcept {
-    const Joint& joint = joints_[i];
+double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b) noexcept {
+    Joint& joint = joints_[i];
     const double q_near = states_[i].position;
-    const Gaps now = gaps(joint, pose_of(joint.a), pose_of(joint.b), q_near);
     const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
     if (joint.spec.is_bushing()) {
         // what a guess is off changes a spring by the square of a step's turn: no further is asked
-        ask_of_bushing(joint, then, h, v_a, v_b, rows);
+        ask_of_bushing(joint, then, h, v_a, v_b, joint.rows);
         return 0;
     }
     double most = 0;
+    const Gaps now = gaps(joint, pose_of(joint.a), pose_of(joint.b), q_near);
     for (int k = 0; k < 3; ++k) {
         const auto set = [&](ProblemJoint& row, double gap, double gap_then, double stiffness,
                              double most_pull) {
@@ -343,12 +342,19 @@ double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b,
             most = std::max(most, std::abs(bias - row.bias[k]));
             row.bias[k] = bias;
         };
-        set(rows[0], now.linear[k], then.linear[k], kStiffness, kPull);
-        set(rows[1], now.angular[k], then.angular[k], kTurnStiffness, kTurnPull);
+        set(joint.rows[0], now.linear[k], then.linear[k], kStiffness, kPull);
+        set(joint.rows[1], now.angular[k], then.angular[k], kTurnStiffness, kTurnPull);
     }
     if (joint.spec.has_coordinate())
-        ask_of_coordinate(i, then.q - h * inside(rows[2], 0, v_a, v_b), h, rows[2]);
+        ask_of_coordinate(i, then.q - h * inside(joint.rows[2], 0, v_a, v_b), h, joint.rows[2]);
     return most;
+}
+
+void Joints::tell(const Joint& joint, contact::ContactProblem& problem) noexcept {
+    for (size_t e = 0; e < kElements; ++e) {
+        if (joint.row_at[e] >= 0)
+            problem.joints[static_cast<size_t>(joint.row_at[e])] = joint.rows[e];
+    }
 }
 
 void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
@@ -357,53 +363,69 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
     constexpr double kKept = 0.95;
     for (const size_t i : which) {
         Joint& joint = joints_[i];
-        const size_t first = problem.joints.size();
+        for (ProblemJoint& rows : joint.rows) {
+            rows = {};
+            rows.a = joint.a.fixed ? contact::kFixed : index[joint.a.at()];
+            rows.b = joint.b.fixed ? contact::kFixed : index[joint.b.at()];
+        }
+        fill(joint, pose_of(joint.a), pose_of(joint.b), joint.rows);
+        if (joint.spec.stiffness > 0 || joint.motor)
+            joint.inverse_mass = along_coordinate(problem, joint.rows);
+        if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, joint.rows);
+        ask(i, h, velocity_of(joint.a) + joint.change_a.next(),
+            velocity_of(joint.b) + joint.change_b.next());
         for (size_t e = 0; e < kElements; ++e) {
-            ProblemJoint& rows = problem.joints.emplace_back();
-            rows.a = joint.a.fixed ? contact::kFixed : index[static_cast<size_t>(joint.a.item)];
-            rows.b = joint.b.fixed ? contact::kFixed : index[static_cast<size_t>(joint.b.item)];
+            const ProblemJoint& rows = joint.rows[e];
+            joint.row_at[e] = -1;
+            if (rows.low == rows.high) continue;
+            joint.row_at[e] = static_cast<int>(problem.joints.size());
+            problem.joints.push_back(rows);
             start.push_back(kKept * joint.impulses[e]);
         }
-        const auto rows = std::span(problem.joints).subspan(first, kElements);
-        fill(joint, pose_of(joint.a), pose_of(joint.b), rows);
-        if (joint.spec.has_coordinate()) joint.inverse_mass = along_coordinate(problem, rows);
-        if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, rows);
-        ask(i, h, velocity_of(joint.a), velocity_of(joint.b), rows);
     }
 }
 
 double Joints::guess(std::span<const size_t> which, std::span<const int> index, double h,
-                     std::span<const Vec6> change,
-                     contact::ContactProblem& problem) const noexcept {
+                     std::span<const Vec6> change, contact::ContactProblem& problem) noexcept {
     double most = 0;
-    for (size_t n = 0; n < which.size(); ++n) {
-        const Joint& joint = joints_[which[n]];
+    for (const size_t i : which) {
+        const Joint& joint = joints_[i];
         const auto then = [&](const Side& side) -> Vec6 {
             if (side.fixed) return Vec6::Zero();
-            const auto at = static_cast<size_t>(index[static_cast<size_t>(side.item)]);
-            return velocity_of(side) + change[at];
+            return velocity_of(side) + change[static_cast<size_t>(index[side.at()])];
         };
-        const auto rows = std::span(problem.joints).subspan(kElements * n, kElements);
-        most = std::max(most, ask(which[n], h, then(joint.a), then(joint.b), rows));
+        most = std::max(most, ask(i, h, then(joint.a), then(joint.b)));
+        tell(joint, problem);
     }
     return most;
 }
 
 void Joints::hold(std::span<const size_t> which, double h,
-                  contact::ContactProblem& problem) const noexcept {
-    for (size_t n = 0; n < which.size(); ++n)
-        ask(which[n], h, Vec6::Zero(), Vec6::Zero(),
-            std::span(problem.joints).subspan(kElements * n, kElements));
+                  contact::ContactProblem& problem) noexcept {
+    for (const size_t i : which) {
+        ask(i, h, Vec6::Zero(), Vec6::Zero());
+        tell(joints_[i], problem);
+    }
 }
 
-void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses,
+void Joints::store(std::span<const size_t> which, std::span<const int> index,
+                   std::span<const Vec6> change, std::span<const Vec3> impulses,
                    double h) noexcept {
-    for (size_t n = 0; n < which.size(); ++n) {
-        Joint& joint = joints_[which[n]];
-        for (size_t e = 0; e < kElements; ++e) joint.impulses[e] = impulses[kElements * n + e];
+    const auto change_of = [&](const Side& side) -> Vec6 {
+        if (side.fixed) return Vec6::Zero();
+        return change[static_cast<size_t>(index[side.at()])];
+    };
+    for (const size_t i : which) {
+        Joint& joint = joints_[i];
+        joint.change_a.now = change_of(joint.a);
+        joint.change_b.now = change_of(joint.b);
+        for (size_t e = 0; e < kElements; ++e) {
+            const int at = joint.row_at[e];
+            joint.impulses[e] = at < 0 ? Vec3(Vec3::Zero()) : impulses[static_cast<size_t>(at)];
+        }
         const Pose X_WF = pose_of(joint.a) * joint.X_AF;
         const Mat3 F = X_WF.R.toRotationMatrix();
-        JointState& state = states_[which[n]];
+        JointState& state = states_[i];
         state.force_W = F * joint.impulses[0] / h;
         const double along = joint.impulses[2].sum() / h;
         state.torque_W = Vec3::Zero();
@@ -430,6 +452,8 @@ void Joints::store(std::span<const size_t> which, std::span<const Vec3> impulses
 
 void Joints::end_step() noexcept {
     for (Joint& joint : joints_) {
+        joint.change_a.end_step();
+        joint.change_b.end_step();
         joint.led_from = joint.motor ? joint.motor->position : std::nullopt;
         joint.motor.reset();
     }
@@ -458,7 +482,10 @@ void Joints::read() noexcept {
 
 void Joints::forget() noexcept {
     end_step();
-    for (Joint& joint : joints_) joint.impulses.fill(Vec3::Zero());
+    for (Joint& joint : joints_) {
+        joint.impulses.fill(Vec3::Zero());
+        joint.change_a = joint.change_b = {};
+    }
 }
 
 }  // namespace dihaptic::dynamics

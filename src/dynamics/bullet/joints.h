@@ -64,21 +64,22 @@ class Joints {
     std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;
 
     /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
-    /// by item. The first guess of velocities is the problem's own. Impulses to start from,
-    /// somewhat less than those of the last step, go to `start`.
+    /// by item. The first guess is that velocities change as they changed in the last two steps.
+    /// Impulses to start from, somewhat less than those of the last step, go to `start`.
     void add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                   contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept;
     /// Guesses anew, that velocities change by `change`, by index of the problem. Returns the
     /// largest change of a bias [m/s], [rad/s].
     double guess(std::span<const size_t> which, std::span<const int> index, double h,
-                 std::span<const contact::Vec6> change,
-                 contact::ContactProblem& problem) const noexcept;
+                 std::span<const contact::Vec6> change, contact::ContactProblem& problem) noexcept;
     /// Asks for the joint's equations of velocities alone, and for what they are off to be pulled
     /// back: a step of first order, which gives no energy but by that pull.
-    void hold(std::span<const size_t> which, double h,
-              contact::ContactProblem& problem) const noexcept;
-    /// Keeps the impulses of a step of h.
-    void store(std::span<const size_t> which, std::span<const Vec3> impulses, double h) noexcept;
+    void hold(std::span<const size_t> which, double h, contact::ContactProblem& problem) noexcept;
+    /// Keeps the impulses of a step of h, and what changes of velocities it made, by index of the
+    /// problem.
+    void store(std::span<const size_t> which, std::span<const int> index,
+               std::span<const contact::Vec6> change, std::span<const Vec3> impulses,
+               double h) noexcept;
     /// Motors rest until they are driven anew.
     void end_step() noexcept;
     /// Reads the coordinates, after a step or after bodies were put elsewhere.
@@ -88,6 +89,17 @@ class Joints {
 
   private:
     static constexpr size_t kElements = 3;  // linear rows, angular rows, those of the coordinate
+    /// How a body's velocities are changed by contacts and joints, from step to step.
+    struct Change {
+        contact::Vec6 now = contact::Vec6::Zero();
+        contact::Vec6 last = contact::Vec6::Zero();
+        contact::Vec6 before = contact::Vec6::Zero();
+        contact::Vec6 next() const noexcept { return 2 * last - before; }
+        void end_step() noexcept {
+            before = last;
+            last = now;
+        }
+    };
     struct Joint {
         scene::Joint spec;
         Side a;
@@ -95,7 +107,11 @@ class Joints {
         Pose X_AF;
         Pose X_BF;
         std::array<Vec3, kElements> impulses{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-        double inverse_mass = 0;                               // that the coordinate moves
+        Change change_a = {};
+        Change change_b = {};
+        std::array<contact::ProblemJoint, kElements> rows = {};
+        std::array<int, kElements> row_at{-1, -1, -1};  // in the problem; -1: they ask for nothing
+        double inverse_mass = 0;                        // that the coordinate moves
         contact::Vec6 inverse_masses = contact::Vec6::Zero();  // of a bushing, by axis
         contact::Vec6 rates = contact::Vec6::Zero();           // of a bushing, before the step
         JointProperties properties = {};
@@ -113,9 +129,10 @@ class Joints {
     static void fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
                      std::span<contact::ProblemJoint> rows) noexcept;
     /// With velocities guessed; returns the largest change of a bias.
-    double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b,
-               std::span<contact::ProblemJoint> rows) const noexcept;
+    double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b) noexcept;
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
+    /// Copies to the problem what a joint's rows ask for.
+    static void tell(const Joint& joint, contact::ContactProblem& problem) noexcept;
     /// Rows of a bushing that gets to `then` at these velocities.
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,

@@ -146,12 +146,12 @@ void ManifoldProblem::add_joints(Joints& joints, std::span<const size_t> which, 
     for (Vec3& impulse : joint_impulses_) impulse.setZero();
 }
 
-double ManifoldProblem::guess(const Joints& joints, std::span<const size_t> which, double h,
+double ManifoldProblem::guess(Joints& joints, std::span<const size_t> which, double h,
                               std::span<const contact::Vec6> change) noexcept {
     return joints.guess(which, index_, h, change, problem_);
 }
 
-void ManifoldProblem::hold(const Joints& joints, std::span<const size_t> which, double h) noexcept {
+void ManifoldProblem::hold(Joints& joints, std::span<const size_t> which, double h) noexcept {
     joints.hold(which, h, problem_);
 }
 
@@ -179,6 +179,11 @@ void ManifoldProblem::let_bounce(contact::ProblemContact& contact,
         }
     }
     free_.back() = free;
+}
+
+void ManifoldProblem::store(Joints& joints, std::span<const size_t> which,
+                            std::span<const contact::Vec6> change, double h) const noexcept {
+    joints.store(which, index_, change, joint_impulses_, h);
 }
 
 void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const noexcept {

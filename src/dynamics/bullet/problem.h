@@ -32,15 +32,18 @@ class ManifoldProblem {
     void add_joints(Joints& joints, std::span<const size_t> which, double h,
                     bool warm_start) noexcept;
     /// As Joints::guess().
-    double guess(const Joints& joints, std::span<const size_t> which, double h,
+    double guess(Joints& joints, std::span<const size_t> which, double h,
                  std::span<const contact::Vec6> change) noexcept;
     /// Asks for the joints' equations of velocities alone (Joints::hold).
-    void hold(const Joints& joints, std::span<const size_t> which, double h) noexcept;
+    void hold(Joints& joints, std::span<const size_t> which, double h) noexcept;
 
     const contact::ContactProblem& problem() const noexcept { return problem_; }
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
     std::span<Vec3> joint_impulses() noexcept { return joint_impulses_; }
 
+    /// Has the joints keep the impulses, and these changes of velocities, by the problem's bodies.
+    void store(Joints& joints, std::span<const size_t> which, std::span<const contact::Vec6> change,
+               double h) const noexcept;
     /// Has the manifolds' points carry the impulses.
     void store(std::span<btPersistentManifold*> manifolds) const noexcept;
 
