@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "scene/spring_curve.h"
 
 namespace dihaptic::scene {
 
@@ -33,6 +34,7 @@ struct Joint {
     std::optional<Vec3> second_position;  ///< of a distance: its point of the second body [m]
     /// Of the free axis of a hinge or slider, or of a distance.
     double stiffness = 0;       ///< [N/m] or [N*m/rad]
+    SpringCurve curve;          ///< in place of the stiffness
     double rest = 0;            ///< coordinate at which the spring is relaxed [m] or [rad]
     double damping = 0;         ///< [N*s/m] or [N*m*s/rad]
     double friction = 0;        ///< dry [N] or [N*m]
@@ -51,8 +53,10 @@ struct Joint {
 
     bool is_distance() const { return kind == JointKind::distance; }
     bool is_bushing() const { return kind == JointKind::bushing; }
+    /// Whether a spring acts along its coordinate.
+    bool has_axis_spring() const { return stiffness > 0 || !curve.is_empty(); }
     bool has_spring() const {
-        return stiffness > 0 || !stiffnesses.isZero(0) || !turn_stiffnesses.isZero(0);
+        return has_axis_spring() || !stiffnesses.isZero(0) || !turn_stiffnesses.isZero(0);
     }
     bool has_damper() const {
         return damping > 0 || !dampings.isZero(0) || !turn_dampings.isZero(0);
@@ -62,7 +66,7 @@ struct Joint {
     /// Whether it has a coordinate: a free axis, or a distance.
     bool has_coordinate() const { return kind == JointKind::hinge || slides(); }
     /// Whether nothing says how far apart the points of a distance may be: then it is a rod.
-    bool is_rod() const { return is_distance() && stiffness == 0 && !low && !high; }
+    bool is_rod() const { return is_distance() && !has_axis_spring() && !low && !high; }
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -92,6 +96,17 @@ struct Joint {
               .within(0, kStiffest)
               .says("Of a spring about the axis of a hinge; of a slider or distance, along it: "
                     "stiffness_N_m."));
+        v("curve_at", curve.stretch,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says(
+                  "Of a spring that does not obey Hooke's law: stretches from its rest, ascending; "
+                  "of a slider or distance, curve_at_mm."));
+        v("curve", curve.resistance,
+          Field::of(slides() ? Quantity::force : Quantity::torque)
+              .within(-kMostForce, kMostForce)
+              .says("With what it resists at these stretches, with straight lines between them and "
+                    "beyond; of a slider or distance, curve_N."));
         v("rest", rest,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
@@ -123,8 +138,9 @@ struct Joint {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
+    static constexpr double kStiffest = 1e7;  // of its springs [N/m] or [N*m/rad]
+
   private:
-    static constexpr double kStiffest = 1e7;
     static constexpr double kMostDamping = 1e5;
 
     template <class Visitor>

@@ -267,10 +267,44 @@ void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
                    : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
 }
 
+/// A curve has points that ascend, and no line that is steeper than a spring may be stiff.
+void check_curve(const Joint& joint, Diagnostics& diagnostics) {
+    const SpringCurve& curve = joint.curve;
+    if (curve.stretch.empty() && curve.resistance.empty()) return;
+    const char* const example = "Write e.g. curve_at_mm: [-10, 0, 10] and curve_N: [-2, 0, 5].";
+    const size_t points = curve.stretch.size();
+    if (points < 2 || points != curve.resistance.size()) {
+        diagnostics.error(
+            joint.place, points < 2 ? "curve_at" : "curve",
+            fmt::format("has {} stretches and {} resistances, and needs two or more of "
+                        "each",
+                        points, curve.resistance.size()),
+            example);
+        return;
+    }
+    if (joint.stiffness > 0)
+        diagnostics.error(joint.place, "stiffness",
+                          "stands beside a curve, which is a spring itself",
+                          "Leave out one of the two.");
+    for (size_t i = 1; i < points; ++i) {
+        const double way = curve.stretch[i] - curve.stretch[i - 1];
+        if (!(way > 0)) {
+            diagnostics.error(joint.place, "curve_at", "does not ascend", example);
+            return;
+        }
+        if (std::abs(curve.resistance[i] - curve.resistance[i - 1]) <= Joint::kStiffest * way)
+            continue;
+        diagnostics.error(joint.place, "curve",
+                          fmt::format("has a line steeper than {:g} {}", Joint::kStiffest,
+                                      joint.slides() ? "N/m" : "N*m/rad"),
+                          "Give a wall as a stop (low, high).");
+    }
+}
+
 /// A joint's springs, dampers, friction and stops are those of a free axis.
 void check_axis(const Joint& joint, Diagnostics& diagnostics) {
-    const bool asks =
-        joint.stiffness > 0 || joint.damping > 0 || joint.friction > 0 || joint.low || joint.high;
+    const bool asks = joint.has_axis_spring() || joint.damping > 0 || joint.friction > 0 ||
+                      joint.low || joint.high;
     if (asks && !joint.has_coordinate()) {
         diagnostics.error(
             joint.place, joint.name,
@@ -398,6 +432,7 @@ void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
 void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     for (const Joint& joint : scene.joints) {
         check_axis(joint, diagnostics);
+        check_curve(joint, diagnostics);
         check_bushing(joint, diagnostics);
         check_points(joint, diagnostics);
         check_start(joint, diagnostics);

@@ -41,7 +41,7 @@ void add_spring(Solids& out, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
-    : kind_(joint.kind), springs_(joint.stiffness > 0) {
+    : kind_(joint.kind), springs_(joint.has_axis_spring()) {
     const bool to_world = joint.between.size() == 1;
     a_ = to_world ? -1 : scene.find(joint.between[0]);
     b_ = scene.find(joint.between[to_world ? 0 : 1]);

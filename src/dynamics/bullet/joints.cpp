@@ -225,19 +225,22 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
 
 namespace {
 
-/// A row of a spring and a damper, which would be stretched by q at the end of a step in which it
-/// rests, and was stretched at the rate u before.
-void ask_of_spring(double stiffness, double damping, double inverse_mass, double q, double u,
+/// A row of a spring and a damper that was stretched at the rate u before. It would resist with
+/// `force` at the end of a step in which it rests, and by `stiffness` more as it is stretched more.
+void ask_of_spring(double force, double stiffness, double damping, double inverse_mass, double u,
                    double h, int k, ProblemJoint& row) {
     const double s = h * h * stiffness * inverse_mass;
     const double damped = s / (1 + s);
     const double ahead = h * (1 + 3 * damped) / 4;
     const double in_step = h * (damping + ahead * stiffness);
-    if (in_step <= 0) return;
+    if (in_step <= 0) {
+        row.low[k] = row.high[k] = -h * force;
+        return;
+    }
     row.low[k] = -kNone;
     row.high[k] = kNone;
     row.compliance[k] = 1 / in_step;
-    row.bias[k] = h * stiffness * (q - ahead * (1 - damped) * u) / in_step;
+    row.bias[k] = h * (force - stiffness * ahead * (1 - damped) * u) / in_step;
 }
 
 }  // namespace
@@ -251,11 +254,12 @@ void Joints::ask_of_bushing(const Joint& joint, const Gaps& then, double h, cons
         const scene::Joint& spec = joint.spec;
         const bool turns = k >= 3;
         const double gap = turns ? then.angular[axis] : then.linear[axis];
-        ask_of_spring(
-            (turns ? spec.turn_stiffnesses : spec.stiffnesses)[axis] * joint.properties.stiffness,
-            (turns ? spec.turn_dampings : spec.dampings)[axis] * joint.properties.damping,
-            joint.inverse_masses[k], gap - h * inside(row, axis, v_a, v_b), joint.rates[k], h, axis,
-            row);
+        const double stiffness =
+            (turns ? spec.turn_stiffnesses : spec.stiffnesses)[axis] * joint.properties.stiffness;
+        const double damping =
+            (turns ? spec.turn_dampings : spec.dampings)[axis] * joint.properties.damping;
+        ask_of_spring(stiffness * (gap - h * inside(row, axis, v_a, v_b)), stiffness, damping,
+                      joint.inverse_masses[k], joint.rates[k], h, axis, row);
     }
 }
 
@@ -265,9 +269,13 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     enum { kSpring, kMotor, kStop };
     const Joint& joint = joints_[i];
     const scene::Joint& spec = joint.spec;
-    ask_of_spring(spec.stiffness * joint.properties.stiffness,
-                  spec.damping * joint.properties.damping, joint.inverse_mass, q - spec.rest,
-                  states_[i].velocity, h, kSpring, row);
+    scene::SpringCurve::Point at{spec.stiffness * (q - spec.rest), spec.stiffness};
+    if (!spec.curve.is_empty()) at = spec.curve.at(q - spec.rest);
+    // where a curve falls there is nothing that a step could hold at its end
+    ask_of_spring(at.resistance * joint.properties.stiffness,
+                  std::max(0.0, at.stiffness) * joint.properties.stiffness,
+                  spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
+                  h, kSpring, row);
     ask_of_motor(joint, q, h, kMotor, row);
     const double pull = spec.slides() ? kPull : kTurnPull;
     if (spec.low && spec.high && *spec.low == *spec.high) {
@@ -369,7 +377,7 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
             rows.b = joint.b.fixed ? contact::kFixed : index[joint.b.at()];
         }
         fill(joint, pose_of(joint.a), pose_of(joint.b), joint.rows);
-        if (joint.spec.stiffness > 0 || joint.motor)
+        if (joint.spec.has_axis_spring() || joint.motor)
             joint.inverse_mass = along_coordinate(problem, joint.rows);
         if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, joint.rows);
         ask(i, h, velocity_of(joint.a) + joint.change_a.next(),
@@ -377,7 +385,7 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
         for (size_t e = 0; e < kElements; ++e) {
             const ProblemJoint& rows = joint.rows[e];
             joint.row_at[e] = -1;
-            if (rows.low == rows.high) continue;
+            if (rows.low.isZero(0) && rows.high.isZero(0)) continue;
             joint.row_at[e] = static_cast<int>(problem.joints.size());
             problem.joints.push_back(rows);
             start.push_back(kKept * joint.impulses[e]);

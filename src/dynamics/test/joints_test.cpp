@@ -221,6 +221,43 @@ TEST(Spring, ThatIsStiffOnAGramComesToRest) {
     }
 }
 
+/// A block of kMass on a slider along x, without gravity's pull along it, with a spring's curve.
+World on_a_curve(const scene::SpringCurve& curve, double rest, double damping) {
+    scene::Joint slider = joint(JointKind::slider, {"block"}, {0, 0, 0.2}, Vec3::UnitX());
+    slider.curve = curve;
+    slider.rest = rest;
+    slider.damping = damping;
+    return make({block({0, 0, 0.2})}, {slider});
+}
+
+TEST(SpringWithACurve, SwingsAsItsClosedFormSays) {
+    // no force within +-d, and 40 N/m beyond: half a swing of a spring at each end, and the gap
+    // twice at the highest speed w (A - d)
+    constexpr double kGap = 0.005, kAmplitude = 0.02, kStiff = 40;
+    World world = on_a_curve(
+        {{-1, -kGap, kGap, 1}, {-kStiff * (1 - kGap), 0, 0, kStiff * (1 - kGap)}}, -kAmplitude, 0);
+    const double w = std::sqrt(kStiff / kMass);
+    const std::vector<double> times = passes(world, -kAmplitude, 20);
+    ASSERT_GE(times.size(), 10u);
+    const double period = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    const double exact = 2 * std::numbers::pi / w + 4 * kGap / (w * (kAmplitude - kGap));
+    EXPECT_NEAR(period / exact, 1, 2e-3);
+}
+
+TEST(SpringWithACurve, GivesWayBeyondItsPeakAndHoldsBeforeIt) {
+    // as a key that clicks: 2 N at 5 mm, 0.5 N at 6 mm, 3 N at 16 mm
+    const scene::SpringCurve key{{0, 0.005, 0.006, 0.016}, {0, 2, 0.5, 3}};
+    for (const auto& [force, rests_at] : {std::pair{1.9, 0.00475}, {2.1, 0.0124}, {0.4, 0.001}}) {
+        World world = on_a_curve(key, 0, 30);
+        for (int i = 0; i < 3000; ++i) {
+            world.apply({0}, {force, 0, 0}, Vec3::Zero());
+            world.step(kStep);
+        }
+        EXPECT_NEAR(world.joints()[0].position, rests_at, 1e-8) << force;
+        EXPECT_NEAR(world.joints()[0].force_W.x(), -force, 1e-7) << force;
+    }
+}
+
 TEST(Fixed, JointsCarryForceAndTorqueAndDoNotMove) {
     scene::Body arm = box("arm", {0.2, 0.02, 0.02}, {0.1, 0, 0.5}, 0.3);
     World world = make({arm}, {joint(JointKind::fixed, {"arm"}, {0, 0, 0.5})});

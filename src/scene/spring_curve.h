@@ -1,0 +1,30 @@
+// The curve of a spring that does not obey Hooke's law: the force with which it resists at each
+// stretch, by straight lines between points that were measured or drawn.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace dihaptic::scene {
+
+struct SpringCurve {
+    std::vector<double> stretch;     ///< ascending [m] or [rad]
+    std::vector<double> resistance;  ///< at these, positive against a positive stretch [N] or [N*m]
+
+    struct Point {
+        double resistance = 0;
+        double stiffness = 0;  ///< of the line that it is on [N/m] or [N*m/rad]
+    };
+    bool is_empty() const noexcept { return stretch.empty(); }
+    /// Beyond its ends the curve goes on along its first and its last line. It has two points or
+    /// more, and as many stretches as resistances.
+    Point at(double x) const noexcept {
+        const auto next = std::upper_bound(stretch.begin() + 1, stretch.end() - 1, x);
+        const auto i = static_cast<size_t>(next - stretch.begin());
+        const double slope = (resistance[i] - resistance[i - 1]) / (stretch[i] - stretch[i - 1]);
+        return {resistance[i - 1] + slope * (x - stretch[i - 1]), slope};
+    }
+};
+
+}  // namespace dihaptic::scene
