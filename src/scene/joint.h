@@ -70,8 +70,6 @@ struct Joint {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        constexpr double kMostForce = 1e4;
-        constexpr double kMostWay = 1000;
         v("name", name, Field::text().required().says("Name of the joint."));
         v("kind", kind, Field::text().required().says("What the joint leaves free."));
         v("between", between,
@@ -91,6 +89,33 @@ struct Joint {
         v("second_position", second_position,
           Field::length().within(-100, 100).says(
               "Where the second body's point of a distance is at the start."));
+        visit_spring(v);
+        v("low", low,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says(
+                  "Coordinate below which a stop lets it not go; of a slider or distance low_mm."));
+        v("high", high,
+          Field::of(slides() ? Quantity::length : Quantity::angle)
+              .within(-kMostWay, kMostWay)
+              .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
+                    "distance is the length of a rope."));
+        visit_bushing(v);
+        v("collide", collide, says("Whether the two bodies touch each other all the same."));
+        v("recorded", recorded,
+          says("Whether what it does is recorded, so that tasks may name it."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+
+    static constexpr double kStiffest = 1e7;  // of its springs [N/m] or [N*m/rad]
+
+  private:
+    static constexpr double kMostForce = 1e4;
+    static constexpr double kMostWay = 1000;
+    static constexpr double kMostDamping = 1e5;
+
+    template <class Visitor>
+    void visit_spring(Visitor& v) {
         v("stiffness", stiffness,
           Field::of(slides() ? Quantity::stiffness : Quantity::turn_stiffness)
               .within(0, kStiffest)
@@ -121,28 +146,7 @@ struct Joint {
           Field::of(slides() ? Quantity::force : Quantity::torque)
               .within(0, kMostForce)
               .says("Dry friction about the axis; of a slider, along it: friction_N."));
-        v("low", low,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says(
-                  "Coordinate below which a stop lets it not go; of a slider or distance low_mm."));
-        v("high", high,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
-                    "distance is the length of a rope."));
-        visit_bushing(v);
-        v("collide", collide, says("Whether the two bodies touch each other all the same."));
-        v("recorded", recorded,
-          says("Whether what it does is recorded, so that tasks may name it."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
-
-    static constexpr double kStiffest = 1e7;  // of its springs [N/m] or [N*m/rad]
-
-  private:
-    static constexpr double kMostDamping = 1e5;
-
     template <class Visitor>
     void visit_bushing(Visitor& v) {
         v("rotation", rotation,

@@ -12,11 +12,12 @@
 #include "servo/task_frame.h"
 #include "task/expression.h"
 #include "task/profile.h"
+#include "task/sampled_path.h"
 
 namespace dihaptic::task {
 
-/// A body's path while a state lasts: to a place, by a way, or along expressions. While it goes
-/// somewhere it may turn, or it turns where it is.
+/// A body's path while a state lasts: to a place, by a way, along expressions, or as a table has
+/// it. While it goes to a place or by a way it may turn, or it turns where it is.
 struct DriveSpec {
     std::string body;
     std::optional<FormulaVec3> to;    ///< where its origin ends [m]
@@ -26,7 +27,8 @@ struct DriveSpec {
     std::optional<Formula> duration;  ///< of all of these [s]
     Formula delay = 0;                ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
-    std::vector<std::string> along;  ///< the way from where it begins, anew in each tick: x, y, z
+    std::vector<std::string> along;   ///< the way from where it begins, anew in each tick: x, y, z
+    std::optional<SampledPath> path;  ///< the way from where it begins, as a table has it
     Place place;
 
     template <class Visitor>
@@ -49,6 +51,7 @@ struct DriveSpec {
         v("along", along,
           says("Three expressions with units: how far it is along x, y and z from where it was as "
                "the state began, evaluated in each tick."));
+        v("path", path, says("The way from where it was as the state began, as a table has it."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -71,6 +74,10 @@ class Drive {
             if (way.allFinite()) out.p += way;
             return out;
         }
+        if (path_) {
+            out.p += path_->way(t - of(course_.delay));
+            return out;
+        }
         const double share = course_.share(t, of);
         const Vec3 to_W(of(way_[0]), of(way_[1]), of(way_[2]));
         out.p += share * (relative_ ? to_W : Vec3(to_W - from.p));
@@ -86,6 +93,7 @@ class Drive {
     Number angle_{};
     Course course_;
     std::vector<Expression> along_;  // none, or three
+    std::optional<SampledPath> path_;
 };
 
 }  // namespace dihaptic::task

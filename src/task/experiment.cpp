@@ -1,11 +1,28 @@
 #include "task/experiment.h"
 
+#include <filesystem>
+
 namespace dihaptic::task {
+
+namespace {
+
+void read_paths(Task& task, const std::string& folder, Diagnostics& diagnostics) {
+    for (State& state : task.states) {
+        for (DriveSpec& drive : state.drives) {
+            if (drive.path) drive.path->read_file(folder, diagnostics);
+        }
+    }
+}
+
+}  // namespace
 
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics) {
     Experiment experiment;
     try {
         read_fields(experiment, read_yaml(file), diagnostics);
+        if (experiment.task)
+            read_paths(*experiment.task, std::filesystem::path(file).parent_path().string(),
+                       diagnostics);
     } catch (const Error& e) {
         diagnostics.add(e.problems());
     }

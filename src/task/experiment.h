@@ -76,7 +76,8 @@ struct Experiment {
     }
 };
 
-/// Reads an experiment file, without the files that it names. Problems go to `diagnostics`.
+/// Reads an experiment file, with the paths of its drives, without the other files that it names.
+/// Problems go to `diagnostics`.
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
 enum class FileKind { scene, rig, experiment, movement, population, unknown };

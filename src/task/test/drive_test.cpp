@@ -92,6 +92,32 @@ TEST(Drive, ShakesAlongAnExpression) {
     EXPECT_LT(error, 0.005 * 2 * std::numbers::pi * 10 * 2 * kTick);
 }
 
+TEST(Drive, FollowsATable) {
+    WithPlatform files;
+    const auto frames = frames_of(
+        files, state("follow", "outcome: done",
+                     "{ body: platform, delay_s: 0.05, path: { times_s: [2, 2.1, 2.2], z_mm: [10, "
+                     "40, 20], x_mm: [7, 7, 7] } }"));
+    ASSERT_GT(frames.size(), 290u);
+    const auto at = [&](double t) {
+        return frames[static_cast<size_t>(std::lround(t / kTick))].bodies[kPlatform].X_WB.p;
+    };
+    EXPECT_LT((at(0.04) - Vec3(0.2, 0, 0.1)).norm(), 1e-12);
+    // a platform that goes at up to 0.45 m/s is a tick's way off by when a state begins
+    EXPECT_NEAR(at(0.15).z(), 0.13, 1e-3);
+    EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway, and slopes of 50 and 0 mm/s
+    EXPECT_LT((at(0.28) - Vec3(0.2, 0, 0.11)).norm(), 1e-9);
+}
+
+TEST(Drive, FollowsAFileThatTheSessionKeeps) {
+    WithPlatform files;
+    files.folder.write("path.csv", "time_s,z_mm,y_mm\n0,0,100\n0.1,5,100\n0.2,20,90\n");
+    const auto frames = frames_of(
+        files, state("follow", "outcome: done", "{ body: platform, path: { file: path.csv } }"));
+    ASSERT_GT(frames.size(), 290u);
+    EXPECT_LT((frames[280].bodies[kPlatform].X_WB.p - Vec3(0.2, -0.01, 0.12)).norm(), 1e-9);
+}
+
 TEST(Drive, TurnsABodyAboutItsOriginWhileItGoes) {
     WithPlatform files;
     const auto frames = frames_of(
@@ -152,6 +178,26 @@ INSTANTIATE_TEST_SUITE_P(
                 "axis: is missing"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], axis: [0, 0, 1] }]\n",
                 "is no part of a way"},
+        Mistake{kMarker, "      drive: [{ body: block, path: { times_s: [0], x_mm: [0] } }]\n",
+                "has fewer than two times"},
+        Mistake{kMarker,
+                "      drive: [{ body: block, path: { times_s: [0, 1, 1], x_mm: [0, 1, 2] } }]\n",
+                "does not ascend after number 2"},
+        Mistake{kMarker,
+                "      drive: [{ body: block, path: { times_s: [0, 1], x_mm: [0, 1, 2] } }]\n",
+                "has 3 places at 2 times"},
+        Mistake{kMarker, "      drive: [{ body: block, path: { times_s: [0, 1] } }]\n",
+                "and y and z too"},
+        Mistake{kMarker, "      drive: [{ body: block, path: { file: no.csv } }]\n",
+                "is empty, or cannot be read"},
+        Mistake{kMarker,
+                "      drive: [{ body: block, path: { file: no.csv, times_s: [0, 1] } }]\n",
+                "stands beside places"},
+        Mistake{
+            kMarker,
+            "      drive: [{ body: block, duration_s: 1, path: { times_s: [0, 1], x_mm: [0, 1] } "
+            "}]\n",
+            "whose times say it"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, indx.z] }]\n",
                 "Did you mean index"},
         Mistake{kMarker,

@@ -1,0 +1,107 @@
+#include "task/sampled_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "base/table.h"
+
+namespace dihaptic::task {
+namespace {
+
+/// Of one axis in the piece from times[i] to times[i + 1], at the share s of it.
+double along(const std::vector<double>& times, const std::vector<double>& places, size_t i,
+             double s) {
+    if (places.empty()) return 0;
+    const auto slope = [&](size_t k) {
+        if (k == 0 || k + 1 == times.size()) return 0.0;
+        return (places[k + 1] - places[k - 1]) / (times[k + 1] - times[k - 1]);
+    };
+    const double duration = times[i + 1] - times[i];
+    const double rise = places[i + 1] - places[i];
+    const double begin = duration * slope(i);
+    const double end = duration * slope(i + 1);
+    // Hermite's polynomial, from the first place of all
+    return places[i] - places[0] +
+           s * (begin + s * (3 * rise - 2 * begin - end + s * (begin + end - 2 * rise)));
+}
+
+}  // namespace
+
+void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics) {
+    if (file.empty()) return;
+    if (!times.empty() || !x.empty() || !y.empty() || !z.empty()) {
+        diagnostics.error(place, "file", "stands beside places that are written here",
+                          "Leave out one of the two.");
+        return;
+    }
+    const std::string path = (std::filesystem::path(folder) / file).string();
+    try {
+        const CsvFile table(path);
+        struct Column {
+            const char* name;
+            double unit;
+            std::vector<double>& to;
+        };
+        for (const Column& column : {Column{"time_s", 1, times}, Column{"x_mm", 1e-3, x},
+                                     Column{"y_mm", 1e-3, y}, Column{"z_mm", 1e-3, z}}) {
+            if (!table.has(column.name)) continue;
+            for (size_t row = 0; row < table.rows(); ++row)
+                column.to.push_back(column.unit * table.number(row, column.name));
+        }
+    } catch (const Error&) {
+        diagnostics.error(place, "file", fmt::format("'{}' is empty, or cannot be read", path),
+                          "Name a CSV file, relative to the experiment's, whose first line is e.g. "
+                          "time_s,x_mm,y_mm,z_mm.");
+    }
+    file.clear();
+}
+
+bool SampledPath::check(Diagnostics& diagnostics) const {
+    if (times.size() < 2) {
+        diagnostics.error(place, "times", "has fewer than two times",
+                          "Give times_s: [0, 0.5, 1] and e.g. z_mm: [0, 20, 0], or a file with the "
+                          "columns time_s and z_mm.");
+        return false;
+    }
+    bool good = true;
+    const auto expect = [&](bool so, const char* key, const std::string& what,
+                            const std::string& remedy) {
+        if (!so) diagnostics.error(place, key, what, remedy);
+        good = good && so;
+    };
+    for (size_t i = 1; i < times.size() && good; ++i) {
+        expect(times[i] > times[i - 1], "times", fmt::format("does not ascend after number {}", i),
+               "Sort the times, and leave out what comes twice.");
+    }
+    struct Axis {
+        const char* name;
+        const std::vector<double>& places;
+    };
+    for (const Axis& axis : {Axis{"x", x}, Axis{"y", y}, Axis{"z", z}}) {
+        expect(axis.places.empty() || axis.places.size() == times.size(), axis.name,
+               fmt::format("has {} places at {} times", axis.places.size(), times.size()),
+               "Give a place for each time.");
+        const auto bad = std::find_if(axis.places.begin(), axis.places.end(),
+                                      [](double p) { return !std::isfinite(p); });
+        expect(bad == axis.places.end(), axis.name,
+               fmt::format("has no number in its row {}", bad - axis.places.begin() + 1),
+               "Fill the gap, or leave the row out.");
+    }
+    expect(!x.empty() || !y.empty() || !z.empty(), "x", "is missing, and y and z too",
+           "Say where it goes along one axis at least.");
+    return good;
+}
+
+Vec3 SampledPath::way(double t) const noexcept {
+    const double at = std::clamp(times[0] + t, times.front(), times.back());
+    const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, at);
+    const auto i = static_cast<size_t>(next - times.begin()) - 1;
+    const double s = (at - times[i]) / (times[i + 1] - times[i]);
+    return {along(times, x, i, s), along(times, y, i, s), along(times, z, i, s)};
+}
+
+}  // namespace dihaptic::task
