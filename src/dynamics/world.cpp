@@ -253,8 +253,8 @@ double World::friction_at(BodyIndex a, BodyIndex b, const Vec3& p_W,
                           const Vec3& n_W) const noexcept {
     const auto i = static_cast<size_t>(a.value);
     const auto j = static_cast<size_t>(b.value);
-    return impl_->friction_of(i, j) * impl_->texture_at(i, p_W, n_W) *
-           impl_->texture_at(j, p_W, n_W);
+    return impl_->friction_of(i, j) * impl_->relief_at(i, p_W, n_W).friction *
+           impl_->relief_at(j, p_W, -n_W).friction;
 }
 
 const scene::PairSurface& World::surface(BodyIndex a, BodyIndex b) const {

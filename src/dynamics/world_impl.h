@@ -103,8 +103,9 @@ struct World::Impl {
         return surface_of(a, b).friction * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
     }
-    /// Factor of a body's texture on friction where it is touched; 1 without one.
-    double texture_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept;
+    /// A body's texture where its face with the normal n_W is touched at p_W; flat without one. The
+    /// slope is in W.
+    scene::Relief relief_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept;
     void add(const scene::Joint& joint);
     /// Bodies of one group do not touch each other.
     void part_groups();
@@ -133,7 +134,9 @@ struct World::Impl {
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);
     /// Adds the contacts of points to those that were found.
     void take_points(double h);
-    /// Changes the friction of those on textured surfaces by where they are.
+    bool has_texture(const btPersistentManifold& manifold) const;
+    /// Changes the friction of those on textured surfaces by where they are, and tells them how
+    /// high and how steep the surfaces are there.
     void let_feel(btPersistentManifold& manifold) const;
     /// Changes the friction of those that slide as their surfaces ask, by the speeds and forces of
     /// the last step.

@@ -90,8 +90,8 @@ StepStatus World::step(double h) noexcept {
             out.a = {a};
             out.b = {b};
             out.p_WC = from_bullet(point.getPositionWorldOnB());
-            out.n_W = -from_bullet(point.m_normalWorldOnB);
-            out.gap = point.getDistance();
+            out.n_W = -normal_of(point);
+            out.gap = gap_of(point);
             out.friction = point.m_combinedFriction;
             out.normal_force = impulse.normal / h;
             out.f_B_W = (impulse.normal * out.n_W - impulse.friction_W) / h;
@@ -282,16 +282,24 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
             // a finger does not bounce: what is held would drum on it
             if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
         }
-        if (items[a].surface.texture || items[b].surface.texture) let_feel(*manifold);
+        if (has_texture(*manifold)) let_feel(*manifold);
         let_slide(*manifold, h);
     }
 }
 
-double World::Impl::texture_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept {
+scene::Relief World::Impl::relief_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept {
     const Item& item = items[i];
-    if (!item.surface.texture) return 1;
-    const Pose X_BW = (from_bullet(item.body->getWorldTransform()) * item.X_BM.inverse()).inverse();
-    return item.surface.texture->factor(X_BW * p_W, X_BW.R * n_W);
+    if (!item.surface.texture) return {};
+    const Pose X_WB = from_bullet(item.body->getWorldTransform()) * item.X_BM.inverse();
+    const Pose X_BW = X_WB.inverse();
+    scene::Relief out = item.surface.texture->at(X_BW * p_W, X_BW.R * n_W);
+    out.slope = X_WB.R * out.slope;
+    return out;
+}
+
+bool World::Impl::has_texture(const btPersistentManifold& manifold) const {
+    const auto [a, b] = bodies_of(manifold);
+    return items[a].surface.texture || items[b].surface.texture;
 }
 
 void World::Impl::let_feel(btPersistentManifold& manifold) const {
@@ -300,7 +308,13 @@ void World::Impl::let_feel(btPersistentManifold& manifold) const {
         btManifoldPoint& point = manifold.getContactPoint(i);
         const Vec3 p_W = from_bullet(point.getPositionWorldOnB());
         const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
-        point.m_combinedFriction *= texture_at(a, p_W, n_W) * texture_at(b, p_W, n_W);
+        const scene::Relief of_a = relief_at(a, p_W, -n_W);
+        const scene::Relief of_b = relief_at(b, p_W, n_W);
+        // the friction of a point is known to its owner, with that of textures
+        if (!items[a].is_point && !items[b].is_point)
+            point.m_combinedFriction *= of_a.friction * of_b.friction;
+        carried(point).law.height = of_a.height + of_b.height;
+        carried(point).law.slope_W = of_b.slope - of_a.slope;
     }
 }
 
@@ -312,6 +326,7 @@ void World::Impl::take_points(double h) {
         const btManifoldPoint& point = manifold->getContactPoint(0);
         carried(point).law = {};
         carried(point).law.compliance = PointContacts::compliance(point);
+        if (has_texture(*manifold)) let_feel(*manifold);
         let_slide(*manifold, h);
     }
 }

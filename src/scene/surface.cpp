@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/unit.h"
 #include "scene/scene.h"
 
 namespace dihaptic::scene {
@@ -69,10 +70,28 @@ PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf
     return out;
 }
 
-void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics) {
-    if (surface.texture && surface.texture->along.norm() < 1e-9)
-        diagnostics.error(surface.texture->place, "along", "has no direction",
+namespace {
+
+void check(const Texture& texture, Diagnostics& diagnostics) {
+    if (texture.along.norm() < 1e-9)
+        diagnostics.error(texture.place, "along", "has no direction",
                           "Write e.g. along: [1, 0, 0].");
+    if (texture.friction == 0 && texture.height == 0)
+        diagnostics.error(texture.place, "friction", "is missing, and height too",
+                          "Add e.g. friction: 0.5, or height_mm: 0.1.");
+    if (texture.steepest() > Texture::kSteepest)
+        diagnostics.error(
+            texture.place, "height",
+            fmt::format("makes slopes of {:.3g} degrees, over which no finger slides",
+                        std::atan(texture.steepest()) / kDegree),
+            fmt::format("For 45 degrees make it at most {:.3g} mm at this wavelength.",
+                        1e3 * texture.wavelength / std::numbers::pi));
+}
+
+}  // namespace
+
+void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics) {
+    if (surface.texture) check(*surface.texture, diagnostics);
     if (surface.damping && !surface.stiffness)
         diagnostics.error(surface.place, "damping",
                           "is beside no stiffness, which a rigid face has not",

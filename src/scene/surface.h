@@ -64,7 +64,8 @@ struct Surface {
               .within(0, 1000)
               .says("Viscous drag of a face that slides, besides its friction; those of two "
                     "surfaces are added."));
-        v("texture", texture, says("Friction that rises and falls along a body's surface."));
+        v("texture", texture,
+          says("Friction and height that rise and fall along a body's surface."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -163,6 +163,31 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
+/// Warns of textures that the loop cannot render, or a proxy does not feel.
+void check_textures(const Plan& plan, Diagnostics& diagnostics) {
+    constexpr double kSpeed = 0.25;  // of a hand that explores [m/s]
+    const double way = kSpeed * plan.settings.dynamics.every / plan.settings.rate;
+    const bool apart = any_finger(plan, haptics::ProxyKind::point) &&
+                       plan.settings.proxy.friction == haptics::PointFriction::apart;
+    for (const scene::Body& body : plan.scene.bodies) {
+        const std::optional<scene::Texture>& texture = body.surface.texture;
+        if (!texture || texture->height == 0) continue;
+        if (texture->wavelength < 4 * way)
+            diagnostics.warning(
+                texture->place, "wavelength",
+                fmt::format("at {:g} mm/s a step passes {:.2g} of {}'s ridges of {:g} mm: they are "
+                            "felt as noise",
+                            1e3 * kSpeed, way / texture->wavelength, body.name,
+                            1e3 * texture->wavelength),
+                fmt::format("Make it {:g} mm or more.", 4e3 * way));
+        if (apart)
+            diagnostics.warning(
+                texture->place, "height",
+                "where its friction is apart from the dynamics, a point does not feel heights",
+                "Use proxy: friction: together.");
+    }
+}
+
 /// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
@@ -454,6 +479,7 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     diagnostics.throw_if_errors();
     check_devices(plan, diagnostics);
     check_proxy(plan, diagnostics);
+    check_textures(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
     check_columns(plan, diagnostics);

@@ -4,6 +4,7 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
+#include <cmath>
 #include <deque>
 #include <vector>
 
@@ -23,10 +24,12 @@ struct Impact {
 /// What the surfaces do at a contact, but for friction, which Bullet's own point has.
 struct ContactLaw {
     double restitution = 0;
-    double stiffness = 0;   ///< 0: rigid [N/m]
-    double damping = 0;     ///< [N*s/m]
-    int sharing = 1;        ///< number of contacts that share the stiffness of a face
-    double compliance = 0;  ///< of a point, whose owner knows it [m/s per N*s]
+    double stiffness = 0;         ///< 0: rigid [N/m]
+    double damping = 0;           ///< [N*s/m]
+    int sharing = 1;              ///< number of contacts that share the stiffness of a face
+    double compliance = 0;        ///< of a point, whose owner knows it [m/s per N*s]
+    double height = 0;            ///< of textures above the faces [m]
+    Vec3 slope_W = Vec3::Zero();  ///< of that, along the face of Bullet's body 1
 };
 
 /// Impulses on Bullet's body 0, to which its normal points.
@@ -52,6 +55,20 @@ struct Carried {
 /// What a point carries; CarriedPool has given it to the point.
 inline Carried& carried(const btManifoldPoint& point) {
     return *static_cast<Carried*>(point.m_userPersistentData);
+}
+
+/// The normal that body 0 meets, with the slope of textures.
+inline Vec3 normal_of(const btManifoldPoint& point) {
+    const Vec3 n_W(point.m_normalWorldOnB.x(), point.m_normalWorldOnB.y(),
+                   point.m_normalWorldOnB.z());
+    const Vec3& slope_W = carried(point).law.slope_W;
+    return slope_W.isZero(0) ? n_W : (n_W - slope_W).normalized();
+}
+
+/// The gap along that normal, with the height of textures [m].
+inline double gap_of(const btManifoldPoint& point) {
+    const ContactLaw& law = carried(point).law;
+    return (point.getDistance() - law.height) / std::sqrt(1 + law.slope_W.squaredNorm());
 }
 
 /// Memory for what points carry. Bullet does not tell when a point ends, so what no point refers to

@@ -120,8 +120,8 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             p_WC += (height - n_W.dot(p_WC)) * n_W;
             out.p_AC_W = p_WC - from_bullet(a.getWorldTransform().getOrigin());
             out.p_BC_W = p_WC - from_bullet(b.getWorldTransform().getOrigin());
-            out.R_WC = contact_frame(from_bullet(point.m_normalWorldOnB));
-            const double gap = point.getDistance();
+            out.R_WC = contact_frame(normal_of(point));
+            const double gap = gap_of(point);
             out.bias = (gap > 0 ? 1 : recovery) * gap / h;
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;

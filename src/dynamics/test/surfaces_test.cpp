@@ -158,6 +158,65 @@ TEST(BouncingSurfaces, ComeToRestAndNeverGainHeight) {
     EXPECT_NEAR(world.state(kBody).v_WB.z(), 0, 1e-9);
 }
 
+/// A ball without friction on ridges of 0.2 mm, a centimetre apart, that begins between two of
+/// them.
+World on_ridges(double speed) {
+    scene::Body table = box("table", {2, 0.4, 0.1}, {0, 0, -0.05}, 0);
+    table.fixed = true;
+    table.friction = 0;
+    table.surface.texture = scene::Texture{};
+    table.surface.texture->wavelength = 0.01;
+    table.surface.texture->height = 2e-4;
+    scene::Body ball;
+    ball.name = "ball";
+    ball.shape = scene::Shape::sphere(0.01);
+    ball.position = {-0.505, 0, 0.01};
+    ball.mass = 0.05;
+    ball.friction = 0;
+    scene::Scene scene;
+    scene.bodies = {table, ball};
+    World world(scene, awake());
+    world.activate();
+    world.set_velocity({1}, {speed, 0, 0});
+    return world;
+}
+
+TEST(Ridges, SlowDownWhatClimbsThemAndGiveItBack) {
+    // over a ridge the square of the speed is less by 2 g h
+    const double over = 2 * kGravity * 2e-4;
+    World world = on_ridges(0.15);
+    double slowest = 1, fastest = 0, last = 0;
+    for (int i = 0; i < 4000; ++i) {
+        world.step(kStep);
+        const double v = world.states()[1].v_WB.norm();
+        if (i < 2000) slowest = std::min(slowest, v);
+        fastest = std::max(fastest, v);
+        if (i >= 3000) last = std::max(last, v);
+    }
+    EXPECT_NEAR(slowest, std::sqrt(0.15 * 0.15 - over), 2e-3);
+    EXPECT_LT(fastest, 0.151);
+    EXPECT_GT(last, 0.145);
+}
+
+TEST(Ridges, HoldWhatIsTooSlowForThem) {
+    World world = on_ridges(0.05);
+    double most = 0, first = 0, last = 0;
+    for (int i = 0; i < 4000; ++i) {
+        world.step(kStep);
+        const double way = std::abs(world.states()[1].X_WB.p.x() + 0.505);
+        most = std::max(most, way);
+        if (i < 1000) first = std::max(first, way);
+        if (i >= 3000) last = std::max(last, way);
+    }
+    // it turns where its height is v^2 / 2 g
+    const double turns =
+        0.01 / (2 * std::numbers::pi) * std::acos(1 - 2 * (0.05 * 0.05 / (2 * kGravity)) / 2e-4);
+    EXPECT_NEAR(first, turns, 1e-4);
+    EXPECT_LT(most, 0.005);
+    EXPECT_GT(last, 0.9 * first);
+    EXPECT_LT(last, 1.05 * first);
+}
+
 TEST(BouncingSurfaces, KeepTheirEnergyWithoutLoss) {
     OnTable on(ball(0.2, 1));
     World world = on.make();

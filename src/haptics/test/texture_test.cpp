@@ -1,4 +1,4 @@
-// Tests textures: friction that is felt to rise and fall along a surface, by each kind of proxy.
+// Tests textures: friction and heights that are felt to rise and fall along a surface.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "haptics/god_object.h"
 #include "haptics/test/pressed.h"
 
 namespace dihaptic::haptics::texture_test {
@@ -70,11 +71,70 @@ TEST_P(Textured, GridsHaveBumps) {
     }
 }
 
+class High : public ::testing::TestWithParam<Proxy> {};
+INSTANTIATE_TEST_SUITE_P(Haptics, High, ::testing::Values(Proxy::rigid, Proxy::point_solved),
+                         name_of_proxy);
+
+/// Ridges of 0.2 mm without friction: the proxy rides on them, and the force is at right angles to
+/// their slope.
+TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
+    scene::Texture ridges = grating();
+    ridges.friction = 0;
+    ridges.height = 2e-4;
+    scene::Surface surface;
+    surface.texture = ridges;
+    Pressed pressed(GetParam(), surface, 0);
+    const bool is_point = GetParam() == Proxy::point_solved;
+    const double floor = is_point ? kSkin : 0.008;
+    const double deep = kDeep + (is_point ? kSkin : 0);
+    double most = 0, lowest = 1, highest = -1;
+    for (int i = 0; i < 3000; ++i) {
+        const double t = i * kPressedTick;
+        const Vec3 f =
+            pressed.move({std::max(0.0, t - 0.2) * 0.01, 0, std::max(-kDeep, 0.002 - 0.05 * t)});
+        if (t < 0.8) continue;
+        const Vec3 p = pressed.proxy();
+        const scene::Relief relief = ridges.at(p, Vec3::UnitZ());
+        ASSERT_NEAR(p.z() - floor, relief.height, 4e-6) << p.transpose();
+        ASSERT_NEAR(-f.x() / f.z(), relief.slope.x(), 0.004) << p.transpose();
+        ASSERT_NEAR(f.z(), kPressedCoupling * (deep + relief.height), 0.01) << p.transpose();
+        most = std::max(most, std::abs(f.x()) / f.z());
+        lowest = std::min(lowest, p.z() - floor);
+        highest = std::max(highest, p.z() - floor);
+    }
+    EXPECT_NEAR(most, ridges.steepest(), 0.004);
+    EXPECT_NEAR(lowest, 0, 1e-6);
+    EXPECT_NEAR(highest, ridges.height, 1e-6);
+}
+
+TEST(Texture, RisesAsItsSlopeSays) {
+    for (const auto kind : {scene::TextureKind::grating, scene::TextureKind::grid}) {
+        scene::Texture texture = grating();
+        texture.kind = kind;
+        texture.height = 3e-4;
+        texture.along = {1, 1, 0};
+        for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0, -1, 0)}) {
+            for (const Vec3& p : {Vec3(0.003, 0.001, 0.002), Vec3(-0.001, 0.0042, 0.007)}) {
+                const Vec3 slope = texture.at(p, n).slope;
+                EXPECT_NEAR(slope.dot(n), 0, 1e-15);
+                for (int i = 0; i < 3; ++i) {
+                    const Vec3 d = 1e-6 * Vec3::Unit(i);
+                    if (n.cwiseAbs()[i] > 0) continue;
+                    const double rise =
+                        (texture.at(p + d, n).height - texture.at(p - d, n).height) / 2e-6;
+                    EXPECT_NEAR(slope[i], rise, 1e-6);
+                }
+                EXPECT_LE(slope.norm(), std::numbers::sqrt2 * texture.steepest());
+            }
+        }
+    }
+}
+
 TEST(Texture, TurnsWithItsBody) {
     scene::Texture texture = grating();
     texture.along = {0, 2, 0};
-    EXPECT_NEAR(texture.factor({0.3, kWave / 2, 0}, Vec3::UnitZ()), 0.6, 1e-12);
-    EXPECT_NEAR(texture.factor({0.3, kWave, 0}, Vec3::UnitZ()), 1.4, 1e-12);
+    EXPECT_NEAR(texture.at({0.3, kWave / 2, 0}, Vec3::UnitZ()).friction, 0.6, 1e-12);
+    EXPECT_NEAR(texture.at({0.3, kWave, 0}, Vec3::UnitZ()).friction, 1.4, 1e-12);
     scene::Scene scene;
     scene::Body block;
     block.name = "block";
