@@ -295,11 +295,10 @@ void add_mechanics(CLI::App& app) {
 
 void add_chain(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "chain",
-        "Chains of 2 to 50 links on hinges: cost and exactness, beside Bullet's own joints");
+        "chain", "Chains of 2 to 50 links on hinges: cost and exactness, beside other simulators");
     auto options = std::make_shared<BenchOptions>();
     auto links = std::make_shared<std::vector<int>>(std::vector{2, 10, 50});
-    add_choice(*command, "--solver", options->solver, "only this one and Bullet; otherwise all");
+    add_choice(*command, "--solver", options->solver, "only this one and the peers; otherwise all");
     command->add_option("--links", *links, "numbers of links")
         ->delimiter(',')
         ->check(CLI::Range(1, 200))
@@ -314,7 +313,7 @@ void add_chain(CLI::App& app) {
             if (command->count("--solver") == 0 || settings.solver == options->solver)
                 simulators.push_back(bench::world_simulator(settings));
         }
-        simulators.push_back(bench::bullet_simulator());
+        for (bench::Simulator& peer : bench::jointed_peers()) simulators.push_back(std::move(peer));
         const auto figures = with_progress("bench chain", [&](const measure::Progress& progress) {
             return bench::bench_chain(simulators, *links, progress);
         });

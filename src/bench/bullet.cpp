@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "bench/hinges.h"
 #include "bench/simulator.h"
 #include "dynamics/bullet/shape.h"
 #include "scene/solid.h"
@@ -40,28 +41,24 @@ Body make_body(const scene::Body& body) {
     return out;
 }
 
-/// Of a scene whose joints are all hinges.
 std::vector<std::unique_ptr<btHingeConstraint>> make_hinges(const scene::Scene& scene,
                                                             std::span<const Body> bodies) {
     std::vector<std::unique_ptr<btHingeConstraint>> out;
-    for (const scene::Joint& joint : scene.joints) {
-        const auto body = [&](size_t i) -> btRigidBody& {
-            return *bodies[static_cast<size_t>(scene.find(joint.between[i]))].body;
-        };
-        const auto place = [&](btRigidBody& of, btVector3& pivot, btVector3& axis) {
+    for (const Hinge& hinge : hinges_of(scene)) {
+        const auto place = [&](const btRigidBody& of, btVector3& pivot, btVector3& axis) {
             const btTransform to_body = of.getWorldTransform().inverse();
-            pivot = to_body * to_bullet(joint.position);
-            axis = to_body.getBasis() * to_bullet(joint.axis);
+            pivot = to_body * to_bullet(hinge.p_W);
+            axis = to_body.getBasis() * to_bullet(hinge.axis_W);
         };
         btVector3 p_A, p_B, axis_A, axis_B;
-        btRigidBody& a = body(0);
-        place(a, p_A, axis_A);
-        if (joint.between.size() == 1) {
-            out.push_back(std::make_unique<btHingeConstraint>(a, p_A, axis_A));
+        btRigidBody& b = *bodies[hinge.body].body;
+        place(b, p_B, axis_B);
+        if (!hinge.parent) {
+            out.push_back(std::make_unique<btHingeConstraint>(b, p_B, axis_B));
             continue;
         }
-        btRigidBody& b = body(1);
-        place(b, p_B, axis_B);
+        btRigidBody& a = *bodies[*hinge.parent].body;
+        place(a, p_A, axis_A);
         out.push_back(std::make_unique<btHingeConstraint>(a, b, p_A, p_B, axis_A, axis_B));
     }
     return out;

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "base/geometry.h"
 #include "base/unit.h"
+#include "bench/runge_kutta.h"
 #include "model/gravity.h"
 
 namespace dihaptic::bench {
@@ -21,6 +24,86 @@ constexpr int kChainSteps = 10000;
 Vec3 along_chain(double angle, double length) {
     return length * Vec3(std::sin(angle), 0, -std::cos(angle));
 }
+
+/// The equations of motion of links in a plane, by their angles from the vertical; they know
+/// nothing of our dynamics.
+class ChainEquations {
+  public:
+    using State = Eigen::VectorXd;  ///< angles [rad], then their rates [rad/s]
+
+    explicit ChainEquations(int links) : n_(links), coupling_(links, links), weight_(links) {
+        // arm j carries the centre of its own link at half its length, of those below at the whole
+        for (int j = 0; j < n_; ++j) {
+            const auto arm = [](int of, int link) {
+                return of == link ? 0.5 : of < link ? 1. : 0.;
+            };
+            weight_[j] = 0;
+            for (int i = j; i < n_; ++i) weight_[j] += kLinkMass * kLinkLength * arm(j, i);
+            for (int k = 0; k < n_; ++k) {
+                coupling_(j, k) = 0;
+                for (int i = std::max(j, k); i < n_; ++i)
+                    coupling_(j, k) +=
+                        kLinkMass * kLinkLength * kLinkLength * arm(j, i) * arm(k, i);
+            }
+        }
+    }
+
+    State at_rest(double angle) const {
+        State out = State::Zero(2 * n_);
+        out.head(n_).setConstant(angle);
+        return out;
+    }
+
+    State rate(const State& s) const {
+        Eigen::MatrixXd M(n_, n_);
+        Eigen::VectorXd f(n_);
+        for (int j = 0; j < n_; ++j) {
+            f[j] = -model::kGravity * weight_[j] * std::sin(s[j]);
+            for (int k = 0; k < n_; ++k) {
+                M(j, k) = coupling_(j, k) * std::cos(s[j] - s[k]);
+                f[j] -= coupling_(j, k) * std::sin(s[j] - s[k]) * s[n_ + k] * s[n_ + k];
+            }
+            M(j, j) += kLinkMass / 12 * (kLinkLength * kLinkLength + kLinkThick * kLinkThick);
+        }
+        State out(2 * n_);
+        out << s.tail(n_), M.llt().solve(f);
+        return out;
+    }
+
+    /// The middle of the last link [m].
+    Vec3 end(const State& s) const {
+        Vec3 out(0, 2 * kLinkThick * (n_ - 1), 0);
+        for (int i = 0; i < n_; ++i)
+            out += along_chain(s[i], i + 1 < n_ ? kLinkLength : kLinkLength / 2);
+        return out;
+    }
+
+  private:
+    int n_;
+    Eigen::MatrixXd coupling_;
+    Eigen::VectorXd weight_;
+};
+
+/// Judges where the last link goes. Simulators begin at rest at the start, or half a step or a step
+/// before, by how they take velocities; that shift in time is no error.
+class EndJudge {
+  public:
+    EndJudge(int links) : exact_(exact_ends(links, kChainAngle, kJudged + 2 * kStep)) {}
+
+    void see(const Vec3& p_W) {
+        ++step_;
+        if (step_ * kStep > kJudged) return;
+        for (size_t shift = 0; shift < worst_.size(); ++shift)
+            worst_[shift] = std::max(worst_[shift], (p_W - exact_[2 * step_ + shift]).norm());
+    }
+    double error() const { return *std::min_element(worst_.begin(), worst_.end()); }
+
+  private:
+    static constexpr double kJudged = 1;  // [s]
+    std::vector<Vec3> exact_;
+    std::array<double, 3> worst_{};
+    size_t step_ = 0;
+};
 
 /// Energy between two steps, by the difference of poses; zero where the chain hangs [J].
 double energy_between(std::span<const Pose> before, std::span<const Pose> after) {
@@ -56,6 +139,7 @@ ChainFigures measure_chain(const Simulator& simulator, int links) {
     for (const scene::Body& body : trial.scene.bodies) before.push_back(body.pose());
     std::vector<double> times;
     double first = 0, last = 0, most = 0;
+    EndJudge judge(links);
     constexpr int kMean = kChainSteps / 5;
     int step = 0;
     Clock::time_point began = Clock::now();
@@ -66,6 +150,7 @@ ChainFigures measure_chain(const Simulator& simulator, int links) {
         if (step < kMean) first += energy;
         if (step >= kChainSteps - kMean) last += energy;
         out.apart_mm = std::max(out.apart_mm, 1e3 * apart(trial.scene, X_WB));
+        judge.see(X_WB.back().p);
         before.assign(X_WB.begin(), X_WB.end());
         ++step;
         began = Clock::now();
@@ -74,6 +159,7 @@ ChainFigures measure_chain(const Simulator& simulator, int links) {
     const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
     std::nth_element(times.begin(), middle, times.end());
     out.step_us = *middle;
+    out.off_mm = 1e3 * judge.error();
     const double start = energy_of_chain_at(links, kChainAngle);
     out.energy = last / first - 1;
     out.energy_above = most / start - 1;
@@ -100,6 +186,19 @@ scene::Scene chain(int links, double angle) {
         hinge.axis = -Vec3::UnitY();
         out.bodies.push_back(link);
         out.joints.push_back(hinge);
+    }
+    return out;
+}
+
+std::vector<Vec3> exact_ends(int links, double angle, double duration) {
+    constexpr int kParts = 5;
+    const ChainEquations equations(links);
+    const auto rate = [&](const ChainEquations::State& s) { return equations.rate(s); };
+    ChainEquations::State s = equations.at_rest(angle);
+    std::vector<Vec3> out{equations.end(s)};
+    for (int i = 1; i * kStep / 2 <= duration; ++i) {
+        for (int k = 0; k < kParts; ++k) s = runge_kutta(s, kStep / 2 / kParts, rate);
+        out.push_back(equations.end(s));
     }
     return out;
 }

@@ -14,6 +14,7 @@ struct ChainFigures {
     std::string simulator;
     int links = 0;
     double step_us = 0;
+    double off_mm = 0;
     double apart_mm = 0;
     double energy = 0;
     double energy_above = 0;
@@ -23,6 +24,8 @@ struct ChainFigures {
         v("simulator", f.simulator, "", "");
         v("links", f.links, "1", "");
         v("step_us", f.step_us, "us", "median of a step");
+        v("off_mm", f.off_mm, "mm",
+          "most that the last link was off its equations of motion in the first second");
         v("apart_mm", f.apart_mm, "mm", "most that links came apart at a hinge in 10 s");
         v("energy", f.energy, "1",
           "mean energy of the last 2 s over that of the first 2 s, less 1");
@@ -33,6 +36,9 @@ struct ChainFigures {
 /// Links of 60 x 10 x 10 mm and 20 g on hinges, that hang from the origin, stretched out at an
 /// angle from the vertical, and side by side, so that they do not meet.
 scene::Scene chain(int links, double angle);
+/// Where the equations of motion have the middle of the last link at each half step of 1 ms, from
+/// rest at that angle on.
+std::vector<Vec3> exact_ends(int links, double angle, double duration);
 /// Energy of a link at a height, with a velocity, and an angular velocity in its own frame [J].
 double energy_of_link(double height, const Vec3& v, const Vec3& w_B);
 /// Energy of a chain that is still at that angle, over that of one that hangs [J].

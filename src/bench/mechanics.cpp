@@ -10,6 +10,7 @@
 #include "base/unit.h"
 #include "bench/chain.h"
 #include "bench/held.h"
+#include "bench/runge_kutta.h"
 #include "dynamics/world.h"
 #include "haptics/finger.h"
 
@@ -117,16 +118,6 @@ void measure_pendulum(const Bench& bench, MechanicsFigures& out) {
     for (int i = 0; i < 100; ++i) still.step(kStep);
     out.reaction =
         (still.joints()[0].force_W - Vec3(0, 0, kMass * kGravity)).norm() / (kMass * kGravity);
-}
-
-/// One step of Runge and Kutta's method of fourth order.
-template <class State, class F>
-State runge_kutta(const State& s, double d, const F& rate) {
-    const State k1 = rate(s);
-    const State k2 = rate(State(s + d / 2 * k1));
-    const State k3 = rate(State(s + d / 2 * k2));
-    const State k4 = rate(State(s + d * k3));
-    return s + d / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
 /// Largest distance of the second of two cubes from where its equations have it, in 2 s [m].

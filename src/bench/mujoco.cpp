@@ -1,14 +1,17 @@
 // Runs a scene in MuJoCo, as a peer of our own solvers: writes it as MJCF, and steps it.
+#include "bench/hinges.h"
 #include "bench/simulator.h"
 
 #ifdef DIHAPTIC_PEERS
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <span>
 #endif
 
 namespace dihaptic::bench {
@@ -81,8 +84,28 @@ std::string inertia(const scene::Body& body) {
                        I(1, 2));
 }
 
-/// The scene as MJCF, with bodies in the scene's order: MuJoCo's body i + 1 is the scene's body i.
+/// A body with all that hangs on it, in the frame of its parent. Each is named by its index.
+std::string element(const scene::Scene& scene, std::span<const Hinge> hinges, size_t index,
+                    const Pose& X_WP) {
+    const scene::Body& body = scene.bodies[index];
+    const Pose X_WB = body.pose();
+    const Pose X_PB = X_WP.inverse() * X_WB;
+    std::string joint = joints(body);
+    std::string children;
+    for (const Hinge& hinge : hinges) {
+        if (hinge.body == index)
+            joint = fmt::format("<joint type='hinge' pos='{}' axis='{}'/>",
+                                text(X_WB.inverse() * hinge.p_W),
+                                text(X_WB.R.conjugate() * hinge.axis_W));
+        if (hinge.parent == index) children += element(scene, hinges, hinge.body, X_WB);
+    }
+    return fmt::format("<body name='{}' pos='{}' quat='{} {} {} {}'>{}{}{}{}</body>", index,
+                       text(X_PB.p), X_PB.R.w(), X_PB.R.x(), X_PB.R.y(), X_PB.R.z(), joint,
+                       inertia(body), geometry(body, index), children);
+}
+
 std::string mjcf(const scene::Scene& scene, const Choice& choice) {
+    const std::vector<Hinge> hinges = hinges_of(scene);
     std::string meshes;
     std::string bodies;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -92,10 +115,10 @@ std::string mjcf(const scene::Scene& scene, const Choice& choice) {
             for (const Vec3& v : body.shape.hull.vertices) meshes += text(v) + " ";
             meshes += "'/>";
         }
-        const Pose X_WB = body.pose();
-        bodies += fmt::format("<body pos='{}' quat='{} {} {} {}'>{}{}{}</body>", text(X_WB.p),
-                              X_WB.R.w(), X_WB.R.x(), X_WB.R.y(), X_WB.R.z(), joints(body),
-                              inertia(body), geometry(body, i));
+        const bool hangs = std::any_of(hinges.begin(), hinges.end(), [&](const Hinge& hinge) {
+            return hinge.body == i && hinge.parent;
+        });
+        if (!hangs) bodies += element(scene, hinges, i, {});
     }
     // meshes get one contact per pair unless multiccd is on; a face needs four
     return fmt::format(
@@ -129,8 +152,11 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     };
     const Owned<mjModel> model = load(mjcf(trial.scene, choice));
     const Owned<mjData> data(mj_makeData(model.get()));
+    std::vector<int> index;  // of MuJoCo's bodies, by the scene's order
+    for (size_t b = 0; b < trial.scene.bodies.size(); ++b)
+        index.push_back(mj_name2id(model.get(), mjOBJ_BODY, std::to_string(b).c_str()));
     for (const Trial::Push& push : trial.pushes)
-        std::copy_n(push.force_W.data(), 3, data->xfrc_applied + 6 * (push.body + 1));
+        std::copy_n(push.force_W.data(), 3, data->xfrc_applied + 6 * index[push.body]);
     std::vector<Pose> X_WB(trial.scene.bodies.size());
     for (int i = 0; i < steps; ++i) {
         const double before = data->time;
@@ -142,8 +168,8 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
         }
         mj_kinematics(model.get(), data.get());  // poses after the step, not before
         for (size_t b = 0; b < X_WB.size(); ++b) {
-            const double* const p = data->xpos + 3 * (b + 1);
-            const double* const q = data->xquat + 4 * (b + 1);
+            const double* const p = data->xpos + 3 * index[b];
+            const double* const q = data->xquat + 4 * index[b];
             X_WB[b] = {Quat(q[0], q[1], q[2], q[3]), Vec3(p[0], p[1], p[2])};
         }
         if (!watch(X_WB)) return;
@@ -168,9 +194,17 @@ std::vector<Simulator> mujoco_simulators() {
             simulator("mujoco_noslip", {"noslip_iterations='10'", stiff})};
 }
 
+std::vector<Simulator> mujoco_jointed_simulators() {
+    return {simulator("mujoco", {}), simulator("mujoco_rk4", {"integrator='RK4'", ""})};
+}
+
 #else
 
 std::vector<Simulator> mujoco_simulators() {
+    return {};
+}
+
+std::vector<Simulator> mujoco_jointed_simulators() {
     return {};
 }
 

@@ -27,4 +27,11 @@ std::vector<Simulator> peer_simulators() {
     return out;
 }
 
+std::vector<Simulator> jointed_peers() {
+    std::vector<Simulator> out{bullet_simulator()};
+    for (const auto& peers : {mujoco_jointed_simulators(), ode_simulators(), simbody_simulators()})
+        out.insert(out.end(), peers.begin(), peers.end());
+    return out;
+}
+
 }  // namespace dihaptic::bench

@@ -45,7 +45,22 @@ Simulator bullet_simulator();
 /// MuJoCo with elliptic cones, one simulator per choice of settings; empty in builds without peers.
 std::vector<Simulator> mujoco_simulators();
 
-/// All simulators that ours are compared with.
+/// All simulators that ours are compared with where bodies touch.
 std::vector<Simulator> peer_simulators();
+
+/// MuJoCo with the integrators that it has for joints; empty in builds without peers, as are the
+/// next two.
+std::vector<Simulator> mujoco_jointed_simulators();
+
+/// ODE, by its exact solver and by the one that iterates. Of bodies on hinges alone: nothing
+/// touches.
+std::vector<Simulator> ode_simulators();
+
+/// Simbody, whose coordinates are angles of joints, with fixed steps and with steps that it
+/// chooses. Of bodies on hinges alone.
+std::vector<Simulator> simbody_simulators();
+
+/// All simulators that ours are compared with where bodies hang on hinges.
+std::vector<Simulator> jointed_peers();
 
 }  // namespace dihaptic::bench

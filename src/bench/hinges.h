@@ -1,0 +1,27 @@
+// Lists a scene's hinges as simulators other than ours want them: by bodies' numbers, each body on
+// its parent.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace dihaptic::bench {
+
+/// A hinge that carries one body, at the start.
+struct Hinge {
+    size_t body = 0;
+    std::optional<size_t> parent;  ///< or the world
+    Vec3 p_W = Vec3::Zero();       ///< [m]
+    Vec3 axis_W = Vec3::UnitZ();
+};
+
+/// The hinges of a scene that has no other joints, parents before the bodies on them. Throws Error
+/// for what peers are not given: other joints, loops, and springs, dampers, friction or stops.
+std::vector<Hinge> hinges_of(const scene::Scene& scene);
+
+/// The pose of a hinge at the start, its axis along z.
+Pose frame_of(const Hinge& hinge);
+
+}  // namespace dihaptic::bench

@@ -1,0 +1,41 @@
+// A tree of bodies on hinges in Simbody. Its headers are no C++20, so what includes them is kept
+// apart, and this header is C++17.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/geometry.h"
+
+namespace dihaptic::bench::simbody {
+
+/// A body that a hinge carries.
+struct Link {
+    int parent = -1;  ///< index of a link before it; -1: the world
+    double mass = 0;  ///< [kg]
+    Vec3 inertia =
+        Vec3::Zero();  ///< about its centre, which is its origin, along its axes [kg*m^2]
+    Pose X_PJ;         ///< of the hinge, its axis along z, in the parent at the start
+    Pose X_BJ;         ///< and in the body
+};
+
+/// Which steps it takes: those that its integrator chooses to keep its own accuracy, or
+/// semi-explicit ones of Euler.
+enum class Steps { chosen, of_1_ms };
+
+class Model {
+  public:
+    Model(const std::vector<Link>& links, const Vec3& gravity, Steps steps);
+    ~Model();
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    /// Goes on to a time [s], and writes where the links are then, as many as there are.
+    void step_to(double time, std::vector<Pose>& X_WB);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dihaptic::bench::simbody
