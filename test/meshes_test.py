@@ -1,4 +1,4 @@
-"""The shipped meshes are what their generator writes."""
+"""The shipped meshes and textures are what their generators write."""
 import filecmp
 import glob
 import os
@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 
 class Meshes(unittest.TestCase):
@@ -16,6 +17,21 @@ class Meshes(unittest.TestCase):
             self.assertEqual(sorted(os.listdir(folder)), shipped)
             for name in shipped:
                 self.assertTrue(filecmp.cmp(f"{folder}/{name}", f"meshes/{name}", shallow=False), name)
+
+    def test_and_so_is_the_word_in_braille(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/braille.png"
+            subprocess.run([sys.executable, "textures/make_braille.py", "dihaptic", file], check=True)
+            # another zlib may pack the same rows otherwise
+            self.assertEqual(rows(file), rows("textures/braille.png"))
+
+
+def rows(file):
+    """What the only IDAT chunk of a PNG file holds."""
+    with open(file, "rb") as png:
+        data = png.read()
+    at = data.index(b"IDAT")
+    return zlib.decompress(data[at + 4:at + 4 + int.from_bytes(data[at - 4:at], "big")])
 
 
 if __name__ == "__main__":

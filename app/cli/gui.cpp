@@ -46,11 +46,15 @@ void add_gui(CLI::App& app) {
     auto* command = app.add_subcommand(
         "gui", "The operator's window; without devices, the mouse moves a simulated hand");
     auto options = std::make_shared<Options>();
-    command->add_option("FILE", options->file, "scene or experiment; scenes/block-on-table.yaml");
+    command->add_option("FILE", options->file,
+                        "scene or experiment, or a recorded session's folder; otherwise "
+                        "scenes/block-on-table.yaml");
     command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
     command->add_option("--sync", options->sync, "as of dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
-    command->footer("\nExample:\n  dihaptic gui scenes/block-on-table.yaml");
+    command->footer(
+        "\nExamples:\n  dihaptic gui scenes/block-on-table.yaml\n"
+        "  dihaptic gui sessions/2026-11-20_101500_lift-block");
     command->callback([options] { run(options->file, options->out, options->sync); });
 }
 

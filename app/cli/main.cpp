@@ -50,5 +50,6 @@ int main(int argc, char** argv) {
     cli::add_gui(app);
     cli::add_workspace(app);
     cli::add_calibrate(app);
+    cli::add_register(app);
     return cli::run_program(app, argc, argv);
 }

@@ -40,7 +40,7 @@ void make_picture(const PictureOptions& options) {
         throw Error({"--time", 0}, "",
                     fmt::format("{:g} s is beyond the end, which is at {:g} s", *options.time, end),
                     fmt::format("Give a time from 0 to {:g}.", end));
-    view::write_png(drawer.draw(shown), options.out);
+    write_png(drawer.draw(shown), options.out);
     fmt::print("{}: {} at {:.3f} s\n", options.out, showing.title, seconds(shown.time));
 }
 

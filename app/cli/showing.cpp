@@ -23,8 +23,8 @@ const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip
 
 /// Adds the box in which hands are kept: the rig's wall, or else the workspace of the finger's
 /// device.
-void add_workspace(Showing& showing, const rig::Rig& rig, const std::string& finger,
-                   const std::optional<Vec3>& reach) {
+void add_workspace(Showing& showing, const std::string& finger, const std::optional<Vec3>& reach) {
+    const rig::Rig& rig = showing.rig;
     if (rig.wall && showing.workspaces.empty())
         showing.workspaces.push_back({{Quat::Identity(), rig.wall->centre}, rig.wall->size});
     if (!rig.wall && reach)
@@ -41,11 +41,11 @@ Showing open_session(const std::string& file) {
     out.recorded = true;
     out.duration = head.planned();
     out.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
-    const rig::Rig rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
+    out.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
     diagnostics.throw_if_errors();
     recording::check_fits(head, out.scene, folder.raw_log());
     for (const recording::DeviceRecord& device : head.devices)
-        add_workspace(out, rig, device.finger, device.workspace);
+        add_workspace(out, device.finger, device.workspace);
     out.next = [log] { return log->next(); };
     return out;
 }
@@ -72,12 +72,12 @@ Showing open_plan(const std::string& file) {
     run->director.emplace(phases, run->plan.settings.tick());
     Showing out;
     out.title = run->plan.title;
+    out.rig = run->plan.rig;
     out.scene = run->plan.scene;
     out.duration = phases.empty() ? 0 : phases.back().end;
     const devices::DeviceGroup& devices = run->servo->devices();
     for (size_t i = 0; i < out.scene.fingers.size(); ++i)
-        add_workspace(out, run->plan.rig, out.scene.fingers[i].name,
-                      devices.info(static_cast<int>(i)).workspace);
+        add_workspace(out, out.scene.fingers[i].name, devices.info(static_cast<int>(i)).workspace);
     run->servo->activate();
     out.next = [run, end = out.duration]() -> const servo::Frame* {
         const Time now = run->ticks++ * run->servo->period();
@@ -114,6 +114,10 @@ Showing open_showing(const std::string& file) {
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {
     command.add_option("--camera", options->camera,
                        "front, above, side, or another of the scene's; otherwise its first");
+    command
+        .add_option("--display", options->display,
+                    "as the person sees it on this display of the rig; empty: its only one")
+        ->excludes("--camera");
     command.add_option("--size", options->size, "width and height in pixels")
         ->capture_default_str();
     command
@@ -127,6 +131,7 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
     : showing_(showing), object_(showing.scene.object_index()) {
     const std::vector<view::Camera> cameras = view::cameras(showing.scene);
     camera_ = options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
+    if (options.display) display_ = rig::display_of(showing.rig, *options.display);
     const auto wanted = [&](const char* layer) {
         return std::find(options.show.begin(), options.show.end(), layer) != options.show.end();
     };
@@ -150,9 +155,14 @@ void Drawer::follow(const servo::Frame& frame) {
     if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
 }
 
-view::Image Drawer::draw(const servo::Frame& frame) {
+Image Drawer::draw(const servo::Frame& frame) {
     overlays_.path = path_;
-    view_->draw(frame, camera_, offscreen_->width(), offscreen_->height(), overlays_);
+    const int width = offscreen_->width(), height = offscreen_->height();
+    if (display_) {
+        view_->draw(frame, *display_, width, height, overlays_);
+    } else {
+        view_->draw(frame, camera_, width, height, overlays_);
+    }
     return offscreen_->read();
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "command.h"
+#include "rig/rig.h"
 #include "scene/scene.h"
 #include "servo/frame.h"
 #include "view/offscreen.h"
@@ -18,6 +19,7 @@ namespace dihaptic::cli {
 struct Showing {
     std::string title;
     scene::Scene scene;
+    rig::Rig rig;
     std::vector<view::Workspace> workspaces;    ///< of the devices whose workspace is known
     double duration = 0;                        ///< planned [s]; 0: not known
     bool recorded = false;                      ///< whether it is a session
@@ -32,6 +34,7 @@ Showing open_showing(const std::string& file);
 struct ViewOptions {
     std::string file;
     std::string camera;
+    std::optional<std::string> display;
     std::string size = "1280x720";
     std::vector<std::string> show;
     std::string out;
@@ -44,13 +47,14 @@ class Drawer {
     Drawer(const Showing& showing, const ViewOptions& options);
     /// Adds to the object's path; to be called for every frame.
     void follow(const servo::Frame& frame);
-    view::Image draw(const servo::Frame& frame);
+    Image draw(const servo::Frame& frame);
     int width() const { return offscreen_->width(); }
     int height() const { return offscreen_->height(); }
 
   private:
     const Showing& showing_;
     view::Camera camera_;
+    std::optional<rig::Display> display_;  // in place of the camera
     view::Overlays overlays_;
     bool path_wanted_ = false;
     int object_ = -1;

@@ -3,11 +3,14 @@
 #include <QDialogButtonBox>
 #include <QFontDatabase>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSvgWidget>
 #include <QVBoxLayout>
 
 #include "recording/session.h"
+#include "rig/registration_run.h"
+#include "subject_window.h"
 
 namespace dihaptic::gui {
 
@@ -78,6 +81,65 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
         Q_EMIT stored();
     });
     dialog->open();
+}
+
+void Calibrator::register_display(const QString& rig_file) {
+    Diagnostics diagnostics;
+    const rig::Rig rig = rig::read_rig_to_register(rig_file.toStdString(), diagnostics);
+    for (const Problem& problem : diagnostics.problems())
+        Q_EMIT logged(QString::fromStdString(problem.text()), true);
+    if (diagnostics.has_errors() || rig.displays.empty()) return;
+    const rig::Display& display = rig.displays.front();
+    auto* crosses = new QSvgWidget;
+    crosses->setAttribute(Qt::WA_DeleteOnClose);
+    crosses->setWindowTitle("Dihaptic: crosses");
+    crosses->load(QByteArray::fromStdString(rig::cross_picture(display)));
+    const QString wrong = show_on(*crosses, QString::fromStdString(display.monitor), *window_);
+    if (!wrong.isEmpty()) Q_EMIT logged(wrong, true);
+    auto found = std::make_shared<rig::RegistrationResult>();
+    auto* guide = new GuideDialog(
+        "Registration: " + QString::fromStdString(display.name), "&Give up",
+        [rig, display, found](const rig::Guide& person) {
+            const std::string finger = rig::held_fingers(rig).front();
+            *found =
+                rig::register_screen(display, rig::lead_registration(rig, finger, display, person));
+            found->registration.date = recording::iso_now().substr(0, 10);
+        },
+        window_);
+    connect(guide, &QDialog::finished, crosses, &QWidget::close);
+    connect(guide, &GuideDialog::failed, this,
+            [this](const QString& why) { Q_EMIT logged(why, true); });
+    connect(guide, &QDialog::accepted, this,
+            [this, rig, display, found, name = rig_file.toStdString()] {
+                store(rig, display, *found, name);
+            });
+    guide->open();
+}
+
+void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
+                       const rig::RegistrationResult& result, const std::string& rig_file) {
+    auto* question = new QMessageBox(QMessageBox::Question, "What the registration found",
+                                     QString::fromStdString(rig::describe(result)),
+                                     QMessageBox::Save | QMessageBox::Discard, window_);
+    question->setAttribute(Qt::WA_DeleteOnClose);
+    connect(question, &QDialog::finished, this, [this, rig, display, result, rig_file](int button) {
+        if (button != QMessageBox::Save) return;
+        const std::string file = rig::registration_file(display, rig_file);
+        try {
+            rig::store_registration(rig, result.registration, file);
+        } catch (const Error& e) {
+            Q_EMIT logged(e.what(), true);
+            return;
+        }
+        QString told = "registration stored: " + QString::fromStdString(file);
+        if (display.registration.empty())
+            told += QString(". In the rig file, under %1, write: %2")
+                        .arg(QString::fromStdString(display.name),
+                             QString::fromStdString(rig::registration_line(rig_file, file)));
+        Q_EMIT logged(told, false);
+        Q_EMIT stored();
+    });
+    question->open();
 }
 
 std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_check(

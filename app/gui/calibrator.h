@@ -1,4 +1,5 @@
-// Calibrates a rig from the window, and checks before a session that its calibration still holds.
+// Calibrates a rig and registers its displays from the window, and checks before a session that the
+// calibration still holds.
 #pragma once
 
 #include <QPointer>
@@ -20,6 +21,9 @@ class Calibrator : public QObject {
 
     /// Asks at the end whether to store the result.
     void calibrate(const QString& rig_file);
+    /// Shows crosses on the rig's first display, and asks at the end whether to store where they
+    /// were touched.
+    void register_display(const QString& rig_file);
     /// Makes a check for a session's start, to be called in the session's thread: the person holds
     /// endpoints together, or skips it, and it returns warnings if the calibration no longer holds.
     /// `ends`: whether the session is to end.
@@ -36,6 +40,8 @@ class Calibrator : public QObject {
   private:
     void ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
                       const std::string& rig_file, const std::string& file);
+    void store(const rig::Rig& rig, const rig::Display& display,
+               const rig::RegistrationResult& result, const std::string& rig_file);
 
     QWidget* window_;
     QPointer<GuideDialog> check_;  // dialog of the starting session's check

@@ -1,11 +1,13 @@
 #include <QCommandLineParser>
 #include <QFileInfo>
 #include <QSettings>
+#include <cstdio>
 
 #include "application.h"
 #include "keeper/at_death.h"
 #include "operator_window.h"
 #include "recording/session.h"
+#include "session_player.h"
 #include "stop_request.h"
 #include "theme.h"
 
@@ -18,6 +20,17 @@ void on_message(QtMsgType type, const QMessageLogContext& context, const QString
     usual_messages(type, context, text);
     if (type == QtFatalMsg || text.startsWith("The Wayland connection "))
         dihaptic::gui::SessionRunner::end_program();
+}
+
+/// Shows a recorded session, and nothing else.
+int look_at(const QString& folder) {
+    try {
+        (new dihaptic::gui::SessionPlayer(folder.toStdString()))->show();
+    } catch (const dihaptic::Error& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 2;
+    }
+    return QApplication::exec();
 }
 
 }  // namespace
@@ -42,10 +55,13 @@ int main(int argc, char** argv) {
     const QCommandLineOption sync("sync", "Synchronise recordings to the disk so often [s].",
                                   "seconds", "0");
     parser.addOption(sync);
-    parser.addPositionalArgument("FILE", "scene or experiment", "[FILE]");
+    parser.addPositionalArgument("FILE", "scene or experiment, or the folder of a recorded session",
+                                 "[FILE]");
     parser.process(app);
+    const QString file = parser.positionalArguments().value(0);
 
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
+    if (QFileInfo(file).isDir()) return look_at(file);
     dihaptic::gui::StopRequest stop;
     dihaptic::gui::OperatorWindow window(parser.value(out), parser.value(sync).toDouble(),
                                          stop.flag());
@@ -55,8 +71,8 @@ int main(int argc, char** argv) {
                      &dihaptic::gui::OperatorWindow::end);
     window.show();
     const QString usual = "scenes/block-on-table.yaml";
-    if (!parser.positionalArguments().isEmpty()) {
-        window.open(parser.positionalArguments().first());
+    if (!file.isEmpty()) {
+        window.open(file);
     } else if (QFileInfo::exists(usual)) {
         window.open(usual);
     }

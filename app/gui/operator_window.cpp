@@ -24,7 +24,9 @@
 
 #include "rig/calibration_guide.h"
 #include "servo/shown_texts.h"
+#include "session_player.h"
 #include "session_progress.h"
+#include "sessions_dialog.h"
 #include "theme.h"
 
 namespace dihaptic::gui {
@@ -107,7 +109,7 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         runner_.watch();
-        if (!subject_) runner_.note_shown(tick);  // then the subject looks at this window
+        if (subjects_.empty()) runner_.note_shown(tick);  // then the subject looks at this window
     });
 }
 
@@ -178,6 +180,8 @@ void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu("&File");
     open_action_ =
         file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
+    file->addAction("Recorded &sessions ...", QKeySequence("Ctrl+Shift+O"), this,
+                    &OperatorWindow::choose_session);
     file->addAction("&Folder of sessions", this, [this] {
         QDir().mkpath(out_);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
@@ -204,6 +208,8 @@ void OperatorWindow::make_session_menu() {
     session->addSeparator();
     calibrate_action_ =
         session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
+    register_action_ = session->addAction("Re&gister the display ...", this,
+                                          [this] { calibrator_->register_display(rig_file()); });
 }
 
 void OperatorWindow::make_view_menu() {
@@ -270,6 +276,20 @@ void OperatorWindow::choose_file() {
     if (!file.isEmpty()) open(file);
 }
 
+void OperatorWindow::choose_session() {
+    auto* dialog = new SessionsDialog(out_, this);
+    connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_session);
+    dialog->open();
+}
+
+void OperatorWindow::play_session(const QString& folder) {
+    try {
+        (new SessionPlayer(folder.toStdString()))->show();
+    } catch (const Error& e) {
+        log(e.what(), true);
+    }
+}
+
 session::Request OperatorWindow::request() const {
     session::Request request;
     request.file = file_.toStdString();
@@ -320,7 +340,7 @@ void OperatorWindow::opened(const Opened& opened) {
     }
     workspaces_ = opened.workspaces;
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
-    if (subject_) subject_->scene().set_scene(plan_->scene, frame_);
+    show_to_subjects();
     plots_->set_scene(plan_->scene);
     tuning_->set_knobs(servo::Knobs::of(plan_->settings));
     devices_->set_devices(opened.devices);
@@ -433,12 +453,17 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     update_state();
 }
 
-void OperatorWindow::calibrate() {
-    if (runner_.running() || loader_.loading()) return;
+QString OperatorWindow::rig_file() const {
     QString rig = session_->rig();
     if (rig.isEmpty() && plan_) rig = QString::fromStdString(plan_->rig.place.file);
+    return rig.isEmpty() ? "" : QDir::cleanPath(rig);
+}
+
+void OperatorWindow::calibrate() {
+    if (runner_.running() || loader_.loading()) return;
+    const QString rig = rig_file();
     if (rig.isEmpty()) return log("There is no rig file to calibrate: choose a rig.", true);
-    calibrator_->calibrate(QDir::cleanPath(rig));
+    calibrator_->calibrate(rig);
 }
 
 void OperatorWindow::report() {
@@ -474,7 +499,8 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
     // what is felt on the right has to be seen on the right, by the subject too
-    if (subject_ && follow) subject_->scene().set_camera(scene_->camera());
+    for (const auto& subject : subjects_)
+        if (follow) subject->scene().set_camera(scene_->camera());
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
 
@@ -543,7 +569,7 @@ void OperatorWindow::refresh() {
 
 void OperatorWindow::show_frame(const servo::Frame& frame) {
     scene_->show_frame(frame);
-    if (subject_) subject_->scene().show_frame(frame);
+    for (const auto& subject : subjects_) subject->scene().show_frame(frame);
     show_question();
     devices_->show_frame(frame);
     if (runner_.finishing()) return;
@@ -568,7 +594,7 @@ const task::AskSpec* OperatorWindow::asked_by_mouse() {
 void OperatorWindow::show_question() {
     const task::AskSpec* question = asked_by_mouse();
     scene_->rating().set_question(question);
-    if (subject_) subject_->scene().rating().set_question(question);
+    for (const auto& subject : subjects_) subject->scene().rating().set_question(question);
 }
 
 bool OperatorWindow::has_trials() const {
@@ -591,24 +617,44 @@ void OperatorWindow::move_hand(double h) {
 }
 
 void OperatorWindow::show_subject_window(bool shown) {
-    if (!shown) {
-        subject_.reset();
-        return;
+    subjects_.clear();
+    if (!shown) return;
+    if (plan_ && !plan_->rig.displays.empty()) {
+        for (const rig::Display& display : plan_->rig.displays) add_subject_window(display);
+    } else {
+        add_subject_window({});
     }
-    subject_ = std::make_unique<SubjectWindow>();
-    if (plan_) {
-        subject_->scene().set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
-    }
-    connect(subject_.get(), &SubjectWindow::key_pressed, this, &OperatorWindow::press);
-    connect(&subject_->scene().rating(), &RatingView::clicked, this, &OperatorWindow::click);
-    connect(&subject_->scene(), &SceneWidget::presented, this,
+    // pictures of what the first one shows count as seen
+    connect(&subjects_.front()->scene(), &SceneWidget::presented, this,
             [this](qint64 tick) { runner_.note_shown(tick); });
-    connect(
-        subject_.get(), &SubjectWindow::closed, this,
-        [this] { subject_action_->setChecked(false); }, Qt::QueuedConnection);
-    subject_->show_beside(*this);
     turn_workspaces();
     update_state();
+}
+
+/// Gives the subject's windows the scene, and the displays of a rig that may be another one.
+void OperatorWindow::show_to_subjects() {
+    if (subjects_.empty()) return;
+    const std::vector<rig::Display>& displays = plan_->rig.displays;
+    if (subjects_.size() != std::max<size_t>(1, displays.size())) return show_subject_window(true);
+    for (size_t i = 0; i < subjects_.size(); ++i) {
+        SceneWidget& scene = subjects_[i]->scene();
+        scene.set_display(displays.empty() ? std::nullopt : std::optional(displays[i]));
+        scene.set_scene(plan_->scene, frame_);
+    }
+}
+
+void OperatorWindow::add_subject_window(const std::optional<rig::Display>& display) {
+    SubjectWindow& subject = *subjects_.emplace_back(std::make_unique<SubjectWindow>());
+    SceneWidget& scene = subject.scene();
+    scene.set_display(display);
+    if (plan_) scene.set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
+    connect(&subject, &SubjectWindow::key_pressed, this, &OperatorWindow::press);
+    connect(&scene.rating(), &RatingView::clicked, this, &OperatorWindow::click);
+    connect(
+        &subject, &SubjectWindow::closed, this, [this] { subject_action_->setChecked(false); },
+        Qt::QueuedConnection);
+    const QString monitor = display ? QString::fromStdString(display->monitor) : "";
+    if (const QString wrong = show_on(subject, monitor, *this); !wrong.isEmpty()) log(wrong, true);
 }
 
 SessionPanel::State OperatorWindow::state() const {
@@ -653,13 +699,16 @@ void OperatorWindow::update_state() {
     skip_action_->setEnabled(now == State::running && has_trials());
     force_off_action_->setEnabled(now == State::running);
     calibrate_action_->setEnabled(now == State::nothing || now == State::ready);
+    register_action_->setEnabled(now == State::ready && !rig_file().isEmpty() &&
+                                 !plan_->rig.displays.empty());
     session_->set_state(now, has_trials());
     scene_->set_banner(banner());
     show_page(*scene_);
     show_question();
-    if (!subject_) return;
-    subject_->scene().set_banner(message());
-    show_page(subject_->scene());
+    for (const auto& subject : subjects_) {
+        subject->scene().set_banner(message());
+        show_page(subject->scene());
+    }
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {
@@ -678,7 +727,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());
-    subject_.reset();
+    subjects_.clear();
     event->accept();
     if (ended_) QCoreApplication::exit(1);  // even if a dialog is open
 }

@@ -58,6 +58,8 @@ class OperatorWindow : public QMainWindow {
     void connect_files();
     void restore();
     void choose_file();
+    void choose_session();
+    void play_session(const QString& folder);
     void reload();
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
@@ -73,6 +75,8 @@ class OperatorWindow : public QMainWindow {
     void run(const session::Plan& plan, const recording::Participant& participant,
              std::unique_ptr<devices::DeviceGroup> devices);
     /// Calibrates the rig that is chosen, or else the file's.
+    /// Of the rig that is chosen, or that the open file names; empty: none.
+    QString rig_file() const;
     void calibrate();
     /// Writes the report of the last session.
     void report();
@@ -91,6 +95,8 @@ class OperatorWindow : public QMainWindow {
     void show_frame(const servo::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
+    void show_to_subjects();
+    void add_subject_window(const std::optional<rig::Display>& display);
     void show_progress(const servo::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
@@ -131,7 +137,8 @@ class OperatorWindow : public QMainWindow {
     DevicePanel* devices_;
     TuningPanel* tuning_;
     LogView* log_;
-    std::unique_ptr<SubjectWindow> subject_;
+    /// One for each display of the rig, or one without a display.
+    std::vector<std::unique_ptr<SubjectWindow>> subjects_;
     QAction* open_action_ = nullptr;
     QAction* start_action_ = nullptr;
     QAction* pause_action_ = nullptr;
@@ -139,6 +146,7 @@ class OperatorWindow : public QMainWindow {
     QAction* skip_action_ = nullptr;
     QAction* force_off_action_ = nullptr;
     QAction* calibrate_action_ = nullptr;
+    QAction* register_action_ = nullptr;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* view_menu_ = nullptr;

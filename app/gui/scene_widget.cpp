@@ -2,7 +2,9 @@
 
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QPainter>
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -140,27 +142,56 @@ void SceneWidget::set_page(const QString& text, const QString& picture) {
     page_->set_page(text, picture);
 }
 
+void SceneWidget::set_display(const std::optional<rig::Display>& display) {
+    display_ = display;
+    const bool turned = display && display->mirrored != rig::Mirrored::no;
+    const bool split = display && (display->stereo == rig::Stereo::side_by_side ||
+                                   display->stereo == rig::Stereo::top_bottom);
+    std::unique_ptr<QWidget> words;
+    if (turned || split) {
+        words = std::make_unique<QWidget>();
+        words->setAttribute(Qt::WA_TranslucentBackground);
+    }
+    QWidget* const parent = words ? words.get() : this;
+    for (QWidget* child : std::array<QWidget*, 4>{page_, rating_, banner_, help_}) {
+        const bool hidden = child->isHidden();
+        child->setParent(parent);
+        child->setVisible(!hidden);
+    }
+    words_ = std::move(words);
+    place_labels();
+    update();
+}
+
 void SceneWidget::place_labels() {
-    page_->setGeometry(rect());
-    rating_->setGeometry(width() / 10, height() * 7 / 10, width() * 8 / 10, height() * 2 / 10);
+    QSize room = size();
+    if (words_) {
+        const view::Pane pane = view::panes(*display_, 1).front();
+        room = {static_cast<int>(room.width() * pane.width),
+                static_cast<int>(room.height() * pane.height)};
+        words_->resize(room);
+    }
+    const int width = room.width(), height = room.height();
+    page_->setGeometry({{0, 0}, room});
+    rating_->setGeometry(width / 10, height * 7 / 10, width * 8 / 10, height * 2 / 10);
     // legible from a chair's distance, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
                 "font-size: %1px; border-radius: 8px;")
-            .arg(std::max(20, height() / 30)));
+            .arg(std::max(20, height / 30)));
     banner_->setWordWrap(false);
     banner_->adjustSize();
-    if (banner_->width() > width() - 40) {
+    if (banner_->width() > width - 40) {
         banner_->setWordWrap(true);
-        banner_->setFixedWidth(width() - 40);
+        banner_->setFixedWidth(width - 40);
         banner_->adjustSize();
     } else {
         banner_->setMinimumWidth(0);
         banner_->setMaximumWidth(QWIDGETSIZE_MAX);
     }
     help_->adjustSize();
-    banner_->move((width() - banner_->width()) / 2, 24);
-    help_->move(12, height() - help_->height() - 12);
+    banner_->move((width - banner_->width()) / 2, 24);
+    help_->move(12, height - help_->height() - 12);
 }
 
 void SceneWidget::resizeEvent(QResizeEvent* event) {
@@ -171,25 +202,53 @@ void SceneWidget::resizeEvent(QResizeEvent* event) {
 void SceneWidget::paintGL() {
     if (cameras_.empty()) return;
     try {
-        if (!view_) view_ = std::make_unique<view::SceneView>(scene_);
-        const std::vector<Vec3> path(path_.begin(), path_.end());
-        view::Overlays overlays;
-        overlays.handles = layers_.handles;
-        overlays.forces = layers_.forces;
-        overlays.contacts = layers_.contacts;
-        overlays.grip_axis = layers_.grip_axis;
-        overlays.joints = layers_.joints;
-        if (layers_.path) overlays.path = path;
-        std::vector<view::Workspace> workspaces;
-        for (const view::Workspace& workspace : workspaces_)
-            workspaces.push_back({turn_.turned(workspace.X_WD), workspace.size});
-        if (layers_.workspaces) overlays.workspaces = workspaces;
-        const double scale = devicePixelRatioF();
-        shown_ = view_->draw(frame_, camera_, static_cast<int>(width() * scale),
-                             static_cast<int>(height() * scale), overlays);
+        draw_scene();
     } catch (const Error& e) {
         cameras_.clear();
         Q_EMIT failed(e.what());
+        return;
+    }
+    if (words_) draw_words();
+}
+
+void SceneWidget::draw_scene() {
+    if (!view_) view_ = std::make_unique<view::SceneView>(scene_);
+    const std::vector<Vec3> path(path_.begin(), path_.end());
+    view::Overlays overlays;
+    overlays.handles = layers_.handles;
+    overlays.forces = layers_.forces;
+    overlays.contacts = layers_.contacts;
+    overlays.grip_axis = layers_.grip_axis;
+    overlays.joints = layers_.joints;
+    if (layers_.path) overlays.path = path;
+    std::vector<view::Workspace> workspaces;
+    for (const view::Workspace& workspace : workspaces_)
+        workspaces.push_back({turn_.turned(workspace.X_WD), workspace.size});
+    if (layers_.workspaces) overlays.workspaces = workspaces;
+    const double scale = devicePixelRatioF();
+    const int across = static_cast<int>(width() * scale);
+    const int up = static_cast<int>(height() * scale);
+    shown_ = display_ ? view_->draw(frame_, *display_, across, up, overlays)
+                      : view_->draw(frame_, camera_, across, up, overlays);
+}
+
+/// Draws page, question and texts into each eye's part of the picture, turned for a mirror.
+void SceneWidget::draw_words() {
+    const QList<QWidget*> children = words_->findChildren<QWidget*>(Qt::FindDirectChildrenOnly);
+    if (std::all_of(children.begin(), children.end(), [](QWidget* w) { return w->isHidden(); }))
+        return;
+    const double scale = devicePixelRatioF();
+    QImage picture(words_->size() * scale, QImage::Format_ARGB32_Premultiplied);
+    picture.setDevicePixelRatio(scale);
+    picture.fill(Qt::transparent);
+    words_->render(&picture, {}, {}, QWidget::DrawChildren);
+    picture = picture.mirrored(display_->mirrored == rig::Mirrored::left_right,
+                               display_->mirrored == rig::Mirrored::up_down);
+    QPainter painter(this);
+    for (const view::Pane& pane : view::panes(*display_, 1)) {
+        painter.drawImage(QPointF(pane.left * width(), (1 - pane.bottom - pane.height) * height()),
+                          picture);
+        if (!pane.green_blue) break;  // both eyes see the whole of it
     }
 }
 
@@ -204,6 +263,7 @@ void SceneWidget::mousePressEvent(QMouseEvent* event) {
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const QPointF way = event->position() - pointer_;
     pointer_ = event->position();
+    if (display_) return;  // eyes do not move by mouse
     const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
     const bool left = event->buttons().testFlag(Qt::LeftButton);
     const bool orbit = event->buttons().testFlag(Qt::RightButton) || (left && hand_ == nullptr);

@@ -5,6 +5,7 @@
 #include <QOpenGLWidget>
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "mouse_hand.h"
 #include "page_view.h"
@@ -40,6 +41,8 @@ class SceneWidget : public QOpenGLWidget {
     void set_camera(const view::Camera& camera);
     const view::Camera& camera() const { return camera_; }
     void reset_camera();
+    /// Draws as the person sees it on a display, in place of the camera; nullopt: by the camera.
+    void set_display(const std::optional<rig::Display>& display);
     /// What is drawn besides the scene; `path`: of the object, in the last seconds.
     struct Layers {
         bool handles = false;
@@ -90,12 +93,18 @@ class SceneWidget : public QOpenGLWidget {
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
     void place_labels();
+    void draw_scene();
+    void draw_words();
 
     scene::Scene scene_;
     servo::Frame frame_;
     std::unique_ptr<view::SceneView> view_;
     std::vector<view::Camera> cameras_;
     view::Camera camera_;
+    std::optional<rig::Display> display_;
+    /// Holds page, question and texts where each eye, or a mirror, has to see them the right way;
+    /// null: they lie over the scene.
+    std::unique_ptr<QWidget> words_;
     Layers layers_;
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;

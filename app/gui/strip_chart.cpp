@@ -4,17 +4,10 @@
 #include <QPainterPath>
 #include <cmath>
 
+#include "chart_scale.h"
+
 namespace dihaptic::gui {
 namespace {
-
-/// The smallest of ..., 1, 2, 5, 10, ... that is not below `least`.
-double round_step(double least) {
-    const double power = std::pow(10, std::floor(std::log10(least)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= least) return factor * power;
-    }
-    return 10 * power;
-}
 
 /// Width of a curve's entry with its line, and the gap to the next [pixels].
 int legend_width(const QFontMetrics& metrics, const StripChart::Curve& curve) {

@@ -24,15 +24,22 @@ SubjectWindow::SubjectWindow() : scene_(new SceneWidget) {
     layout->addWidget(scene_);
 }
 
-void SubjectWindow::show_beside(const QWidget& operator_window) {
+QString show_on(QWidget& window, const QString& monitor, const QWidget& operator_window) {
+    QStringList names;
     for (QScreen* screen : QGuiApplication::screens()) {
-        if (screen == operator_window.screen()) continue;
-        setGeometry(screen->geometry());
-        showFullScreen();
-        return;
+        names += screen->name();
+        const bool wanted =
+            monitor.isEmpty() ? screen != operator_window.screen() : screen->name() == monitor;
+        if (!wanted) continue;
+        window.setGeometry(screen->geometry());
+        window.showFullScreen();
+        return "";
     }
-    resize(800, 600);
-    show();
+    window.resize(800, 600);
+    window.show();
+    if (monitor.isEmpty()) return "";
+    return QString("there is no monitor '%1'; there are %2. Name one of these in the rig file.")
+        .arg(monitor, names.join(", "));
 }
 
 void SubjectWindow::keyPressEvent(QKeyEvent* event) {

@@ -1,4 +1,4 @@
-// The subject's window: the scene and nothing else, full screen on a display of its own.
+// The subject's window: the scene and nothing else, full screen on a monitor of its own.
 #pragma once
 
 #include "scene_widget.h"
@@ -9,6 +9,11 @@ namespace dihaptic::gui {
 /// minus, enter and back; 0 for any other key.
 char task_key(const QKeyEvent& event);
 
+/// Shows a window on the whole of that monitor or, if `monitor` is empty, of one that the
+/// operator's window is not on, if there is one. What is wrong, and what to do, comes back; empty:
+/// nothing.
+QString show_on(QWidget& window, const QString& monitor, const QWidget& operator_window);
+
 class SubjectWindow : public QWidget {
     Q_OBJECT
 
@@ -16,8 +21,6 @@ class SubjectWindow : public QWidget {
     SubjectWindow();
 
     SceneWidget& scene() { return *scene_; }
-    /// Shows it on a display other than the operator's window's, if there is one.
-    void show_beside(const QWidget& operator_window);
 
   Q_SIGNALS:
     void closed();

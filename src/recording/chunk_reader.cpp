@@ -41,6 +41,37 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     session_ = session_of(head_);
     due_ = 1;
     end_ += header_size() + header.size;
+    first_ = end_;
+}
+
+std::vector<ChunkPlace> ChunkReader::places() const {
+    std::vector<ChunkPlace> out;
+    const auto has_frames = [](uint32_t kind) { return kind == kData || kind == kPacked; };
+    ChunkPlace place{first_, 1};
+    ChunkHeader header;
+    while (header_at(place.at, header) && header.session == session_ &&
+           (version_ == 1 || header.number == place.number) &&
+           std::find(kKinds.begin(), kKinds.end(), header.kind) != kKinds.end()) {
+        if (has_frames(header.kind)) out.push_back(place);
+        place.at += header_size() + header.size;
+        ++place.number;
+    }
+    if (place.at == file_.size()) return out;
+    out.clear();
+    ChunkReader all(name_);
+    while (const Chunk* chunk = all.next()) {
+        const bool own = chunk->place == Chunk::Place::own || chunk->place == Chunk::Place::moved;
+        if (own && has_frames(chunk->kind)) out.push_back(chunk->in_file);
+    }
+    return out;
+}
+
+void ChunkReader::go_to(const ChunkPlace& place) {
+    end_ = place.at;
+    due_ = place.number;
+    done_ = looked_ = false;
+    found_.clear();
+    next_found_ = 0;
 }
 
 double ChunkReader::share() const {
@@ -161,6 +192,7 @@ const Chunk* ChunkReader::next_found() {
 
 const Chunk* ChunkReader::give(const ChunkHeader& header, const Found& found) {
     chunk_.kind = header.kind;
+    chunk_.in_file = {found.at, version_ == 1 ? 1 : header.number};
     chunk_.bytes = found.end - found.at;
     chunk_.damaged = found.damaged;
     chunk_.place = found.place;

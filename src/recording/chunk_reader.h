@@ -15,6 +15,12 @@
 
 namespace dihaptic::recording {
 
+/// Where a chunk stands in its file.
+struct ChunkPlace {
+    int64_t at = 0;
+    uint32_t number = 0;
+};
+
 /// A whole chunk.
 struct Chunk {
     enum class Place {
@@ -26,6 +32,7 @@ struct Chunk {
     };
     uint32_t kind = 0;
     Place place = Place::own;
+    ChunkPlace in_file;
     int64_t bytes = 0;    ///< including its header
     int64_t damaged = 0;  ///< bytes before it in the file that belong to no whole chunk
     int64_t missing = 0;  ///< number of chunks that are gone between the one before and this one
@@ -42,6 +49,12 @@ class ChunkReader {
     const Chunk* next();
     /// Share of the file that has been read, from 0 to 1.
     double share() const;
+
+    /// Where the chunks with frames are, in their order. Of a log that nothing has happened to only
+    /// the headers are read, of another one all.
+    std::vector<ChunkPlace> places() const;
+    /// Makes next() go on with this chunk.
+    void go_to(const ChunkPlace& place);
 
     /// After the end: number of bytes behind the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
@@ -71,6 +84,7 @@ class ChunkReader {
     int version_ = 3;
     uint64_t session_ = 0;
     std::vector<std::byte> head_;
+    int64_t first_ = 0;   // where the first chunk after the head is
     int64_t end_ = 0;     // end of the last whole chunk in the file so far
     int64_t wasted_ = 0;  // bytes that were read in vain
     uint64_t due_ = 0;    // number of the chunk that comes next

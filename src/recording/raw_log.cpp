@@ -140,6 +140,18 @@ void RawLogReader::read_head() {
     diagnostics.throw_if_errors();
 }
 
+void RawLogReader::go_to(const ChunkPlace& place, bool follows) {
+    if (!follows) {
+        forget_bodies(true);
+        health_ = {};
+    }
+    damaged_ = gone_ = read_bytes_ = 0;
+    rest_ = {};
+    chunks_.go_to(place);
+    read_chunk();
+    ended_ = true;
+}
+
 const LogHealth& RawLogReader::read_to_end() {
     while (next() != nullptr) continue;
     return health_;

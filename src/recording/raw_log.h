@@ -107,6 +107,12 @@ class RawLogReader {
     /// Share of the file that has been read, from 0 to 1.
     double share() const { return chunks_.share(); }
 
+    /// Where the chunks with frames are, in their order.
+    std::vector<ChunkPlace> places() const { return chunks_.places(); }
+    /// Makes next() give the frames of this chunk alone. `follows`: it comes after what was read
+    /// last, so that bodies are where they were; otherwise what health() has found is forgotten.
+    void go_to(const ChunkPlace& place, bool follows = false);
+
   private:
     void read_head();
     bool read_chunk();

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
+
+#include "rig/way.h"
 
 namespace dihaptic::rig {
 namespace {
@@ -12,46 +13,6 @@ constexpr uint64_t kSeed = 1;        // of the simulated hand's slips
 constexpr int kTouches = 25;         // samples of a point of the jig
 constexpr int kHeld = 50;            // samples of endpoints held together: a second
 constexpr double kMostMoved = 2e-3;  // change of their distance in that second [m]
-
-/// Takes a person through steps, on devices that are only read.
-class Way {
-  public:
-    Way(DeviceReader& reader, const Guide& guide, int steps) : reader_(reader), guide_(guide) {
-        now_.steps = steps;
-    }
-
-    void begin_step(const std::string& text) {
-        ++now_.step;
-        now_.text = text;
-        tell(0, "");
-    }
-    void tell(double share, const std::string& measured) {
-        now_.share = share;
-        now_.measured = measured;
-        guide_.show(now_);
-    }
-    /// Waits until the person says that the step is done.
-    void wait() {
-        reader_.repeat([&] { return !guide_.done(); });
-    }
-    /// Calls `each` for every sample until it returns false; `said`: since the last sample the
-    /// person has said that the step is done.
-    void sample(const std::function<bool(bool said)>& each) {
-        bool said = false;
-        int64_t ticks = 0;
-        constexpr int64_t kTicks = CalibrationSampler::kEvery / DeviceReader::kTick;
-        reader_.repeat([&] {
-            said = guide_.done() || said;
-            if (++ticks % kTicks != 0) return true;
-            return each(std::exchange(said, false));
-        });
-    }
-
-  private:
-    DeviceReader& reader_;
-    const Guide& guide_;
-    Guidance now_;
-};
 
 class CalibrationWay {
   public:

@@ -13,9 +13,6 @@ namespace dihaptic::rig {
 /// Collects samples of a rig's devices, uncorrected and unscaled, with forces off.
 class CalibrationSampler {
   public:
-    /// Time between samples.
-    static constexpr Time kEvery = std::chrono::milliseconds(20);
-
     /// Throws Error as make_devices() does. `driver`: for simulated devices.
     CalibrationSampler(const Rig& rig, const hand::Driver* driver);
 

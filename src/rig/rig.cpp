@@ -14,6 +14,15 @@
 namespace dihaptic::rig {
 namespace {
 
+/// The path of a file that a rig file names.
+std::string beside(const std::string& rig_file, const std::string& named) {
+    return (std::filesystem::path(rig_file).parent_path() / named).string();
+}
+
+std::string stem(const std::string& file) {
+    return std::filesystem::path(file).stem().string();
+}
+
 std::vector<std::string> backend_names() {
     std::vector<std::string> names;
     for (const devices::Backend& backend : devices::backends()) names.emplace_back(backend.name);
@@ -50,6 +59,33 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     if (rig.devices.empty())
         diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
     outlets::check(rig.outlets, diagnostics);
+    std::set<std::string> displays;
+    for (const Display& display : rig.displays) {
+        check(display, diagnostics);
+        if (displays.insert(display.name).second) continue;
+        diagnostics.error(display.place, "name",
+                          fmt::format("'{}' is the name of two displays", display.name),
+                          "Give each display a name of its own.");
+    }
+}
+
+void read_registration(const Rig& rig, Display& display, const std::string& file,
+                       Diagnostics& diagnostics) {
+    Registration registration;
+    try {
+        read_fields(registration, read_yaml(file), diagnostics);
+    } catch (const Error& e) {
+        diagnostics.error(display.place, "registration",
+                          fmt::format("{} cannot be used", display.registration),
+                          "Register the display (dihaptic register), or leave out registration.");
+        diagnostics.add(e.problems());
+        return;
+    }
+    if (diagnostics.has_errors()) return;
+    registration.move(-rig.moved_by);
+    registration.place.file = file;
+    display.set(registration);
+    check(display, diagnostics);
 }
 
 void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostics) {
@@ -89,6 +125,7 @@ void place_world(Rig& rig) {
     for (Device& device : rig.devices) device.position -= rig.origin;
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
     if (rig.wall) rig.wall->centre -= rig.origin;
+    for (Display& display : rig.displays) display.move(-rig.origin);
     rig.moved_by = rig.origin;
     rig.origin = Vec3::Zero();
 }
@@ -151,19 +188,24 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
     return rig;
 }
 
-Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics) {
     Rig rig = read_rig_to_calibrate(file, diagnostics);
-    if (!rig.calibration.empty()) {
-        const auto folder = std::filesystem::path(file).parent_path();
-        read_calibration(rig, (folder / rig.calibration).string(), diagnostics);
+    if (!rig.calibration.empty()) read_calibration(rig, beside(file, rig.calibration), diagnostics);
+    return rig;
+}
+
+Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
+    Rig rig = read_rig_to_register(file, diagnostics);
+    for (Display& display : rig.displays) {
+        if (display.registration.empty()) continue;
+        read_registration(rig, display, beside(file, display.registration), diagnostics);
     }
     return rig;
 }
 
 std::string calibration_file(const Rig& rig, const std::string& rig_file) {
-    const std::filesystem::path file(rig_file);
-    if (!rig.calibration.empty()) return (file.parent_path() / rig.calibration).string();
-    return (file.parent_path() / fmt::format("{}-calibration.yaml", file.stem().string())).string();
+    if (!rig.calibration.empty()) return beside(rig_file, rig.calibration);
+    return beside(rig_file, fmt::format("{}-calibration.yaml", stem(rig_file)));
 }
 
 namespace {
@@ -189,11 +231,20 @@ std::string store_calibration(const Rig& rig, const CalibrationResult& result,
     return picture;
 }
 
-std::string calibration_line(const std::string& rig_file, const std::string& calibration_file) {
+namespace {
+/// How a rig file names another.
+std::string named_in(const std::string& rig_file, const std::string& file) {
     const auto folder = std::filesystem::path(rig_file).parent_path();
-    return fmt::format(
-        "calibration: {}",
-        std::filesystem::path(calibration_file).lexically_proximate(folder).string());
+    return std::filesystem::path(file).lexically_proximate(folder).string();
+}
+}  // namespace
+
+std::string calibration_line(const std::string& rig_file, const std::string& calibration_file) {
+    return "calibration: " + named_in(rig_file, calibration_file);
+}
+
+std::string registration_line(const std::string& rig_file, const std::string& registration_file) {
+    return "registration: " + named_in(rig_file, registration_file);
 }
 
 void name_calibration(const std::string& rig_file, const std::string& calibration_file) {
@@ -216,7 +267,54 @@ void check_jig(const Rig& rig) {
                 fmt::format("Give three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
 }
 
+const Display& display_of(const Rig& rig, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Display& display : rig.displays) {
+        if (display.name == name || (name.empty() && rig.displays.size() == 1)) return display;
+        names.push_back(display.name);
+    }
+    if (names.empty())
+        throw Error(rig.place, "displays", "there are none",
+                    "Add one to the rig file: docs/files.md says how.");
+    throw Error(rig.place, "displays",
+                name.empty() ? "there are several" : fmt::format("none is named '{}'", name),
+                fmt::format("Known: {}.", fmt::join(names, ", ")));
+}
+
+std::string registration_file(const Display& display, const std::string& rig_file) {
+    if (!display.registration.empty()) return beside(rig_file, display.registration);
+    return beside(rig_file, fmt::format("{}-{}-registration.yaml", stem(rig_file), display.name));
+}
+
+void store_registration(const Rig& rig, const Registration& registration, const std::string& file) {
+    Registration out = registration;
+    out.move(rig.moved_by);
+    write_file(to_yaml(write_fields(out)), file);
+}
+
+namespace {
+void check_registrations(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {
+    for (const Display& display : rig.displays) {
+        if (!display.registered) {
+            if (is_real(rig))
+                diagnostics.warning(display.place, "registration",
+                                    fmt::format("{} was never registered: things may be seen "
+                                                "beside where they are felt",
+                                                display.name),
+                                    "Register it: dihaptic register.");
+            continue;
+        }
+        const std::optional<int> days = days_between(display.registered->date, today);
+        if (!days || *days <= kOldCalibration) continue;
+        diagnostics.warning(display.registered->place, "date",
+                            fmt::format("{} was registered {} days ago", display.name, *days),
+                            "Register it again: dihaptic register.");
+    }
+}
+}  // namespace
+
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {
+    check_registrations(rig, today, diagnostics);
     if (!rig.calibrated) return;
     const std::optional<int> days = days_between(rig.calibrated->date, today);
     if (!days || *days <= kOldCalibration) return;

@@ -5,6 +5,7 @@
 #include "keeper/kept_devices.h"
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
+#include "rig/display.h"
 
 namespace dihaptic::rig {
 
@@ -83,6 +84,7 @@ struct Rig {
     std::vector<outlets::OutletConfig> outlets;
     std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
+    std::vector<Display> displays;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
@@ -100,15 +102,20 @@ struct Rig {
         v("outlets", outlets, says("Connections to what else the laboratory records with."));
         v("calibration", calibration, says("Calibration file, relative to this file."));
         v("jig", jig, says("Points that endpoints can touch, for dihaptic calibrate."));
+        v("displays", displays,
+          says("Where the person sees screens, and with which eyes; left out, the scene's camera "
+               "says what is seen."));
         v("settings", settings,
           says("Settings that the rig asks for; those of safety are its limits."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Reads a rig file, and its calibration; every problem goes to `diagnostics`.
+/// Reads a rig file, its calibration and registrations; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics);
-/// Reads a rig file without its calibration, which may be missing: for a rig to be calibrated.
+/// Reads it without registrations, which may be missing: for a rig whose displays are registered.
+Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics);
+/// Reads it without its calibration as well: for a rig to be calibrated.
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
 
 /// Path of a rig's calibration: the file that the rig names, or else one beside the rig file.
@@ -134,7 +141,8 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = fa
 /// Throws Error when the rig's jig is missing or too small to locate its devices. Several devices
 /// need no jig.
 void check_jig(const Rig& rig);
-/// Warns of a calibration that is older than kOldCalibration. `today`: ISO 8601.
+/// Warns of a calibration, or a display's registration, that is older than kOldCalibration, and of
+/// a display of a real rig that was never registered. `today`: ISO 8601.
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days
 
@@ -154,6 +162,14 @@ std::unique_ptr<devices::DeviceGroup> make_devices(
     const std::optional<keeper::Keeping>& keeping = {});
 /// The fingers that hold a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
+/// The display of that name; if it is empty, the only one. Throws Error when there is none.
+const Display& display_of(const Rig& rig, const std::string& name);
+/// Path of a display's registration: the file that the rig names, or else one beside the rig file.
+std::string registration_file(const Display& display, const std::string& rig_file);
+/// The line of a display in a rig file that names its registration.
+std::string registration_line(const std::string& rig_file, const std::string& registration_file);
+/// Writes a registration of a display of this rig, in the frame of the rig's file.
+void store_registration(const Rig& rig, const Registration& registration, const std::string& file);
 /// The device that a finger holds. Throws Error when it holds none.
 const Device& device_of(const Rig& rig, const std::string& finger);
 /// X_WD of each finger's device.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "scene/mesh.h"
+#include "scene/relief_picture.h"
 
 namespace dihaptic::scene {
 namespace {
@@ -77,6 +78,18 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
                             file, 100 * (hull / solid - 1)),
                 "Add concave: yes to feel the mesh itself.");
         }
+    } catch (const Error& e) {
+        diagnostics.add(e.problems());
+    }
+}
+
+void load_picture(Surface& surface, const std::string& folder, Diagnostics& diagnostics) {
+    if (!surface.texture || surface.texture->file.empty()) return;
+    const std::string file =
+        (std::filesystem::path(folder) / surface.texture->file).lexically_normal().string();
+    try {
+        surface.texture->picture =
+            std::make_shared<const ReliefPicture>(read_relief(file, surface.texture->place));
     } catch (const Error& e) {
         diagnostics.add(e.problems());
     }
@@ -562,6 +575,7 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
                           [](const Joint& joint) { return joint.recorded; });
     for (Body& body : scene.bodies) {
         load_meshes(body.shape, folder, diagnostics, stop);
+        load_picture(body.surface, folder, diagnostics);
         check_parts(body.shape, body.place, diagnostics);
         check_body(body, diagnostics);
     }

@@ -76,6 +76,10 @@ void check(const Texture& texture, Diagnostics& diagnostics) {
     if (texture.along.norm() < 1e-9)
         diagnostics.error(texture.place, "along", "has no direction",
                           "Write e.g. along: [1, 0, 0].");
+    if (texture.kind == TextureKind::picture && texture.file.empty())
+        diagnostics.error(texture.place, "file", "is missing", "Name the picture, a PNG file.");
+    if (texture.kind != TextureKind::picture && !texture.file.empty())
+        diagnostics.error(texture.place, "file", "is of pictures alone", "Write kind: picture.");
     if (texture.friction == 0 && texture.height == 0)
         diagnostics.error(texture.place, "friction", "is missing, and height too",
                           "Add e.g. friction: 0.5, or height_mm: 0.1.");
@@ -85,7 +89,7 @@ void check(const Texture& texture, Diagnostics& diagnostics) {
             fmt::format("makes slopes of {:.3g} degrees, over which no finger slides",
                         std::atan(texture.steepest()) / kDegree),
             fmt::format("For 45 degrees make it at most {:.3g} mm at this wavelength.",
-                        1e3 * texture.wavelength / std::numbers::pi));
+                        1e3 * texture.height * Texture::kSteepest / texture.steepest()));
 }
 
 }  // namespace

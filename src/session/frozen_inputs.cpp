@@ -13,26 +13,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Copies a file to the session's folder, and returns the name that it has there.
+std::string copied(const fs::path& file, const std::string& kind, size_t number,
+                   const recording::SessionFolder& folder) {
+    std::string name = fmt::format("{}-{}-{}", kind, number, file.filename().string());
+    fs::copy_file(file, folder.file(name));
+    return name;
+}
+
 /// Copies the scene's meshes to the session's folder, and makes the scene name the copies.
 std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
                                        const recording::SessionFolder& folder) {
     std::vector<std::string> names;
-    int count = 0;
+    size_t count = 0;
     const std::function<void(scene::Shape&)> freeze = [&](scene::Shape& shape) {
         for (scene::Part& part : shape.parts) freeze(part.shape);
         if (shape.kind != scene::ShapeKind::mesh) return;
-        const std::string name =
-            fmt::format("mesh-{}-{}", ++count, fs::path(shape.file).filename().string());
-        fs::copy_file(fs::path(from) / shape.file, folder.file(name));
-        shape.file = name;
-        names.push_back(name);
+        shape.file = copied(fs::path(from) / shape.file, "mesh", ++count, folder);
+        names.push_back(shape.file);
         if (!shape.concave) return;
         // a replay uses these pieces, even if another version would cut the mesh differently
-        names.push_back(scene::pieces_file(name));
+        names.push_back(scene::pieces_file(shape.file));
         scene::write_pieces(shape.pieces, folder.file(names.back()));
     };
     for (scene::Body& body : scene.bodies) freeze(body.shape);
     for (scene::Finger& finger : scene.fingers) freeze(finger.shape);
+    return names;
+}
+
+/// Copies the pictures that textures are, and makes the scene name the copies.
+std::vector<std::string> freeze_textures(scene::Scene& scene, const std::string& from,
+                                         const recording::SessionFolder& folder) {
+    std::vector<std::string> names;
+    for (scene::Body& body : scene.bodies) {
+        if (!body.surface.texture || body.surface.texture->file.empty()) continue;
+        std::string& file = body.surface.texture->file;
+        file = copied(fs::path(from) / file, "texture", names.size() + 1, folder);
+        names.push_back(file);
+    }
     return names;
 }
 
@@ -43,11 +61,8 @@ std::vector<std::string> freeze_pictures(task::Task& task, const recording::Sess
     for (task::Block& block : task.blocks) {
         for (task::PageSpec& page : block.pages) {
             if (page.picture.empty()) continue;
-            const std::string name = fmt::format("page-{}-{}", names.size() + 1,
-                                                 fs::path(page.picture).filename().string());
-            fs::copy_file(page.picture, folder.file(name));
-            page.picture = name;
-            names.push_back(name);
+            page.picture = copied(page.picture, "page", names.size() + 1, folder);
+            names.push_back(page.picture);
         }
     }
     return names;
@@ -79,12 +94,20 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
     scene.settings = {};  // settings.yaml has the resolved settings
     scene.hand = write_fields(plan.hand);
     std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
+    const std::vector<std::string> textures = freeze_textures(scene, plan.scene_folder, folder);
+    names.insert(names.end(), textures.begin(), textures.end());
     write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
     rig::Rig rig = plan.rig;
     if (rig.calibrated) {
         rig.calibration = "calibration.yaml";
         write_file(to_yaml(write_fields(*rig.calibrated)), folder.file(rig.calibration));
         names.push_back(rig.calibration);
+    }
+    for (rig::Display& display : rig.displays) {
+        if (!display.registered) continue;
+        display.registration = fmt::format("registration-{}.yaml", names.size());
+        write_file(to_yaml(write_fields(*display.registered)), folder.file(display.registration));
+        names.push_back(display.registration);
     }
     write_file(to_yaml(write_fields(rig)), folder.file("rig.yaml"));
     write_file(to_yaml(write_fields(plan.settings)), folder.file("settings.yaml"));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -172,14 +173,15 @@ void check_textures(const Plan& plan, Diagnostics& diagnostics) {
     for (const scene::Body& body : plan.scene.bodies) {
         const std::optional<scene::Texture>& texture = body.surface.texture;
         if (!texture || texture->height == 0) continue;
-        if (texture->wavelength < 4 * way)
+        // of a grating that is as high and as steep
+        const double ridge = std::numbers::pi * texture->height / texture->steepest();
+        if (ridge < 4 * way)
             diagnostics.warning(
                 texture->place, "wavelength",
-                fmt::format("at {:g} mm/s a step passes {:.2g} of {}'s ridges of {:g} mm: they are "
-                            "felt as noise",
-                            1e3 * kSpeed, way / texture->wavelength, body.name,
-                            1e3 * texture->wavelength),
-                fmt::format("Make it {:g} mm or more.", 4e3 * way));
+                fmt::format("at {:g} mm/s a step passes {:.2g} of {}'s ridges of {:.3g} mm: they "
+                            "are felt as noise",
+                            1e3 * kSpeed, way / ridge, body.name, 1e3 * ridge),
+                fmt::format("Make it {:.3g} mm or more.", 4e3 * way / ridge * texture->wavelength));
         if (apart)
             diagnostics.warning(
                 texture->place, "height",

@@ -8,6 +8,7 @@
 #include "base/unmeasured.h"
 #include "task/lookup.h"
 #include "task/plan_formulas.h"
+#include "task/recorded.h"
 
 namespace dihaptic::task {
 namespace {
@@ -82,14 +83,7 @@ void OwnMeasures::add(const servo::Frame& frame) {
     Quantities& quantities = numbers_.quantities();
     quantities.set(Quantities::kTimeInState, now - entered_);
     quantities.set(Quantities::kTimeInTrial, now - began_);
-    handles_.resize(frame.fingers.size());
-    for (size_t i = 0; i < handles_.size(); ++i) {
-        handles_[i].p_WH = frame.fingers[i].p_WH;
-        handles_[i].v_WH = frame.fingers[i].v_WH;
-        if (frame.turns.size() != handles_.size()) continue;
-        handles_[i].R_WH = frame.turns[i].R_WH;
-        handles_[i].w_WH = frame.turns[i].w_WH;
-    }
+    handles_of(frame, handles_);
     quantities.update(frame, handles_);
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measure = plan_.own_measures[i];

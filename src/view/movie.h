@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "view/image.h"
+#include "base/image.h"
 
 namespace dihaptic::view {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "view/image.h"
+#include "base/image.h"
 
 namespace dihaptic::view {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/diagnostics.h"
 #include "model/grasp.h"
@@ -240,9 +241,20 @@ struct SceneView::Parts {
             draw(fingers[i], bodies.size() + i, servo::displayed_proxy(frame, i));
     }
 
-    void draw_background(const Eigen::Vector2d& size) const;
-    void draw_surfaces(const servo::Frame& frame, const Camera& camera, const Eigen::Vector2d& size,
-                       const Eigen::Matrix4d& light_from_world, double texel) const;
+    /// How the shadow map sees the world.
+    struct Lamp {
+        Eigen::Matrix4d light_from_world = Eigen::Matrix4d::Identity();
+        double texel = 0;  // [m]
+    };
+
+    Shown draw(const servo::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
+               const Overlays& overlays);
+    Lamp render_shadows(const servo::Frame& frame);
+    // `corner` and `size` are a pane's [pixels]
+    void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
+    void draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
+                       const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+                       const Lamp& lamp) const;
     void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
     void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
     void draw_solids(const Solids& solids) const;
@@ -260,63 +272,95 @@ SceneView::~SceneView() = default;
 
 Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width, int height,
                       const Overlays& overlays) {
-    Parts& p = *parts_;
+    const double distance = (camera.position - camera.look_at).norm();
+    const double aspect = static_cast<double>(width) / height;
+    const Viewpoint viewpoint{camera.position,
+                              projection(camera, aspect, 0.05 * distance, distance + kPlaneSize)};
+    return parts_->draw(frame, std::array{Pane{viewpoint}}, width, height, overlays);
+}
+
+Shown SceneView::draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
+                      const Overlays& overlays) {
+    return parts_->draw(frame, panes(display, kPlaneSize), width, height, overlays);
+}
+
+Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> all, int new_width,
+                             int new_height, const Overlays& overlays) {
     const KeepTarget target;
-    p.resize(width, height);
+    resize(new_width, new_height);
+    const Lamp lamp = render_shadows(frame);
+    glBindFramebuffer(GL_FRAMEBUFFER, samples);
+    glEnable(GL_SCISSOR_TEST);
+    for (const Pane& pane : all) {
+        const auto pixels = [](double share, int of) {
+            return static_cast<int>(std::lround(share * of));
+        };
+        const int left = pixels(pane.left, width), bottom = pixels(pane.bottom, height);
+        const int across = pixels(pane.width, width), up = pixels(pane.height, height);
+        glViewport(left, bottom, across, up);
+        glScissor(left, bottom, across, up);
+        glColorMask(pane.red, pane.green_blue, pane.green_blue, GL_TRUE);
+        glFrontFace(pane.viewpoint.flipped ? GL_CW : GL_CCW);
+        const Eigen::Vector2d corner(left, bottom), size(across, up);
+        draw_background(corner, size);
+        draw_surfaces(frame, pane.viewpoint, corner, size, lamp);
+        draw_overlays(frame, overlays);
+    }
+    glFrontFace(GL_CCW);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
 
-    const Mat3 R_LW = light_rotation();
-    const double reach = p.reach(frame, R_LW);
-    Eigen::Matrix4d light_from_world = Eigen::Matrix4d::Identity();
-    light_from_world.topLeftCorner<3, 3>() = Vec3(1 / reach, 1 / reach, 1).asDiagonal() * R_LW;
-    light_from_world.topRightCorner<3, 1>() = -light_from_world.topLeftCorner<3, 3>() * p.start;
-    const double texel = 2 * reach / ShadowMap::kSize;
-    p.shadow_map.render(light_from_world, kDepthRange, texel, p.kind == Shadows::variance,
-                        [&](const gl::Program& program) {
-                            program.set("world_from_model", gl::matrix(p.X_WF));
-                            p.floor.draw();
-                            p.draw_models(frame, program, [](const Parts::Thing&, const Vec3&) {});
-                        });
-
-    glBindFramebuffer(GL_FRAMEBUFFER, p.samples);
-    glViewport(0, 0, width, height);
-    const Eigen::Vector2d size(width, height);
-    p.draw_background(size);
-    p.draw_surfaces(frame, camera, size, light_from_world, texel);
-    p.draw_overlays(frame, overlays);
-
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, p.samples);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
     glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     return {frame.sequence, frame.time};
 }
 
-void SceneView::Parts::draw_background(const Eigen::Vector2d& size) const {
+SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& frame) {
+    const Mat3 R_LW = light_rotation();
+    const double half = reach(frame, R_LW);
+    Lamp out;
+    out.light_from_world.topLeftCorner<3, 3>() = Vec3(1 / half, 1 / half, 1).asDiagonal() * R_LW;
+    out.light_from_world.topRightCorner<3, 1>() =
+        -out.light_from_world.topLeftCorner<3, 3>() * start;
+    out.texel = 2 * half / ShadowMap::kSize;
+    shadow_map.render(out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
+                      [&](const gl::Program& program) {
+                          program.set("world_from_model", gl::matrix(X_WF));
+                          floor.draw();
+                          draw_models(frame, program, [](const Thing&, const Vec3&) {});
+                      });
+    return out;
+}
+
+void SceneView::Parts::draw_background(const Eigen::Vector2d& corner,
+                                       const Eigen::Vector2d& size) const {
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     background.use();
+    background.set("corner", corner);
     background.set("size", size);
     glBindVertexArray(nothing);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Camera& camera,
-                                     const Eigen::Vector2d& size,
-                                     const Eigen::Matrix4d& light_from_world, double texel) const {
+void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
+                                     const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+                                     const Lamp& lamp) const {
     const float furthest = 1;
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glClearBufferfv(GL_DEPTH, 0, &furthest);
-    const double distance = (camera.position - camera.look_at).norm();
     surface.use();
+    surface.set("corner", corner);
     surface.set("size", size);
-    surface.set("clip_from_world",
-                projection(camera, size.x() / size.y(), 0.05 * distance, distance + kPlaneSize));
-    surface.set("eye", camera.position);
+    surface.set("clip_from_world", viewpoint.clip_from_world);
+    surface.set("eye", viewpoint.eye_W);
     surface.set("middle", start);
     surface.set("light", light());
-    surface.set("light_from_world", light_from_world);
-    surface.set("texel", texel);
+    surface.set("light_from_world", lamp.light_from_world);
+    surface.set("texel", lamp.texel);
     surface.set("shadowed", 1);
     surface.set("moments", 0);
     surface.set("alpha", 1.0);

@@ -11,9 +11,11 @@
 #include <memory>
 #include <span>
 
+#include "rig/display.h"
 #include "scene/scene.h"
 #include "servo/frame.h"
 #include "view/camera.h"
+#include "view/panes.h"
 
 namespace dihaptic::view {
 
@@ -56,6 +58,9 @@ class SceneView {
     /// Draws a frame of this scene, `width` x `height` pixels from the framebuffer's lower left,
     /// and returns its stamp.
     Shown draw(const servo::Frame& frame, const Camera& camera, int width, int height,
+               const Overlays& overlays = {});
+    /// The same as the eyes see it on a display.
+    Shown draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
                const Overlays& overlays = {});
 
     /// Unit vector toward the main light, in W.

@@ -51,9 +51,10 @@ void main() {
 )";
 
 const char* const kBackground = R"(
-uniform vec2 size;  // of the picture [pixels]
+uniform vec2 corner;  // of this part of the picture [pixels]
+uniform vec2 size;
 vec3 background() {
-    vec2 at = gl_FragCoord.xy / size;
+    vec2 at = (gl_FragCoord.xy - corner) / size;
     vec3 colour = mix(vec3(0.50, 0.54, 0.59), vec3(0.86, 0.89, 0.92), smoothstep(0.0, 1.0, at.y));
     vec2 off = at - vec2(0.5, 0.6);
     return colour * (1.06 - 0.35 * dot(off, off));

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace dihaptic::view {
+namespace dihaptic {
 
 struct Image {
     int width = 0;
@@ -20,7 +20,7 @@ struct Image {
 
 /// Writes a PNG file, which appears only when it is whole. Throws Error when it cannot be written.
 void write_png(const Image& image, const std::string& file);
-/// Throws Error when the file is not a PNG file.
+/// Throws Error when the file is not a PNG file, or is very large.
 Image read_png(const std::string& file);
 
-}  // namespace dihaptic::view
+}  // namespace dihaptic

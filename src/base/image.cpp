@@ -1,11 +1,20 @@
-#include "view/image.h"
+#include "base/image.h"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include "base/diagnostics.h"
+#include "base/regular_file.h"
 #include "base/text_file.h"
 
-namespace dihaptic::view {
+namespace dihaptic {
+
+namespace {
+
+constexpr int64_t kMostPng = 200'000'000;  // [bytes]
+constexpr int64_t kMostPixels = 64'000'000;
+
+}  // namespace
 
 void write_png(const Image& image, const std::string& file) {
     png_image png{};
@@ -22,10 +31,17 @@ void write_png(const Image& image, const std::string& file) {
 }
 
 Image read_png(const std::string& file) {
+    const std::string bytes = read_bytes(file, kMostPng);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     Image image;
-    if (png_image_begin_read_from_file(&png, file.c_str()) != 0) {
+    if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0) {
+        if (int64_t{png.width} * png.height > kMostPixels) {
+            png_image_free(&png);
+            throw Error({file, 0}, "", "has more pixels than this program takes",
+                        fmt::format("Make it smaller: {} million pixels are the most.",
+                                    kMostPixels / 1'000'000));
+        }
         png.format = PNG_FORMAT_RGB;
         image.width = static_cast<int>(png.width);
         image.height = static_cast<int>(png.height);
@@ -36,4 +52,4 @@ Image read_png(const std::string& file) {
                 "It must be a PNG file.");
 }
 
-}  // namespace dihaptic::view
+}  // namespace dihaptic

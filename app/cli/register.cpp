@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "base/text_file.h"
+#include "base/unit.h"
+#include "command.h"
+#include "recording/session.h"
+#include "rig/registration_run.h"
+#include "terminal_guide.h"
+
+namespace dihaptic::cli {
+namespace {
+
+struct RegisterOptions {
+    std::string rig;
+    std::string display;
+    std::string finger;
+    std::string crosses;
+    std::string out;
+};
+
+/// Where a simulated finger finds the screen: beside where the file says, so that one sees what the
+/// command is for.
+rig::Display misplaced(const rig::Display& display) {
+    rig::Display out = display;
+    const Vec3 about = display.lower_left + (display.right() + display.up()) / 2;
+    const Quat R(Eigen::AngleAxisd(2 * kDegree, display.up().normalized()));
+    for (Vec3* corner : {&out.lower_left, &out.lower_right, &out.upper_left})
+        *corner = about + R * (*corner - about) + Vec3(3e-3, 0, 4e-3);
+    return out;
+}
+
+void draw_crosses(const RegisterOptions& options) {
+    Diagnostics diagnostics;
+    const rig::Rig rig = rig::read_rig_to_register(options.rig, diagnostics);
+    diagnostics.throw_if_errors();
+    const rig::Display& display = rig::display_of(rig, options.display);
+    check_output(options.crosses, options.rig, "the rig file");
+    write_file(rig::cross_picture(display), options.crosses);
+    fmt::print("{}: show it on the whole of {}'s screen, then register without --crosses\n",
+               options.crosses, display.name);
+}
+
+void register_display(const RegisterOptions& options) {
+    if (!options.crosses.empty()) return draw_crosses(options);
+    Diagnostics diagnostics;
+    const rig::Rig rig = rig::read_rig_to_register(options.rig, diagnostics);
+    diagnostics.throw_if_errors();
+    const rig::Display& display = rig::display_of(rig, options.display);
+    print(diagnostics.problems());
+    const std::string finger =
+        options.finger.empty() ? rig::held_fingers(rig).front() : options.finger;
+    const std::string out =
+        options.out.empty() ? rig::registration_file(display, options.rig) : options.out;
+    check_output(out, options.rig, "the rig file");
+    std::vector<Vec3> touches;
+    try {
+        TerminalGuide guide("register");
+        touches = rig::lead_registration(rig, finger, misplaced(display), guide.guide());
+    } catch (const rig::GivenUp&) {
+        fmt::print(stderr, "interrupted: nothing was stored\n");
+        exit_code = kFailed;
+        return;
+    }
+    rig::RegistrationResult result = rig::register_screen(display, touches);
+    result.registration.date = recording::iso_now().substr(0, 10);
+    rig::store_registration(rig, result.registration, out);
+    fmt::print("{}, {}\n{}registration: {}\n", rig.title, display.name, rig::describe(result), out);
+    if (!rig::is_real(rig))
+        fmt::print("Simulated: the finger touched a screen that is 5 mm and 2 degrees off.\n");
+    if (display.registration.empty())
+        fmt::print("\nfor the rig file, under {}:\n\n    {}\n", display.name,
+                   rig::registration_line(options.rig, out));
+}
+
+}  // namespace
+
+void add_register(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "register", "Find where the person sees a rig's display, by a finger that touches crosses");
+    auto options = std::make_shared<RegisterOptions>();
+    command->add_option("RIG", options->rig, "rig file, with the display")->required();
+    command->add_option("--display", options->display, "its name; otherwise the rig's only one");
+    command->add_option("--finger", options->finger,
+                        "that touches; otherwise that of the rig's first device");
+    command->add_option("--crosses", options->crosses,
+                        "only draw the crosses: an SVG file, for any program that shows it on the "
+                        "whole screen");
+    command->add_option("-o,--out", options->out,
+                        "registration file; otherwise the display's own, beside the rig file");
+    command->footer(
+        "\nExamples:\n  dihaptic register rigs/mirror-rig.yaml --crosses crosses.svg\n"
+        "  dihaptic register rigs/mirror-rig.yaml -o registration.yaml");
+    command->callback([options] { register_display(*options); });
+}
+
+}  // namespace dihaptic::cli

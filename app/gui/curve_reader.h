@@ -1,0 +1,51 @@
+// Reads curves of a recorded session, in a thread of its own: a session may have millions of ticks.
+#pragma once
+
+#include <QObject>
+#include <QStringList>
+#include <thread>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace dihaptic::gui {
+
+/// The least and the most of a value in each of equal parts of a stretch of time; NaN where there
+/// is none.
+struct RecordedCurve {
+    QString name;  ///< the expression
+    QString unit;
+    std::vector<float> low;
+    std::vector<float> high;
+};
+
+class CurveReader : public QObject {
+    Q_OBJECT
+
+  public:
+    /// Parts of the stretch.
+    static constexpr size_t kParts = 1500;
+
+    using QObject::QObject;
+
+    struct Wanted {
+        std::string log;
+        scene::Scene scene;
+        QStringList expressions;
+        double begin = 0;  ///< of the stretch [s]
+        double end = 0;
+    };
+    /// What was asked for before is dropped.
+    void read(const Wanted& wanted);
+
+  Q_SIGNALS:
+    /// All curves, as far as they have been read; `share`: of the stretch.
+    void progressed(const std::vector<dihaptic::gui::RecordedCurve>& curves, double share);
+
+  private:
+    void run(const Wanted& wanted, const std::stop_token& stop);
+
+    std::jthread thread_;
+};
+
+}  // namespace dihaptic::gui

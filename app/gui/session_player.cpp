@@ -1,0 +1,348 @@
+#include "session_player.h"
+
+#include <QComboBox>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QSplitter>
+#include <QStatusBar>
+#include <QTreeWidget>
+#include <algorithm>
+#include <filesystem>
+
+#include "base/table.h"
+#include "recording/log_scene.h"
+#include "recording/session.h"
+#include "scene_widget.h"
+#include "time_chart.h"
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr int kSliderSteps = 100000;
+constexpr int kPicture = 16;  // between pictures while it plays [ms]
+
+scene::Scene scene_of(const recording::SessionFolder& folder) {
+    Diagnostics diagnostics(UnknownKeys::are_left_out);
+    scene::Scene out = scene::read_scene(folder.file("scene.yaml"), diagnostics);
+    diagnostics.throw_if_errors();
+    return out;
+}
+
+/// The session's folder, which must have a log.
+std::string folder_of(const std::string& path) {
+    return recording::SessionFolder::open(path).path();
+}
+
+}  // namespace
+
+SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
+    : QMainWindow(parent),
+      folder_(folder_of(folder)),
+      scene_(scene_of(recording::SessionFolder::open(folder_))),
+      log_(recording::SessionFolder::open(folder_).raw_log()),
+      view_(new SceneWidget),
+      chart_(new TimeChart) {
+    recording::check_fits(log_.head(), scene_, folder_);
+    setAttribute(Qt::WA_DeleteOnClose);
+    setWindowTitle(QString::fromStdString(std::filesystem::path(folder_).filename().string()) +
+                   " - Dihaptic");
+    auto* lower = new QWidget;
+    auto* layout = new QVBoxLayout(lower);
+    layout->setContentsMargins(6, 0, 6, 0);
+    layout->addWidget(make_controls());
+    layout->addWidget(chart_, 1);
+    auto* splitter = new QSplitter(Qt::Vertical);
+    splitter->addWidget(view_);
+    splitter->addWidget(lower);
+    splitter->setStretchFactor(0, 3);
+    splitter->setStretchFactor(1, 2);
+    setCentralWidget(splitter);
+    view_->set_scene(scene_, log_.at(log_.begin()));
+    connect(view_, &SceneWidget::failed, this,
+            [this](const QString& why) { statusBar()->showMessage(why); });
+    chart_->set_session(log_.begin(), log_.end());
+    make_moments();
+    make_menus();
+    connect(chart_, &TimeChart::moment_chosen, this, &SessionPlayer::go_to);
+    read_.setSingleShot(true);
+    connect(chart_, &TimeChart::stretch_changed, this, [this] { read_.start(120); });
+    connect(&read_, &QTimer::timeout, this, &SessionPlayer::read_curves);
+    connect(&timer_, &QTimer::timeout, this, &SessionPlayer::go_on);
+    resize(1200, 860);
+    choose_curves();
+    go_to(log_.begin());
+    view_->setFocus();
+}
+
+SessionPlayer::~SessionPlayer() = default;
+
+QWidget* SessionPlayer::make_controls() {
+    auto* row = new QWidget;
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 4, 0, 0);
+    const auto button = [&](const QString& text, const QString& what, auto done) {
+        auto* out = new QPushButton(text);
+        out->setToolTip(what);
+        out->setAccessibleName(what);
+        out->setFocusPolicy(Qt::NoFocus);
+        out->setFixedWidth(40);
+        connect(out, &QPushButton::clicked, this, done);
+        layout->addWidget(out);
+        return out;
+    };
+    button("|<", "Moment before (Page Up)", [this] { next_moment(-1); });
+    button("<", "Tick before (Left)", [this] { step(-1); });
+    play_ = button("Play", "Play, or stop (Space)", [this] { play(!timer_.isActive()); });
+    play_->setFixedWidth(70);
+    button(">", "Next tick (Right)", [this] { step(1); });
+    button(">|", "Next moment (Page Down)", [this] { next_moment(1); });
+    auto* speed = new QComboBox;
+    speed->setAccessibleName("Speed");
+    speed->setFocusPolicy(Qt::NoFocus);
+    for (const double times : {0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0})
+        speed->addItem(QString("%1 x").arg(times), times);
+    speed->setCurrentText("1 x");
+    connect(speed, &QComboBox::currentIndexChanged, this,
+            [this, speed] { speed_ = speed->currentData().toDouble(); });
+    layout->addWidget(speed);
+    slider_ = new QSlider(Qt::Horizontal);
+    slider_->setAccessibleName("Time");
+    slider_->setRange(0, kSliderSteps);
+    slider_->setFocusPolicy(Qt::NoFocus);
+    connect(slider_, &QSlider::sliderMoved, this, [this](int at) {
+        go_to(log_.begin() + (log_.end() - log_.begin()) * at / kSliderSteps);
+    });
+    layout->addWidget(slider_, 1);
+    where_ = new QLabel;
+    where_->setMinimumWidth(330);
+    layout->addWidget(where_);
+    curves_ = new QLineEdit(expressions_.join("; "));
+    curves_->setAccessibleName("Curves");
+    curves_->setToolTip(
+        "What is drawn below: names of docs/quantities.md, or expressions of them, separated by "
+        "semicolons: grip_force; block.z - 20 mm; distance(thumb, index)");
+    curves_->setMinimumWidth(220);
+    connect(curves_, &QLineEdit::returnPressed, this, [this] {
+        expressions_.clear();
+        for (const QString& text : curves_->text().split(';', Qt::SkipEmptyParts))
+            expressions_ += text.trimmed();
+        choose_curves();
+        view_->setFocus();
+    });
+    layout->addWidget(curves_);
+    return row;
+}
+
+void SessionPlayer::make_menus() {
+    QMenu* file = menuBar()->addMenu("&File");
+    file->addAction("Save &picture ...", QKeySequence::Save, this, &SessionPlayer::save_picture);
+    file->addAction("&Close", QKeySequence::Close, this, &QWidget::close);
+    QMenu* view = menuBar()->addMenu("&View");
+    for (const view::Camera& camera : view_->cameras())
+        view->addAction(QString::fromStdString(camera.name), this,
+                        [this, name = camera.name] { view_->set_camera(name); });
+    view->addSeparator();
+    const auto layer = [&](const QString& name, bool SceneWidget::Layers::*which) {
+        QAction* action = view->addAction(name);
+        action->setCheckable(true);
+        connect(action, &QAction::toggled, this, [this, which](bool on) {
+            SceneWidget::Layers layers = view_->layers();
+            layers.*which = on;
+            view_->set_layers(layers);
+        });
+    };
+    layer("&Handles", &SceneWidget::Layers::handles);
+    layer("&Forces", &SceneWidget::Layers::forces);
+    layer("C&ontacts", &SceneWidget::Layers::contacts);
+    layer("&Grip axis", &SceneWidget::Layers::grip_axis);
+    layer("P&ath of the object", &SceneWidget::Layers::path);
+    layer("&Joints", &SceneWidget::Layers::joints);
+}
+
+/// Lists what the session's tables say of when something happened.
+void SessionPlayer::make_moments() {
+    list_ = new QTreeWidget;
+    list_->setAccessibleName("Moments");
+    list_->setRootIsDecorated(false);
+    list_->setHeaderLabels({"s", "what"});
+    list_->setFocusPolicy(Qt::ClickFocus);
+    const auto folder = recording::SessionFolder::open(folder_);
+    add_moments(folder.file("trials.csv"), "start_time", {"trial_num", "condition", "outcome"});
+    add_moments(folder.file("events.csv"), "time_s", {"event", "detail"});
+    add_moments(folder.file("episodes.csv"), "start_time", {"episode", "slip_mm", "rise_mm"});
+    for (const char* moment :
+         {"touch_s", "load_onset_s", "lift_off_s", "replacement_s", "release_s"})
+        add_moments(folder.file("lifts.csv"), moment, {"trial_num"});
+    list_->sortItems(0, Qt::AscendingOrder);
+    list_->header()->resizeSection(0, 80);
+    std::sort(moments_.begin(), moments_.end());
+    chart_->set_moments(moments_);
+    connect(list_, &QTreeWidget::itemClicked, this,
+            [this](QTreeWidgetItem* item) { go_to(item->data(0, Qt::UserRole).toDouble()); });
+    auto* dock = new QDockWidget("Moments");
+    dock->setWidget(list_);
+    addDockWidget(Qt::RightDockWidgetArea, dock);
+    resizeDocks({dock}, {300}, Qt::Horizontal);
+}
+
+void SessionPlayer::add_moments(const std::string& file, const char* time,
+                                const std::vector<const char*>& what) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) return;
+    const std::vector<std::vector<std::string>> rows = read_csv(file);
+    if (rows.empty()) return;
+    const auto column = [&](const char* name) {
+        return static_cast<size_t>(std::find(rows[0].begin(), rows[0].end(), name) -
+                                   rows[0].begin());
+    };
+    const size_t at = column(time);
+    const std::string table = std::filesystem::path(file).stem().string();
+    for (size_t i = 1; i < rows.size() && at < rows[0].size(); ++i) {
+        bool is_number = false;
+        const double seconds = QString::fromStdString(rows[i][at]).toDouble(&is_number);
+        if (!is_number) continue;
+        QStringList words;
+        if (table == "trials") words += "trial";
+        if (table == "lifts") words += QString(time).chopped(2).replace('_', ' ') + ", trial";
+        for (const char* name : what) {
+            const size_t k = column(name);
+            if (k >= rows[i].size() || rows[i][k].empty()) continue;
+            const QString value = QString::fromStdString(rows[i][k]);
+            words += QString(name).endsWith("_mm") ? QString("%1 %2 mm")
+                                                         .arg(QString(name).chopped(3))
+                                                         .arg(value.toDouble(), 0, 'f', 2)
+                                                   : value;
+        }
+        auto* item =
+            new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), words.join(" ")});
+        item->setData(0, Qt::UserRole, seconds);
+        item->setToolTip(1, words.join(" "));
+        moments_.push_back(seconds);
+    }
+}
+
+void SessionPlayer::choose_curves() {
+    Diagnostics diagnostics;
+    std::vector<task::RecordedValue> values;
+    for (const QString& text : expressions_)
+        values.emplace_back(text.toStdString(), scene_, diagnostics);
+    if (diagnostics.has_errors()) {
+        statusBar()->showMessage(QString::fromStdString(diagnostics.problems().front().text()));
+        return;
+    }
+    statusBar()->clearMessage();
+    values_ = std::move(values);
+    read_curves();
+    go_to(time_);
+}
+
+void SessionPlayer::read_curves() {
+    const double begin = chart_->begin(), end = chart_->end();
+    disconnect(&reader_, nullptr, this, nullptr);
+    connect(&reader_, &CurveReader::progressed, this,
+            [this, begin, end](const std::vector<RecordedCurve>& curves, double share) {
+                chart_->set_curves(curves, begin, end, share);
+            });
+    reader_.read(
+        {recording::SessionFolder::open(folder_).raw_log(), scene_, expressions_, begin, end});
+}
+
+void SessionPlayer::go_to(double time) {
+    time_ = std::clamp(time, log_.begin(), log_.end());
+    const servo::Frame& frame = log_.at(time_);
+    view_->show_frame(frame);
+    QStringList words;
+    for (task::RecordedValue& value : values_) words += QString::number(value(frame), 'g', 4);
+    chart_->set_values(words);
+    chart_->set_cursor(time_);
+    slider_->setValue(static_cast<int>(kSliderSteps * (time_ - log_.begin()) /
+                                       std::max(1e-9, log_.end() - log_.begin())));
+    QString where = QString("%1 s of %2 s, tick %3")
+                        .arg(seconds(frame.time), 0, 'f', 3)
+                        .arg(log_.end(), 0, 'f', 3)
+                        .arg(frame.sequence);
+    if (frame.trial > 0) where += QString(", trial %1").arg(frame.trial);
+    where_->setText(where);
+}
+
+void SessionPlayer::play(bool on) {
+    play_->setText(on ? "Stop" : "Play");
+    if (!on) return timer_.stop();
+    if (time_ >= log_.end()) go_to(log_.begin());
+    clock_.start();
+    timer_.start(kPicture);
+}
+
+void SessionPlayer::go_on() {
+    go_to(time_ + speed_ * 1e-9 * static_cast<double>(clock_.nsecsElapsed()));
+    clock_.restart();
+    if (time_ >= log_.end()) play(false);
+}
+
+void SessionPlayer::step(int frames) {
+    play(false);
+    const double tick = log_.head().tick;
+    // from the tick that is shown, not from the moment within it
+    const double shown = seconds(log_.at(time_).time);
+    go_to(shown + (frames + 0.01) * tick);
+}
+
+void SessionPlayer::next_moment(int way) {
+    constexpr double kSame = 1e-6;  // [s]
+    if (way > 0) {
+        const auto next = std::upper_bound(moments_.begin(), moments_.end(), time_ + kSame);
+        if (next != moments_.end()) go_to(*next);
+    } else {
+        const auto next = std::lower_bound(moments_.begin(), moments_.end(), time_ - kSame);
+        if (next != moments_.begin()) go_to(*std::prev(next));
+    }
+}
+
+void SessionPlayer::save_picture() {
+    const QString usual =
+        QString::fromStdString(folder_) + QString("/at-%1-s.png").arg(time_, 0, 'f', 3);
+    const QString file =
+        QFileDialog::getSaveFileName(this, "Save the picture", usual, "Pictures (*.png)");
+    if (file.isEmpty()) return;
+    const bool saved = view_->grabFramebuffer().save(file);
+    statusBar()->showMessage((saved ? "picture: " : "could not be written: ") + file);
+}
+
+void SessionPlayer::keyPressEvent(QKeyEvent* event) {
+    const bool far = event->modifiers().testFlag(Qt::ShiftModifier);
+    switch (event->key()) {
+        case Qt::Key_Space:
+            play(!timer_.isActive());
+            break;
+        case Qt::Key_Left:
+            step(far ? -100 : -1);
+            break;
+        case Qt::Key_Right:
+            step(far ? 100 : 1);
+            break;
+        case Qt::Key_PageUp:
+            next_moment(-1);
+            break;
+        case Qt::Key_PageDown:
+            next_moment(1);
+            break;
+        case Qt::Key_Home:
+            go_to(log_.begin());
+            break;
+        case Qt::Key_End:
+            go_to(log_.end());
+            break;
+        default:
+            QMainWindow::keyPressEvent(event);
+    }
+}
+
+}  // namespace dihaptic::gui

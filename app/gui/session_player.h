@@ -1,0 +1,76 @@
+// A window for a recorded session: the scene at any moment, curves of what was recorded, and what
+// happened when. Several may be open, to compare sessions.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QMainWindow>
+#include <QTimer>
+#include <memory>
+
+#include "curve_reader.h"
+#include "recording/log_browser.h"
+#include "task/recorded.h"
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSlider;
+class QTreeWidget;
+
+namespace dihaptic::gui {
+
+class SceneWidget;
+class TimeChart;
+
+class SessionPlayer : public QMainWindow {
+    Q_OBJECT
+
+  public:
+    /// `folder`: of the session. Throws Error when it cannot be read.
+    explicit SessionPlayer(const std::string& folder, QWidget* parent = nullptr);
+    ~SessionPlayer() override;
+
+    /// The moment that is shown [s].
+    double time() const { return time_; }
+    void go_to(double time);
+
+  protected:
+    void keyPressEvent(QKeyEvent* event) override;
+
+  private:
+    void make_menus();
+    QWidget* make_controls();
+    void make_moments();
+    void add_moments(const std::string& file, const char* time,
+                     const std::vector<const char*>& what);
+    void read_curves();
+    void choose_curves();
+    void play(bool on);
+    void go_on();
+    void step(int frames);
+    void next_moment(int way);
+    void save_picture();
+
+    std::string folder_;
+    scene::Scene scene_;
+    recording::LogBrowser log_;
+    double time_ = 0;
+    double speed_ = 1;
+    std::vector<double> moments_;
+    std::vector<task::RecordedValue> values_;
+    QStringList expressions_{"grip_force", "load_force"};
+    CurveReader reader_;
+    QTimer timer_;
+    QElapsedTimer clock_;
+    SceneWidget* view_;
+    TimeChart* chart_;
+    QSlider* slider_ = nullptr;
+    QPushButton* play_ = nullptr;
+    QLabel* where_ = nullptr;
+    QLineEdit* curves_ = nullptr;
+    QTreeWidget* list_ = nullptr;
+    QTimer read_;  // curves of a stretch that was zoomed to
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,28 @@
+// Lists the recorded sessions of a folder, to look at one again.
+#pragma once
+
+#include <QDialog>
+
+class QTreeWidget;
+
+namespace dihaptic::gui {
+
+class SessionsDialog : public QDialog {
+    Q_OBJECT
+
+  public:
+    /// `folder`: that holds the sessions' folders.
+    explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
+
+  Q_SIGNALS:
+    /// Folder of the session.
+    void chosen(const QString& folder);
+
+  private:
+    void fill(const QString& folder);
+    void choose();
+
+    QTreeWidget* list_;
+};
+
+}  // namespace dihaptic::gui

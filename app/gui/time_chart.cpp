@@ -1,0 +1,196 @@
+#include "time_chart.h"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <algorithm>
+#include <cmath>
+
+#include "base/palette.h"
+#include "chart_scale.h"
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr double kLeast = 0.02;  // stretch that can be shown [s]
+
+QColor colour_of(size_t row) {
+    if (row == 0) return palette::kGrip;
+    if (row == 1) return palette::kLoad;
+    return palette::finger(row - 1);
+}
+
+}  // namespace
+
+TimeChart::TimeChart(QWidget* parent) : QWidget(parent) {
+    setAccessibleName("Curves");
+    setMouseTracking(false);
+}
+
+void TimeChart::set_session(double begin, double end) {
+    first_ = begin;
+    last_ = std::max(end, begin + kLeast);
+    begin_ = first_;
+    end_ = last_;
+    update();
+}
+
+void TimeChart::set_curves(std::vector<RecordedCurve> curves, double begin, double end,
+                           double share) {
+    curves_ = std::move(curves);
+    curves_begin_ = begin;
+    curves_end_ = end;
+    share_ = share;
+    update();
+}
+
+void TimeChart::set_values(const QStringList& values) {
+    values_ = values;
+    update();
+}
+
+void TimeChart::set_moments(std::vector<double> times) {
+    moments_ = std::move(times);
+    update();
+}
+
+void TimeChart::set_cursor(double time) {
+    cursor_ = time;
+    const double span = end_ - begin_;
+    if (time < begin_ || time > end_) show_stretch(time - span / 2, time + span / 2);
+    update();
+}
+
+QRectF TimeChart::area() const {
+    const int line = fontMetrics().height();
+    const double left = fontMetrics().horizontalAdvance("-0000.0") + 8.0;
+    return {left, 8.0, std::max(10.0, width() - left - 12.0),
+            std::max(10.0, height() - line - 12.0)};
+}
+
+double TimeChart::x(double time) const {
+    const QRectF in = area();
+    return in.left() + (time - begin_) / (end_ - begin_) * in.width();
+}
+
+double TimeChart::time_at(double x) const {
+    const QRectF in = area();
+    const double share = std::clamp((x - in.left()) / in.width(), 0.0, 1.0);
+    return begin_ + share * (end_ - begin_);
+}
+
+void TimeChart::show_stretch(double begin, double end) {
+    const double span = std::clamp(end - begin, kLeast, last_ - first_);
+    begin_ = std::clamp(begin, first_, last_ - span);
+    end_ = begin_ + span;
+    update();
+    Q_EMIT stretch_changed();
+}
+
+void TimeChart::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QRectF in = area();
+    const double row = in.height() / static_cast<double>(std::max<size_t>(1, curves_.size()));
+    for (size_t i = 0; i < curves_.size(); ++i)
+        draw_row(painter, curves_[i], i,
+                 {in.left(), in.top() + static_cast<double>(i) * row, in.width(), row - 14});
+    draw_times(painter);
+    painter.setClipRect(in.adjusted(-1, 0, 1, 0));
+    QColor faint = palette().color(QPalette::WindowText);
+    faint.setAlpha(60);
+    painter.setPen(QPen(faint, 1, Qt::DotLine));
+    for (const double moment : moments_) {
+        if (moment < begin_ || moment > end_) continue;
+        painter.drawLine(QPointF(x(moment), in.top()), QPointF(x(moment), in.bottom()));
+    }
+    painter.setPen(QPen(palette().color(QPalette::WindowText), 1.5));
+    painter.drawLine(QPointF(x(cursor_), in.top()), QPointF(x(cursor_), in.bottom()));
+    if (share_ < 1)
+        painter.drawText(in, Qt::AlignRight | Qt::AlignTop,
+                         QString("reading, %1 % ").arg(std::lround(100 * share_)));
+}
+
+void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t row,
+                         const QRectF& in) const {
+    const QColor ink = palette().color(QPalette::WindowText);
+    QColor faint = ink;
+    faint.setAlpha(40);
+    double low = 0, high = 0;
+    for (size_t i = 0; i < curve.low.size(); ++i) {
+        if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
+        low = std::min(low, static_cast<double>(curve.low[i]));
+        high = std::max(high, static_cast<double>(curve.high[i]));
+    }
+    if (high <= low) high = low + 1;
+    const int line = fontMetrics().height();
+    const double step = round_step((high - low) / std::max(1.0, in.height() / (2.0 * line)));
+    low = std::floor(low / step + 0.05) * step;
+    high = std::ceil(high / step - 0.05) * step;
+    const auto y = [&](double value) {
+        return in.bottom() - (value - low) / (high - low) * in.height();
+    };
+    for (int i = 0; low + i * step < high + step / 2; ++i) {
+        const double value = low + i * step;
+        painter.setPen(faint);
+        painter.drawLine(QPointF(in.left(), y(value)), QPointF(in.right(), y(value)));
+        painter.setPen(ink);
+        painter.drawText(QRectF(0, y(value) - line / 2.0, in.left() - 5, line),
+                         Qt::AlignRight | Qt::AlignVCenter, QString::number(value, 'g', 4));
+    }
+    painter.save();
+    painter.setClipRect(in);
+    painter.setPen(QPen(colour_of(row), 1.4));
+    const double part = (curves_end_ - curves_begin_) / static_cast<double>(curve.low.size());
+    QPointF before;
+    bool joined = false;
+    for (size_t i = 0; i < curve.low.size(); ++i) {
+        if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
+        const double at = x(curves_begin_ + (static_cast<double>(i) + 0.5) * part);
+        const QPointF top(at, y(curve.high[i])), bottom(at, y(curve.low[i]));
+        if (joined) painter.drawLine(before, bottom);
+        painter.drawLine(bottom, top);
+        before = top;
+        joined = true;
+    }
+    painter.restore();
+    const QString value = static_cast<qsizetype>(row) < values_.size()
+                              ? values_[static_cast<qsizetype>(row)]
+                              : QString();
+    painter.setPen(colour_of(row));
+    painter.drawText(in.adjusted(6, 0, 0, 0), Qt::AlignLeft | Qt::AlignTop,
+                     QString("%1   %2 %3").arg(curve.name, value, curve.unit));
+}
+
+void TimeChart::draw_times(QPainter& painter) const {
+    const QRectF in = area();
+    const int line = fontMetrics().height();
+    const double step = round_step((end_ - begin_) / std::max(2.0, in.width() / 90));
+    const int decimals = step < 0.01 ? 3 : step < 0.1 ? 2 : step < 1 ? 1 : 0;
+    painter.setPen(palette().color(QPalette::WindowText));
+    for (double time = std::ceil(begin_ / step) * step; time <= end_ + 1e-9; time += step)
+        painter.drawText(QRectF(x(time) - 40, in.bottom() + 3, 80, line), Qt::AlignHCenter,
+                         QString::number(time, 'f', decimals) + " s");
+}
+
+void TimeChart::mousePressEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton) Q_EMIT moment_chosen(time_at(event->position().x()));
+}
+
+void TimeChart::mouseMoveEvent(QMouseEvent* event) {
+    if (event->buttons().testFlag(Qt::LeftButton))
+        Q_EMIT moment_chosen(time_at(event->position().x()));
+}
+
+void TimeChart::mouseDoubleClickEvent(QMouseEvent*) {
+    show_stretch(first_, last_);
+}
+
+void TimeChart::wheelEvent(QWheelEvent* event) {
+    const double notches = event->angleDelta().y() / 120.0;
+    const double about = time_at(event->position().x());
+    const double factor = std::pow(0.8, notches);
+    show_stretch(about - (about - begin_) * factor, about + (end_ - about) * factor);
+    event->accept();
+}
+
+}  // namespace dihaptic::gui

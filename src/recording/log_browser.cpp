@@ -1,0 +1,94 @@
+#include "recording/log_browser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dihaptic::recording {
+namespace {
+
+/// What is nearer ahead is read on to [s].
+constexpr double kNear = 0.3;
+/// A frame has all bodies as often as a chunk begins (recorder.h), but in a log that a thread wrote
+/// not at its beginning: so many chunks before have one for sure.
+constexpr size_t kBefore = 2;
+
+}  // namespace
+
+LogBrowser::LogBrowser(const std::string& file)
+    : reader_(file),
+      scout_(file),
+      chunks_(scout_.places()),
+      times_(chunks_.size(), std::numeric_limits<double>::quiet_NaN()) {
+    go_to(0);
+    if (ahead_ == nullptr) throw Error({file, 0}, "", "has no frame", "Give another session.");
+    begin_ = end_ = seconds(ahead_->time);
+    take();
+    // a chunk that cannot be read has no last frame
+    for (size_t k = chunks_.size(); k-- > 0 && end_ == begin_;) {
+        scout_.go_to(chunks_[k]);
+        while (const servo::Frame* frame = scout_.next()) end_ = seconds(frame->time);
+    }
+}
+
+double LogBrowser::time_of(size_t chunk) {
+    double& time = times_[chunk];
+    if (std::isnan(time)) {
+        scout_.go_to(chunks_[chunk]);
+        const servo::Frame* const frame = scout_.next();
+        time = frame == nullptr ? std::numeric_limits<double>::infinity() : seconds(frame->time);
+    }
+    return time;
+}
+
+/// The last chunk that begins at a time, or before it.
+size_t LogBrowser::chunk_at(double time) {
+    size_t low = 0, high = chunks_.size();
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        (time_of(middle) <= time ? low : high) = middle;
+    }
+    return low;
+}
+
+const servo::Frame& LogBrowser::at(double time) {
+    const auto is_past = [&](const servo::Frame& frame) { return seconds(frame.time) > time; };
+    if (is_past(now_) || time > seconds(now_.time) + kNear) {
+        const size_t chunk = chunk_at(time);
+        go_to(chunk - std::min(chunk, kBefore));
+        if (ahead_ == nullptr) return now_;
+        take();
+    }
+    while (ahead_ != nullptr && !is_past(*ahead_)) take();
+    return now_;
+}
+
+const servo::Frame* LogBrowser::next() {
+    if (ahead_ == nullptr) return nullptr;
+    take();
+    return &now_;
+}
+
+void LogBrowser::go_to(size_t chunk) {
+    chunk_ = chunk;
+    ahead_ = nullptr;
+    if (chunk_ == chunks_.size()) return;
+    reader_.go_to(chunks_[chunk_++]);
+    read_on();
+}
+
+void LogBrowser::take() {
+    now_ = *ahead_;
+    read_on();
+}
+
+/// Reads the next frame, of the next chunks if this one has no more.
+void LogBrowser::read_on() {
+    ahead_ = reader_.next();
+    while (ahead_ == nullptr && chunk_ < chunks_.size()) {
+        reader_.go_to(chunks_[chunk_++], true);
+        ahead_ = reader_.next();
+    }
+}
+
+}  // namespace dihaptic::recording

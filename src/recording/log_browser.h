@@ -1,0 +1,44 @@
+// Gives the frame of any moment of a log, for who looks through a session: each chunk can be read
+// by itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/raw_log.h"
+
+namespace dihaptic::recording {
+
+class LogBrowser {
+  public:
+    /// Throws Error if the file is not a log, or has no frame.
+    explicit LogBrowser(const std::string& file);
+
+    const LogHead& head() const { return reader_.head(); }
+    /// Times of the first and of the last frame [s].
+    double begin() const { return begin_; }
+    double end() const { return end_; }
+    /// The newest frame at a time [s]; before the first frame, that one. Valid until the next call.
+    const servo::Frame& at(double time);
+    /// The frame after the one that was given last; null at the end.
+    const servo::Frame* next();
+
+  private:
+    double time_of(size_t chunk);
+    size_t chunk_at(double time);
+    void go_to(size_t chunk);
+    void take();
+    void read_on();
+
+    RawLogReader reader_;
+    RawLogReader scout_;  // reads the times of chunks
+    std::vector<ChunkPlace> chunks_;
+    std::vector<double> times_;  // of chunks' first frames, as far as they are known; else NaN [s]
+    double begin_ = 0;
+    double end_ = 0;
+    size_t chunk_ = 0;                     // that reader_ reads after this one
+    servo::Frame now_;                     // what at() gave last
+    const servo::Frame* ahead_ = nullptr;  // the frame after it; null: there is none
+};
+
+}  // namespace dihaptic::recording

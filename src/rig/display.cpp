@@ -1,0 +1,80 @@
+#include "rig/display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/unit.h"
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr double kSmallest = 0.02, kLargest = 20;  // edges [m]
+constexpr double kNearest = 0.02;                  // from an eye to the screen's plane [m]
+constexpr double kSkewed = 3 * kDegree;            // off a right angle
+
+bool has_edges(const Display& display, Diagnostics& diagnostics) {
+    for (const auto& [edge, key] :
+         {std::pair{display.right(), "lower_right"}, std::pair{display.up(), "upper_left"}}) {
+        if (edge.norm() >= kSmallest && edge.norm() <= kLargest) continue;
+        diagnostics.error(display.place, key,
+                          fmt::format("is {:.3g} mm from lower_left, and screens are {:g} to {:g}",
+                                      1e3 * edge.norm(), 1e3 * kSmallest, 1e3 * kLargest),
+                          "Measure the corners of what the person sees.");
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+void Display::move(const Vec3& by) {
+    for (Vec3* p : {&lower_left, &lower_right, &upper_left, &eyes.position}) *p += by;
+}
+
+void Display::set(const Registration& found) {
+    registered = found;
+    lower_left = found.lower_left;
+    lower_right = found.lower_right;
+    upper_left = found.upper_left;
+}
+
+void check(const Display& display, Diagnostics& diagnostics) {
+    // it becomes part of a file's name
+    if (display.name.starts_with('.') || display.name.find_first_of("/\\\n\t") != std::string::npos)
+        diagnostics.error(display.place, "name", fmt::format("'{}' cannot be a name", display.name),
+                          "Use letters, digits, blanks, '-' and '_'.");
+    if (!has_edges(display, diagnostics)) return;
+    const Vec3 right = display.right().normalized(), up = display.up().normalized();
+    const double skew = std::asin(std::clamp(right.dot(up), -1.0, 1.0));
+    if (std::abs(skew) > kSkewed) {
+        diagnostics.error(display.place, "upper_left",
+                          fmt::format("makes an angle of {:.1f} degrees at lower_left, and screens "
+                                      "have right angles",
+                                      90 - skew / kDegree),
+                          "Measure the corners anew, or register the display.");
+        return;
+    }
+    if (display.eyes.along.norm() < 1e-9) {
+        diagnostics.error(display.eyes.place, "along", "has no direction",
+                          "Write e.g. along: [1, 0, 0].");
+        return;
+    }
+    const Vec3 front = right.cross(up);
+    for (const Vec3& eye : {display.eyes.left(), display.eyes.right()}) {
+        const double before = front.dot(eye - display.lower_left);
+        if (before >= kNearest) continue;
+        diagnostics.error(
+            display.eyes.place, "position",
+            before < 0 ? "is behind the screen"
+                       : fmt::format("is {:.3g} mm before the screen's plane", 1e3 * before),
+            before < 0 ? "Exchange the left corners and the right ones; what a mirror turns round "
+                         "is said by mirrored."
+                       : "Measure where the eyes are.");
+        return;
+    }
+}
+
+}  // namespace dihaptic::rig

@@ -1,0 +1,97 @@
+// Displays: where the person sees a screen, in a mirror or not, and with which eyes, so that things
+// are drawn where the hand feels them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "base/diagnostics.h"
+#include "base/field.h"
+#include "base/geometry.h"
+#include "rig/registration.h"
+
+namespace dihaptic::rig {
+
+/// How a mirror turns the screen's picture round, which is drawn the other way round for it.
+enum class Mirrored { no, left_right, up_down };
+constexpr auto enum_names(Mirrored) {
+    return std::array{"no", "left_right", "up_down"};
+}
+
+/// How the pictures for two eyes share the screen.
+enum class Stereo { none, side_by_side, top_bottom, anaglyph };
+constexpr auto enum_names(Stereo) {
+    return std::array{"none", "side_by_side", "top_bottom", "anaglyph"};
+}
+
+/// Eyes of a head that rests.
+struct Eyes {
+    Vec3 position = Vec3::Zero();  ///< of the middle between them [m]
+    Vec3 along = Vec3::UnitX();    ///< from the left one to the right one, of any length
+    double distance = 0.063;       ///< of their pupils [m]
+    Place place{};
+
+    Vec3 left() const { return position - distance / 2 * along.normalized(); }
+    Vec3 right() const { return position + distance / 2 * along.normalized(); }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("position", position,
+          Field::length().within(-100, 100).required().says("Of the middle between both eyes."));
+        v("along", along,
+          Field::number().within(-1e6, 1e6).says(
+              "Direction from the left eye to the right one, of any length."));
+        v("distance", distance,
+          Field::length().within(0.03, 0.1).says("Between the pupils; adults have 50 to 75 mm."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// A screen as it is seen: in a mirror, where its image stands. Corners are those of what the
+/// person sees, so that the lower left one is at the person's lower left.
+struct Display {
+    std::string name;
+    Vec3 lower_left = Vec3::Zero();  ///< [m]
+    Vec3 lower_right = Vec3::Zero();
+    Vec3 upper_left = Vec3::Zero();
+    Mirrored mirrored = Mirrored::no;
+    Eyes eyes;
+    Stereo stereo = Stereo::none;
+    std::string registration;  ///< path of its file, from the rig file's folder; empty: none
+    std::optional<Registration> registered;  ///< what it holds, in the world
+    std::string monitor;  ///< its name in the system; empty: one that the operator does not look at
+    Place place{};
+
+    Vec3 right() const { return lower_right - lower_left; }
+    Vec3 up() const { return upper_left - lower_left; }
+    void move(const Vec3& by);
+    /// Takes the corners of a registration.
+    void set(const Registration& found);
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const Field corner = Field::length().within(-100, 100).required();
+        v("name", name, Field::text().required().says("Name of the display."));
+        v("lower_left", lower_left,
+          corner.says("Where the person sees the picture's lower left corner."));
+        v("lower_right", lower_right, corner.says("Its lower right corner."));
+        v("upper_left", upper_left, corner.says("Its upper left corner."));
+        v("mirrored", mirrored, says("How a mirror turns the picture round."));
+        v("eyes", eyes, Field::text().required().says("Where the person's eyes are."));
+        v("stereo", stereo, says("How the pictures for both eyes share the screen."));
+        v("registration", registration,
+          Field::text().says(
+              "File of its registration, relative to this file: where a finger found "
+              "the screen, which counts in place of the corners."));
+        v("monitor", monitor,
+          Field::text().says("Name of the monitor, as the window's log lists them; left out, "
+                             "one that the operator's window is not on."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Checks that it is a rectangle that its eyes see from the front.
+void check(const Display& display, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::rig

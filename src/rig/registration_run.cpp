@@ -1,0 +1,161 @@
+#include "rig/registration_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/random.h"
+#include "model/minimum_jerk.h"
+#include "rig/way.h"
+
+namespace dihaptic::rig {
+namespace {
+
+constexpr int kTouches = 25;         // samples of a cross: half a second
+constexpr double kMostMoved = 2e-3;  // of a finger that rests on one [m]
+constexpr double kMove = 0.8;        // of a simulated finger, from cross to cross [s]
+constexpr double kRest = 0.7;        // on each [s]
+
+/// A finger that goes from place to place, and rests on each.
+class TouchingHand final : public hand::Driver {
+  public:
+    explicit TouchingHand(std::vector<Vec3> places) : places_(std::move(places)) {}
+
+    double duration() const override {
+        return static_cast<double>(places_.size()) * (kMove + kRest);
+    }
+    const std::vector<Phase>& phases() const override { return phases_; }
+
+  private:
+    hand::FingerTarget do_target(int, double t) const noexcept override {
+        const double each = kMove + kRest;
+        const auto i = std::min(static_cast<size_t>(std::max(0.0, t) / each), places_.size() - 1);
+        const Vec3& from = places_[i == 0 ? 0 : i - 1];
+        const auto way = model::minimum_jerk((t - static_cast<double>(i) * each) / kMove);
+        hand::FingerTarget out;
+        out.p_WT = from + way.share * (places_[i] - from);
+        return out;
+    }
+
+    std::vector<Vec3> places_;
+    std::vector<Phase> phases_;
+};
+
+std::vector<Vec3> places_of(const Display& display) {
+    std::vector<Vec3> out;
+    for (const Cross& cross : crosses())
+        out.push_back(display.lower_left + cross.right * display.right() + cross.up * display.up());
+    return out;
+}
+
+/// Reads where one finger's endpoint is.
+class Endpoint {
+  public:
+    Endpoint(const Rig& rig, const std::string& finger, const hand::Driver* driver)
+        : X_WD_(device_of(rig, finger).X_WD()),
+          devices_(make(rig, finger, driver)),
+          reader_(*devices_, {finger}) {
+        devices_->activate();
+    }
+    ~Endpoint() { devices_->deactivate(); }
+    Endpoint(const Endpoint&) = delete;
+    Endpoint& operator=(const Endpoint&) = delete;
+
+    DeviceReader& reader() { return reader_; }
+    /// In the measure of the hand [m].
+    Vec3 p_W() const { return X_WD_ * (reader_.readings()[0].p_DH / devices_->info(0).scale); }
+
+  private:
+    static std::unique_ptr<devices::DeviceGroup> make(const Rig& rig, const std::string& finger,
+                                                      const hand::Driver* driver) {
+        devices::Context context;
+        context.driver = driver;
+        context.impedance.stiffness = 1e5;  // a simulated finger that does not give way
+        context.impedance.damping = 150;
+        return make_devices(rig, {finger}, context);
+    }
+
+    Pose X_WD_;
+    std::unique_ptr<devices::DeviceGroup> devices_;
+    DeviceReader reader_;
+};
+
+/// The mean of places that are one, and how far apart these are.
+struct Rested {
+    Vec3 sum = Vec3::Zero();
+    Eigen::AlignedBox3d box;
+    int count = 0;
+
+    void add(const Vec3& p) {
+        sum += p;
+        box.extend(p);
+        ++count;
+    }
+    Vec3 mean() const { return sum / count; }
+    double moved() const { return box.diagonal().norm(); }
+};
+
+std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const Guide& guide) {
+    Endpoint endpoint(rig, finger, nullptr);
+    const auto count = static_cast<int>(crosses().size());
+    Way way(endpoint.reader(), guide, count);
+    std::vector<Vec3> out;
+    for (int i = 0; i < count; ++i) {
+        way.begin_step(
+            fmt::format("Put the {}'s endpoint where you see cross {}, and keep it "
+                        "there. The head stays on its rest.",
+                        finger, i + 1));
+        while (true) {
+            way.wait();
+            Rested rested;
+            way.sample([&](bool) {
+                rested.add(endpoint.p_W());
+                return rested.count < kTouches;
+            });
+            if (rested.moved() <= kMostMoved) {
+                out.push_back(rested.mean());
+                break;
+            }
+            way.tell(0, fmt::format("It moved by {:.1f} mm: hold it still, once more.",
+                                    rested.moved() * 1e3));
+        }
+    }
+    return out;
+}
+
+std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const Display& seen,
+                           const Guide& guide, const SimulatedTouch& simulated) {
+    Random random(simulated.seed, "registration");
+    std::vector<Vec3> places = places_of(seen);
+    for (Vec3& p : places)
+        p += simulated.noise * Vec3(random.normal(), random.normal(), random.normal());
+    const TouchingHand hand(places);
+    Endpoint endpoint(rig, finger, &hand);
+    Guidance told;
+    told.text = "A simulated finger touches the crosses.";
+    std::vector<Vec3> out;
+    std::vector<Rested> rested(places.size());
+    for (Time now{0}; now < from_seconds(hand.duration()); now += DeviceReader::kTick) {
+        endpoint.reader().tick(now);
+        if (now % Way::kEvery != Time(0)) continue;
+        told.share = seconds(now) / hand.duration();
+        guide.show(told);
+        guide.done();  // throws if the person gives up
+        const double each = kMove + kRest;
+        const auto i = static_cast<size_t>(seconds(now) / each);
+        if (seconds(now) - static_cast<double>(i) * each > kMove + kRest / 2)
+            rested[i].add(endpoint.p_W());
+    }
+    for (const Rested& rest : rested) out.push_back(rest.mean());
+    return out;
+}
+
+}  // namespace
+
+std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger, const Display& seen,
+                                    const Guide& guide, const SimulatedTouch& simulated) {
+    return is_real(rig) ? lead_person(rig, finger, guide)
+                        : simulate(rig, finger, seen, guide, simulated);
+}
+
+}  // namespace dihaptic::rig

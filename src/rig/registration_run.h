@@ -1,0 +1,26 @@
+// Takes the touches of a registration: of a person's finger or, on simulated devices, of a
+// simulated one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rig/calibration_guide.h"
+
+namespace dihaptic::rig {
+
+/// How a simulated finger touches a screen.
+struct SimulatedTouch {
+    double noise = 0.3e-3;  ///< standard deviation along each axis [m]
+    uint64_t seed = 1;
+};
+
+/// The places where a finger touched the display's crosses, in the world and the measure of the
+/// hand [m]. On simulated devices a simulated finger touches the display where `seen` says that it
+/// is. `finger`: the one that touches. Throws Error as make_devices() does, and when a device does
+/// not answer or reach; and what `guide` throws.
+std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger, const Display& seen,
+                                    const Guide& guide, const SimulatedTouch& simulated = {});
+
+}  // namespace dihaptic::rig

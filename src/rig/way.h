@@ -1,0 +1,45 @@
+// Takes a person through steps, on devices that are only read.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "rig/calibration_guide.h"
+#include "rig/device_reader.h"
+
+namespace dihaptic::rig {
+
+class Way {
+  public:
+    /// Time between samples.
+    static constexpr Time kEvery = std::chrono::milliseconds(20);
+
+    Way(DeviceReader& reader, const Guide& guide, int steps) : reader_(reader), guide_(guide) {
+        now_.steps = steps;
+    }
+
+    void begin_step(const std::string& text) {
+        ++now_.step;
+        now_.text = text;
+        tell(0, "");
+    }
+    void tell(double share, const std::string& measured) {
+        now_.share = share;
+        now_.measured = measured;
+        guide_.show(now_);
+    }
+    /// Waits until the person says that the step is done.
+    void wait() {
+        reader_.repeat([&] { return !guide_.done(); });
+    }
+    /// Calls `each` for every sample until it returns false; `said`: since the last sample the
+    /// person has said that the step is done.
+    void sample(const std::function<bool(bool said)>& each);
+
+  private:
+    DeviceReader& reader_;
+    const Guide& guide_;
+    Guidance now_;
+};
+
+}  // namespace dihaptic::rig

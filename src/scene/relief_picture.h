@@ -1,0 +1,49 @@
+// A picture as a relief: its grey is smoothed to a height that has a slope everywhere.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::scene {
+
+/// Grey values from 0, black, to 1, white, that repeat in both directions. Between pixels they are
+/// a uniform cubic B-spline (de Boor 1978), which is nowhere higher than the brightest pixel, and
+/// whose slope has no jumps.
+class ReliefPicture {
+  public:
+    /// Pixels along an edge.
+    static constexpr int kFewest = 4;
+    static constexpr int kMost = 2048;
+
+    struct Value {
+        double height = 0;  ///< 0 to 1
+        double rise_x = 0;  ///< by how much it rises over a pixel to the right,
+        double rise_y = 0;  ///< and over one upward
+    };
+
+    /// Rows from top to bottom. Needs width x height values, and both edges within the limits.
+    ReliefPicture(int width, int height, std::vector<float> grey);
+
+    int width() const noexcept { return width_; }
+    int height() const noexcept { return height_; }
+    /// At so many pixels to the right of the picture's middle, and above it.
+    Value at(double x, double y) const noexcept;
+    /// The most that it rises over a pixel in any direction, where it was tried: four times a
+    /// pixel along each edge.
+    double steepest() const noexcept { return steepest_; }
+
+  private:
+    int width_;
+    int height_;
+    std::vector<float> grey_;
+    double steepest_ = 0;
+};
+
+/// Reads a PNG file; its colours count by their mean. Throws Error, with that place and key, when
+/// it is none or is too large or small.
+ReliefPicture read_relief(const std::string& file, const Place& place);
+
+}  // namespace dihaptic::scene

@@ -1,0 +1,58 @@
+// Tests the values of expressions over recorded frames.
+#include "task/recorded.h"
+
+#include <gtest/gtest.h>
+
+namespace dihaptic::task::recorded_test {
+namespace {
+
+scene::Scene block_and_fingers() {
+    scene::Scene scene;
+    scene.bodies.resize(1);
+    scene.bodies[0].name = "block";
+    scene.fingers.resize(2);
+    scene.fingers[0].name = "thumb";
+    scene.fingers[1].name = "index";
+    return scene;
+}
+
+servo::Frame frame() {
+    servo::Frame out;
+    out.grip_force = 3;
+    out.load_force = 1.5;
+    out.fingers.resize(2);
+    out.fingers[0].p_WH = {0.01, 0, 0};
+    out.fingers[1].p_WH = {-0.03, 0, 0};
+    out.fingers[1].v_WH = {0, 0.3, 0.4};
+    out.bodies.resize(1);
+    out.bodies[0].X_WB.p = {0, 0, 0.055};
+    return out;
+}
+
+TEST(RecordedValue, IsThatOfTheFrameInUnitsThatPeopleRead) {
+    for (const auto& [text, value, unit] : {
+             std::tuple{"grip_force", 3.0, "N"},
+             {"grip_force / load_force", 2.0, "1"},
+             {"block.z - 20 mm", 35.0, "mm"},
+             {"distance(thumb, index)", 40.0, "mm"},
+             {"index.speed", 0.5, "m/s"},
+             {"grip_force > 2", 1.0, "1"},
+         }) {
+        Diagnostics diagnostics;
+        RecordedValue recorded(text, block_and_fingers(), diagnostics);
+        ASSERT_TRUE(diagnostics.problems().empty()) << diagnostics.problems()[0].text();
+        EXPECT_NEAR(recorded(frame()), value, 1e-12) << text;
+        EXPECT_EQ(recorded.unit(), unit) << text;
+    }
+}
+
+TEST(RecordedValue, OfAMistakeIsNothing) {
+    Diagnostics diagnostics;
+    RecordedValue recorded("grip_forse + 1", block_and_fingers(), diagnostics);
+    ASSERT_TRUE(diagnostics.has_errors());
+    EXPECT_NE(diagnostics.problems()[0].text().find("grip_force"), std::string::npos);
+    EXPECT_EQ(recorded(frame()), 0);
+}
+
+}  // namespace
+}  // namespace dihaptic::task::recorded_test

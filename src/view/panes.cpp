@@ -1,0 +1,58 @@
+#include "view/panes.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace dihaptic::view {
+namespace {
+
+constexpr double kNearest = 0.05;  // distance at which things begin, over that of the screen
+
+Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyond) {
+    Mat3 edges;
+    edges << display.right(), display.up(), display.lower_left - eye_W;
+    const Mat3 shares = edges.inverse();  // alpha, beta, gamma
+    // the depth from -1, at the nearest, to 1
+    const Vec3 normal = display.right().cross(display.up()).normalized();
+    const double furthest = 1 + beyond / std::abs(normal.dot(display.lower_left - eye_W));
+    const double depth = (furthest + kNearest) / (furthest - kNearest);
+    const double depth_0 = -2 * furthest * kNearest / (furthest - kNearest);
+    const double x = display.mirrored == rig::Mirrored::left_right ? -1 : 1;
+    const double y = display.mirrored == rig::Mirrored::up_down ? -1 : 1;
+    Eigen::Matrix<double, 4, 3> clip;
+    clip.row(0) = x * (2 * shares.row(0) - shares.row(2));
+    clip.row(1) = y * (2 * shares.row(1) - shares.row(2));
+    clip.row(2) = depth * shares.row(2);
+    clip.row(3) = shares.row(2);
+    Viewpoint out;
+    out.eye_W = eye_W;
+    out.clip_from_world.leftCols<3>() = clip;
+    out.clip_from_world.col(3) = -clip * eye_W + Eigen::Vector4d(0, 0, depth_0, 0);
+    out.flipped = display.mirrored != rig::Mirrored::no;
+    return out;
+}
+
+}  // namespace
+
+std::vector<Pane> panes(const rig::Display& display, double beyond) {
+    if (display.stereo == rig::Stereo::none)
+        return {{viewpoint(display, display.eyes.position, beyond)}};
+    Pane left{viewpoint(display, display.eyes.left(), beyond)};
+    Pane right{viewpoint(display, display.eyes.right(), beyond)};
+    switch (display.stereo) {
+        case rig::Stereo::none:
+            break;
+        case rig::Stereo::side_by_side:
+            left.width = right.width = right.left = 0.5;
+            break;
+        case rig::Stereo::top_bottom:
+            left.height = right.height = left.bottom = 0.5;
+            break;
+        case rig::Stereo::anaglyph:
+            left.green_blue = right.red = false;
+            break;
+    }
+    return {left, right};
+}
+
+}  // namespace dihaptic::view

@@ -1,0 +1,38 @@
+// What each eye sees of a display: the part of the picture that is its, and the frustum from the
+// eye through the screen's corners.
+//
+// A point X is drawn where the line from the eye E to it passes through the screen. With the
+// corner C and the edges a and b from it to the right and upward,
+//
+//     X - E = alpha a + beta b + gamma (C - E)
+//
+// has the place alpha / gamma, beta / gamma in shares of the edges, from the corner; gamma is the
+// depth of X over that of the screen (R. Kooima, "Generalized Perspective Projection", 2008, has
+// the same for rectangles).
+#pragma once
+
+#include <vector>
+
+#include "rig/display.h"
+
+namespace dihaptic::view {
+
+/// Where one eye is, and what it sees where.
+struct Viewpoint {
+    Vec3 eye_W = Vec3::Zero();                                      ///< [m]
+    Eigen::Matrix4d clip_from_world = Eigen::Matrix4d::Identity();  ///< OpenGL's clip coordinates
+    bool flipped = false;  ///< whether the picture is the other way round, as for a mirror
+};
+
+/// A part of a picture, in shares of its width and height from its lower left.
+struct Pane {
+    Viewpoint viewpoint;
+    double left = 0, bottom = 0, width = 1, height = 1;
+    bool red = true, green_blue = true;  ///< which colours are drawn
+};
+
+/// The panes of a display: one without stereo, seen from the middle between the eyes, else one for
+/// the left eye and one for the right. `beyond`: how far behind the screen things are drawn [m].
+std::vector<Pane> panes(const rig::Display& display, double beyond);
+
+}  // namespace dihaptic::view

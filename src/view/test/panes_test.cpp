@@ -1,0 +1,186 @@
+// Tests displays: that each eye sees a thing where a pinhole camera at that eye would, by numbers
+// and in pictures.
+#include "view/panes.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "software_renderer.h"
+#include "view/scene_view.h"
+
+namespace dihaptic::view::panes_test {
+namespace {
+
+constexpr int kDisplays = 20;
+constexpr int kWidth = 960, kHeight = 720;
+constexpr double kBall = 0.0025;  // radius of what is drawn [m]
+
+/// A display somewhere before the person, tilted and off to a side, in any way that a rig may be.
+rig::Display random_display(Random& random, int i) {
+    const auto vector = [&](double most) {
+        return Vec3(random.uniform(-most, most), random.uniform(-most, most),
+                    random.uniform(-most, most));
+    };
+    rig::Display out;
+    const Quat R = rotation_xyz(Vec3(std::numbers::pi / 4, 0, 0) + vector(0.6));
+    const double width = random.uniform(0.35, 0.6), height = random.uniform(0.25, 0.4);
+    out.lower_left = vector(0.1) - R * Vec3(width / 2, height / 2, 0);
+    out.lower_right = out.lower_left + R * Vec3(width, 0, 0);
+    out.upper_left = out.lower_left + R * Vec3(0, height, 0);
+    out.mirrored = static_cast<rig::Mirrored>(i % 3);
+    out.stereo = static_cast<rig::Stereo>(i % 4);
+    out.eyes.position = R * Vec3(0, 0, random.uniform(0.4, 0.7)) + vector(0.2);
+    out.eyes.along = R * Vec3::UnitX() + vector(0.2);
+    out.eyes.distance = random.uniform(0.05, 0.075);
+    return out;
+}
+
+/// Where the line from an eye to a point passes through the screen, in pixels from the picture's
+/// upper left: by similar triangles, with the mirror and the eyes' parts of the screen.
+Eigen::Vector2d pinhole(const rig::Display& display, bool right_eye, const Vec3& p_W) {
+    const Vec3 eye = display.stereo == rig::Stereo::none ? display.eyes.position
+                     : right_eye                         ? display.eyes.right()
+                                                         : display.eyes.left();
+    const Vec3 n = display.right().cross(display.up()).normalized();
+    const double share = n.dot(eye - display.lower_left) / n.dot(eye - p_W);
+    const Vec3 at = eye + share * (p_W - eye) - display.lower_left;
+    double u = at.dot(display.right()) / display.right().squaredNorm();
+    double v = at.dot(display.up()) / display.up().squaredNorm();
+    if (display.mirrored == rig::Mirrored::left_right) u = 1 - u;
+    if (display.mirrored == rig::Mirrored::up_down) v = 1 - v;
+    if (display.stereo == rig::Stereo::side_by_side) u = (u + (right_eye ? 1 : 0)) / 2;
+    if (display.stereo == rig::Stereo::top_bottom) v = (v + (right_eye ? 0 : 1)) / 2;
+    return {u * kWidth, (1 - v) * kHeight};
+}
+
+/// The place in the picture that a pane gives to a point, in pixels from its upper left.
+Eigen::Vector2d drawn_at(const Pane& pane, const Vec3& p_W) {
+    const Eigen::Vector4d clip = pane.viewpoint.clip_from_world * p_W.homogeneous();
+    const double u = (clip.x() / clip.w() + 1) / 2, v = (clip.y() / clip.w() + 1) / 2;
+    return {(pane.left + pane.width * u) * kWidth, (1 - pane.bottom - pane.height * v) * kHeight};
+}
+
+/// A point before or behind the screen that both eyes see on it.
+Vec3 random_point(Random& random, const rig::Display& display) {
+    const Vec3 on_screen = display.lower_left + random.uniform(0.2, 0.8) * display.right() +
+                           random.uniform(0.2, 0.8) * display.up();
+    return on_screen + random.uniform(-0.2, 0.15) * (display.eyes.position - on_screen);
+}
+
+TEST(Panes, PutPointsWhereAPinholeWould) {
+    Random random(7, "panes");
+    for (int i = 0; i < kDisplays; ++i) {
+        const rig::Display display = random_display(random, i);
+        Diagnostics diagnostics;
+        check(display, diagnostics);
+        ASSERT_TRUE(diagnostics.problems().empty()) << diagnostics.problems()[0].text();
+        const std::vector<Pane> all = panes(display, 1);
+        ASSERT_EQ(all.size(), display.stereo == rig::Stereo::none ? 1 : 2);
+        for (int k = 0; k < 1000; ++k) {
+            const Vec3 p_W = random_point(random, display);
+            for (size_t eye = 0; eye < all.size(); ++eye)
+                EXPECT_LT((drawn_at(all[eye], p_W) - pinhole(display, eye == 1, p_W)).norm(), 1e-8);
+        }
+    }
+}
+
+TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
+    Random random(8, "panes");
+    for (int i = 0; i < kDisplays; ++i) {
+        const rig::Display display = random_display(random, i);
+        for (const Pane& pane : panes(display, 1)) {
+            const Vec3 eye = pane.viewpoint.eye_W;
+            const Vec3 way = random_point(random, display) - eye;
+            double before = -1;
+            for (const double share : {0.1, 0.5, 1.0, 1.5, 2.0}) {
+                const Eigen::Vector4d clip =
+                    pane.viewpoint.clip_from_world * Vec3(eye + share * way).homogeneous();
+                EXPECT_GT(clip.z() / clip.w(), before);
+                before = clip.z() / clip.w();
+            }
+            EXPECT_LT(before, 1);
+        }
+    }
+}
+
+/// Black balls at points that are drawn apart from each other, whichever eye sees them.
+struct Balls {
+    scene::Scene scene;
+    servo::Frame frame;
+};
+
+Balls balls_before(Random& random, const rig::Display& display) {
+    Balls out;
+    std::vector<Eigen::Vector2d> taken;
+    for (int tried = 0; tried < 4000 && out.scene.bodies.size() < 50; ++tried) {
+        const Vec3 p_W = random_point(random, display);
+        const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const auto& other) {
+            return (pinhole(display, false, p_W) - other).norm() > 30 &&
+                   (pinhole(display, true, p_W) - other).norm() > 30;
+        });
+        if (!is_free) continue;
+        taken.push_back(pinhole(display, false, p_W));
+        taken.push_back(pinhole(display, true, p_W));
+        scene::Body ball;
+        ball.name = "ball " + std::to_string(out.scene.bodies.size());
+        ball.shape = scene::Shape::sphere(kBall);
+        ball.mass = 0.01;
+        ball.position = p_W;
+        ball.colour = "#000000";
+        out.scene.bodies.push_back(ball);
+        out.frame.bodies.push_back({ball.pose()});
+    }
+    return out;
+}
+
+/// The middle of what a picture has within 12 pixels of a place that the empty one has not, in the
+/// colours of a pane.
+Eigen::Vector2d middle_of(const Image& picture, const Image& empty, const Pane& pane,
+                          const Eigen::Vector2d& around) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    int count = 0;
+    const int channel = pane.red ? 0 : 1;
+    for (int y = static_cast<int>(around.y()) - 12; y <= around.y() + 12; ++y) {
+        for (int x = static_cast<int>(around.x()) - 12; x <= around.x() + 12; ++x) {
+            const Eigen::Vector2d here(x + 0.5, y + 0.5);
+            if ((here - around).norm() > 12) continue;
+            if (std::abs(picture.at(x, y)[channel] - empty.at(x, y)[channel]) < 40) continue;
+            sum += here;
+            ++count;
+        }
+    }
+    return count > 0 ? Eigen::Vector2d(sum / count) : Eigen::Vector2d::Constant(-1e6);
+}
+
+TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
+    const Offscreen offscreen = software_offscreen(kWidth, kHeight);
+    Random random(9, "panes");
+    int points = 0;
+    double worst = 0;
+    for (int i = 0; i < kDisplays; ++i) {
+        const rig::Display display = random_display(random, i);
+        const Balls balls = balls_before(random, display);
+        SceneView view(balls.scene);
+        servo::Frame nothing = balls.frame;
+        for (servo::BodyFrame& body : nothing.bodies) body.X_WB.p = {0, 0, -50};
+        view.draw(nothing, display, kWidth, kHeight);
+        const Image empty = offscreen.read();
+        view.draw(balls.frame, display, kWidth, kHeight);
+        const Image picture = offscreen.read();
+        const std::vector<Pane> all = panes(display, 1);
+        for (const scene::Body& ball : balls.scene.bodies) {
+            for (size_t eye = 0; eye < all.size(); ++eye) {
+                const Eigen::Vector2d exact = pinhole(display, eye == 1, ball.position);
+                const double off = (middle_of(picture, empty, all[eye], exact) - exact).norm();
+                EXPECT_LT(off, 0.5) << display.name << i << " " << ball.name;
+                worst = std::max(worst, off);
+                ++points;
+            }
+        }
+    }
+    EXPECT_GT(points, 1000);
+    RecordProperty("worst_px", std::to_string(worst));
+}
+
+}  // namespace
+}  // namespace dihaptic::view::panes_test

@@ -1,0 +1,72 @@
+"""A recorded session, looked at again: from the list of sessions, and by itself."""
+import glob
+import os
+import pathlib
+import subprocess
+import time
+import unittest
+
+from window import PROGRAM, Window
+
+
+class Player(Window):
+    def record(self):
+        subprocess.run([PROGRAM, "run", "experiments/lift-block.yaml", "--out", self.out], check=True,
+                       capture_output=True)
+        return self.recording().rstrip("/")
+
+    def saved_at(self, folder):
+        """Times of the pictures that were saved, as their names have them."""
+        return sorted(float(os.path.basename(file)[3:-6]) for file in glob.glob(folder + "/at-*-s.png"))
+
+    def save(self, folder):
+        before = len(self.saved_at(folder))
+        self.key("ctrl+s")
+        time.sleep(0.5)
+        self.key("Return")
+        self.wait("a picture", lambda: len(self.saved_at(folder)) > before)
+        self.xdotool("windowfocus", self.name)  # there is no window manager that would
+
+    def test_shows_any_moment_of_a_recording(self):
+        folder = self.record()
+        self.open(folder)
+        time.sleep(1)
+        self.screenshot("player")
+        self.key("End")
+        self.save(folder)
+        self.key("Home", "Right", "Right", "shift+Right")
+        self.save(folder)
+        self.assertEqual(self.saved_at(folder), [0.102, 9.5])
+        self.key("Page_Down", "Page_Down", "Page_Down", "Page_Down")
+        self.key("space")
+        time.sleep(1.5)
+        self.key("space")
+        self.screenshot("player-played")
+        self.save(folder)
+        played = self.saved_at(folder)[1]
+        self.assertGreater(played, 1)
+        self.assertLess(played, 9.5)
+        self.assertNotEqual(pathlib.Path(folder, "at-9.500-s.png").read_bytes(),
+                            pathlib.Path(folder, f"at-{played:.3f}-s.png").read_bytes())
+        self.key("ctrl+w")
+        self.wait("the end", lambda: self.window.poll() is not None or True)
+
+    def test_is_opened_from_the_list_of_sessions(self):
+        folder = self.record()
+        self.open()
+        self.key("ctrl+shift+o")
+        time.sleep(0.5)
+        self.screenshot("sessions")
+        self.key("Return")
+        name = os.path.basename(folder)
+        self.wait("the player",
+                  lambda: self.xdotool("search", "--onlyvisible", "--name", f"^{name} - Dihaptic$"))
+
+    def test_refuses_a_folder_that_is_no_session(self):
+        told = subprocess.run([PROGRAM, "gui", self.folder.name], env=self.environment, capture_output=True, text=True)
+        self.assertEqual(told.returncode, 2, told.stderr)
+        self.assertIn("session", told.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
