@@ -122,6 +122,8 @@ void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
                                      QString::fromStdString(rig::describe(result)),
                                      QMessageBox::Save | QMessageBox::Discard, window_);
     question->setAttribute(Qt::WA_DeleteOnClose);
+    question->setDefaultButton(QMessageBox::Save);
+    question->setEscapeButton(QMessageBox::Discard);
     connect(question, &QDialog::finished, this, [this, rig, display, result, rig_file](int button) {
         if (button != QMessageBox::Save) return;
         const std::string file = rig::registration_file(display, rig_file);

@@ -69,6 +69,15 @@ QString question_of(const session::Unfinished& session, const std::string& parti
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
+/// How the rig's patch is in a frame; nullopt: there is none.
+std::optional<view::PatchLook> patch_of(const session::Plan& plan, const servo::Frame& frame) {
+    if (!plan.rig.patch) return {};
+    const bool in_state = plan.task && frame.trial > 0 && frame.phase > 0 && frame.task.outcome < 0;
+    const bool white =
+        in_state && plan.task->task.states[static_cast<size_t>(frame.phase) - 1].patch;
+    return view::PatchLook{*plan.rig.patch, white};
+}
+
 }  // namespace
 
 OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop)
@@ -79,6 +88,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
       scene_(new SceneWidget),
       session_(new SessionPanel),
       plots_(new PlotsPanel),
+      trials_(new TrialsPanel),
       devices_(new DevicePanel),
       tuning_(new TuningPanel),
       log_(new LogView) {
@@ -88,6 +98,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     make_file_menu();
     make_session_menu();
     make_view_menu();
+    make_help_menu();
     connect_scene();
     connect_session();
     connect_tuning();
@@ -105,6 +116,10 @@ OperatorWindow::~OperatorWindow() = default;
 void OperatorWindow::connect_scene() {
     connect(&scene_->rating(), &RatingView::clicked, this, &OperatorWindow::click);
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
+    connect(scene_, &SceneWidget::draws_in_software, this, [this](const QString& what) {
+        fine_action_->setChecked(false);
+        log(what);
+    });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
@@ -169,6 +184,9 @@ void OperatorWindow::make_docks() {
     tuning->setFrameShape(QFrame::NoFrame);
     QDockWidget* tuning_dock = add("Tuning", tuning, Qt::RightDockWidgetArea);
     QDockWidget* plots = add("Plots", plots_, Qt::RightDockWidgetArea);
+    QDockWidget* trials = add("Trials", trials_, Qt::RightDockWidgetArea);
+    tabifyDockWidget(plots, trials);
+    plots->raise();
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
     resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
@@ -180,13 +198,15 @@ void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu("&File");
     open_action_ =
         file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
+    recent_menu_ = file->addMenu("Open &recent");
+    connect(recent_menu_, &QMenu::aboutToShow, this, &OperatorWindow::fill_recent);
     file->addAction("Recorded &sessions ...", QKeySequence("Ctrl+Shift+O"), this,
                     &OperatorWindow::choose_session);
     file->addAction("&Folder of sessions", this, [this] {
         QDir().mkpath(out_);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
     });
-    file->addAction("&Report of the last session", QKeySequence("Ctrl+R"), this,
+    file->addAction("Re&port of the last session", QKeySequence("Ctrl+R"), this,
                     &OperatorWindow::report);
     file->addSeparator();
     file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
@@ -244,10 +264,18 @@ void OperatorWindow::make_view_menu() {
     layer("P&ath of the object", &SceneWidget::Layers::path);
     layer("&Joints", &SceneWidget::Layers::joints);
     layer("Works&paces", &SceneWidget::Layers::workspaces);
+    layer("&Lines down to the table", &SceneWidget::Layers::drop_lines);
     view_menu_->addSeparator();
     subject_action_ = view_menu_->addAction("&Subject's window");
     subject_action_->setCheckable(true);
     connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
+    fine_action_ = view_menu_->addAction("F&ine pictures");
+    fine_action_->setCheckable(true);
+    fine_action_->setChecked(true);
+    connect(fine_action_, &QAction::triggered, this, [this](bool on) {
+        scene_->set_fine(on);
+        for (const auto& subject : subjects_) subject->scene().set_fine(on);
+    });
     QAction* dark = view_menu_->addAction("&Dark");
     dark->setCheckable(true);
     dark->setChecked(QSettings().value("dark", false).toBool());
@@ -274,6 +302,53 @@ void OperatorWindow::choose_file() {
     const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
                                                       "Scenes and experiments (*.yaml)");
     if (!file.isEmpty()) open(file);
+}
+
+void OperatorWindow::fill_recent() {
+    recent_menu_->clear();
+    for (const QString& file : QSettings().value("recent").toStringList()) {
+        if (!QFileInfo::exists(file)) continue;
+        recent_menu_->addAction(file, this, [this, file] {
+            if (open_action_->isEnabled()) open(file);
+        });
+    }
+    if (recent_menu_->isEmpty()) recent_menu_->addAction("nothing yet")->setEnabled(false);
+}
+
+void OperatorWindow::remember(const QString& file) {
+    constexpr int kMost = 8;
+    QStringList files = QSettings().value("recent").toStringList();
+    const QString path = QFileInfo(file).absoluteFilePath();
+    files.removeAll(path);
+    files.prepend(path);
+    QSettings().setValue("recent", QStringList(files.mid(0, kMost)));
+}
+
+void OperatorWindow::make_help_menu() {
+    QMenu* help = menuBar()->addMenu("&Help");
+    const auto page = [&](const QString& name, const QString& file) {
+        help->addAction(name, this, [this, file] {
+            // the program is in build/PRESET
+            const QDir docs(QCoreApplication::applicationDirPath() + "/../../docs");
+            if (!docs.exists(file)) return log("there is no " + docs.filePath(file), true);
+            QDesktopServices::openUrl(QUrl::fromLocalFile(QDir::cleanPath(docs.filePath(file))));
+        });
+    };
+    page("This &window", "window.md");
+    page("&Files: scenes, rigs, experiments", "files.md");
+    page("&Experiments", "experiments.md");
+    page("&What is recorded", "quantities.md");
+    page("&Safety", "safety.md");
+    help->addSeparator();
+    help->addAction("&About Dihaptic", this, [this] {
+        auto* about = new QMessageBox(QMessageBox::NoIcon, "About Dihaptic",
+                                      QCoreApplication::applicationVersion() +
+                                          "\n\nA virtual environment for sensorimotor experiments "
+                                          "with force-feedback devices.",
+                                      QMessageBox::Close, this);
+        about->setAttribute(Qt::WA_DeleteOnClose);
+        about->open();
+    });
 }
 
 void OperatorWindow::choose_session() {
@@ -331,6 +406,7 @@ void OperatorWindow::opened(const Opened& opened) {
     auto devices = loader_.take_devices();  // closed again, unless a session starts now
     if (runner_.running()) return;
     plan_ = opened.plan;
+    remember(file_);
     frame_ = opened.frame;
     complaint_.clear();
     // of real devices that have been opened, more may be known than before
@@ -441,6 +517,7 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
     runner_.start(made, options, std::move(devices));
     const session::Plan& plan = runner_.plan();
+    trials_->set_plan(plan.task);
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal());
         const bool squeezes = plan.scene.fingers.size() > 1;
@@ -542,6 +619,7 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log("recorded in " + end.folder);
     devices_->rest("at rest");
+    if (plan_ && plan_->rig.patch) first_scene().set_patch(view::PatchLook{*plan_->rig.patch});
     update_state();
     if (closing_) {
         close();
@@ -559,6 +637,7 @@ void OperatorWindow::refresh() {
         update_state();
     }
     while (const auto sample = runner_.take_sample()) plots_->add(*sample);
+    while (const auto end = runner_.take_trial_end()) trials_->add(*end);
     const servo::Frame& frame = runner_.frame();
     if (frame.sequence >= 0) {
         if (mouse_) move_hand(h);
@@ -567,7 +646,13 @@ void OperatorWindow::refresh() {
     if (runner_.finishing()) update_state();
 }
 
+/// What the person looks at, first of all.
+SceneWidget& OperatorWindow::first_scene() {
+    return subjects_.empty() ? *scene_ : subjects_.front()->scene();
+}
+
 void OperatorWindow::show_frame(const servo::Frame& frame) {
+    first_scene().set_patch(patch_of(runner_.plan(), frame));
     scene_->show_frame(frame);
     for (const auto& subject : subjects_) subject->scene().show_frame(frame);
     show_question();

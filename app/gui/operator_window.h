@@ -19,6 +19,7 @@
 #include "session_panel.h"
 #include "session_runner.h"
 #include "subject_window.h"
+#include "trials_panel.h"
 #include "tuning_panel.h"
 
 namespace dihaptic::gui {
@@ -58,6 +59,9 @@ class OperatorWindow : public QMainWindow {
     void connect_files();
     void restore();
     void choose_file();
+    void fill_recent();
+    void remember(const QString& file);
+    void make_help_menu();
     void choose_session();
     void play_session(const QString& folder);
     void reload();
@@ -92,6 +96,7 @@ class OperatorWindow : public QMainWindow {
     void pause(bool paused);
     void session_ended(const SessionEnd& end);
     void refresh();
+    SceneWidget& first_scene();
     void show_frame(const servo::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
@@ -134,6 +139,7 @@ class OperatorWindow : public QMainWindow {
     SceneWidget* scene_;
     SessionPanel* session_;
     PlotsPanel* plots_;
+    TrialsPanel* trials_;
     DevicePanel* devices_;
     TuningPanel* tuning_;
     LogView* log_;
@@ -147,6 +153,8 @@ class OperatorWindow : public QMainWindow {
     QAction* force_off_action_ = nullptr;
     QAction* calibrate_action_ = nullptr;
     QAction* register_action_ = nullptr;
+    QMenu* recent_menu_ = nullptr;
+    QAction* fine_action_ = nullptr;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* view_menu_ = nullptr;

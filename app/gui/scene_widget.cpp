@@ -13,8 +13,9 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr double kOrbit = 0.006;  // [rad/pixel]
-constexpr size_t kPath = 300;     // length of the path [pictures]: five seconds
+constexpr double kOrbit = 0.006;     // [rad/pixel]
+constexpr double kCoarse = 2.0 / 3;  // detail of pictures where that is needed
+constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
 
 }  // namespace
 
@@ -180,6 +181,7 @@ void SceneWidget::place_labels() {
                 "font-size: %1px; border-radius: 8px;")
             .arg(std::max(20, height / 30)));
     banner_->setWordWrap(false);
+    banner_->ensurePolished();  // a widget that is never shown has no style before
     banner_->adjustSize();
     if (banner_->width() > width - 40) {
         banner_->setWordWrap(true);
@@ -211,8 +213,36 @@ void SceneWidget::paintGL() {
     if (words_) draw_words();
 }
 
+void SceneWidget::set_patch(const std::optional<view::PatchLook>& patch) {
+    patch_ = patch;
+    update();
+}
+
+void SceneWidget::set_fine(bool fine) {
+    fine_ = fine;
+    if (view_) {
+        makeCurrent();
+        view_->set_detail(fine ? 1 : kCoarse);
+        doneCurrent();
+    }
+    update();
+}
+
+void SceneWidget::make_view() {
+    view_ = std::make_unique<view::SceneView>(scene_);
+    const std::string renderer = view::renderer();
+    if (!fine_ && view::is_software(renderer)) {
+        fine_ = false;
+        Q_EMIT draws_in_software(QString("there is no graphics card to draw with (%1): the scene "
+                                         "has two thirds of the window's pixels each way. View > "
+                                         "Fine pictures shows all, more slowly.")
+                                     .arg(QString::fromStdString(renderer)));
+    }
+    if (fine_ == false) view_->set_detail(kCoarse);
+}
+
 void SceneWidget::draw_scene() {
-    if (!view_) view_ = std::make_unique<view::SceneView>(scene_);
+    if (!view_) make_view();
     const std::vector<Vec3> path(path_.begin(), path_.end());
     view::Overlays overlays;
     overlays.handles = layers_.handles;
@@ -220,6 +250,9 @@ void SceneWidget::draw_scene() {
     overlays.contacts = layers_.contacts;
     overlays.grip_axis = layers_.grip_axis;
     overlays.joints = layers_.joints;
+    // a screen shows no depth, and a mouse feels none
+    overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
+    overlays.patch = patch_;
     if (layers_.path) overlays.path = path;
     std::vector<view::Workspace> workspaces;
     for (const view::Workspace& workspace : workspaces_)

@@ -52,8 +52,13 @@ class SceneWidget : public QOpenGLWidget {
         bool path = false;
         bool joints = false;
         bool workspaces = false;
+        bool drop_lines = false;
     };
     void set_layers(const Layers& layers);
+    void set_patch(const std::optional<view::PatchLook>& patch);
+    /// Whether pictures have all pixels; otherwise, two thirds of them each way. At the beginning
+    /// they have if a graphics card draws.
+    void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
     /// Which frame the last picture shows.
     const view::Shown& shown() const { return shown_; }
@@ -73,6 +78,8 @@ class SceneWidget : public QOpenGLWidget {
     /// The hand has a new goal.
     void hand_moved();
     void camera_moved();
+    /// OpenGL draws in software, and so in less detail; in words. Sent once.
+    void draws_in_software(const QString& what);
     /// OpenGL cannot draw: why, and what to do.
     void failed(const QString& why);
 
@@ -93,6 +100,7 @@ class SceneWidget : public QOpenGLWidget {
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
     void place_labels();
+    void make_view();
     void draw_scene();
     void draw_words();
 
@@ -106,6 +114,8 @@ class SceneWidget : public QOpenGLWidget {
     /// null: they lie over the scene.
     std::unique_ptr<QWidget> words_;
     Layers layers_;
+    std::optional<view::PatchLook> patch_;
+    std::optional<bool> fine_;  // unset: by what draws
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;

@@ -165,6 +165,11 @@ void SessionPlayer::make_menus() {
     layer("&Grip axis", &SceneWidget::Layers::grip_axis);
     layer("P&ath of the object", &SceneWidget::Layers::path);
     layer("&Joints", &SceneWidget::Layers::joints);
+    QAction* fine = view->addAction("F&ine pictures");
+    fine->setCheckable(true);
+    fine->setChecked(true);
+    connect(fine, &QAction::triggered, view_, &SceneWidget::set_fine);
+    connect(view_, &SceneWidget::draws_in_software, fine, [fine] { fine->setChecked(false); });
 }
 
 /// Lists what the session's tables say of when something happened.

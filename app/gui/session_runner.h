@@ -47,6 +47,7 @@ class SessionRunner : public QObject {
     const session::Plan& plan() const { return session_->plan; }
     const servo::Frame& frame() { return session_->live.frame.read(); }
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
+    std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
     /// Why the session has paused by itself since the last call; "": it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }

@@ -25,6 +25,25 @@ constexpr auto enum_names(Stereo) {
     return std::array{"none", "side_by_side", "top_bottom", "anaglyph"};
 }
 
+enum class Corner { lower_left, lower_right, upper_left, upper_right };
+constexpr auto enum_names(Corner) {
+    return std::array{"lower_left", "lower_right", "upper_left", "upper_right"};
+}
+
+/// A square for a photodiode in a corner of what the person sees: white while a state of the task
+/// asks for it, otherwise black.
+struct Patch {
+    Corner corner = Corner::lower_right;  ///< of the monitor's picture
+    double size = 0.08;                   ///< share of the picture's height
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("corner", corner, says("Corner of the monitor's picture that it is in."));
+        v("size", size,
+          Field::number().within(0.01, 0.5).says("Its edge, as a share of the picture's height."));
+    }
+};
+
 /// Eyes of a head that rests.
 struct Eyes {
     Vec3 position = Vec3::Zero();  ///< of the middle between them [m]

@@ -85,6 +85,7 @@ struct Rig {
     std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     std::vector<Display> displays;
+    std::optional<Patch> patch;
     Node settings;  ///< settings that this rig asks for (servo::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
@@ -105,6 +106,8 @@ struct Rig {
         v("displays", displays,
           says("Where the person sees screens, and with which eyes; left out, the scene's camera "
                "says what is seen."));
+        v("patch", patch,
+          says("Square for a photodiode, in a corner of what the person sees first."));
         v("settings", settings,
           says("Settings that the rig asks for; those of safety are its limits."));
         if constexpr (requires { v.place(); }) place = v.place();

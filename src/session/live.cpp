@@ -27,8 +27,30 @@ void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
     showings_.push({tick, seconds(since)});
 }
 
+/// Hands over an attempt in its last tick, the only one that has its outcome.
+void Live::note_trial(const servo::Frame& now) noexcept {
+    if (now.trial < 1) return;
+    if (now.trial != trial_.trial || now.task.attempt != trial_.attempt) {
+        trial_ = {};
+        trial_.trial = now.trial;
+        trial_.attempt = now.task.attempt;
+        trial_.start = seconds(now.time);
+    }
+    trial_.peak_grip = std::fmax(trial_.peak_grip, now.grip_force);
+    for (const servo::FingerFrame& finger : now.fingers)
+        trial_.peak_force = std::fmax(trial_.peak_force, finger.f_sent_W.norm());
+    if (now.task.outcome < 0 || trial_.outcome >= 0) return;
+    trial_.outcome = now.task.outcome;
+    trial_.stop = seconds(now.time);
+    const auto& variables = now.task.variables;
+    for (size_t i = 0; i < TrialEnd::kNumbers; ++i)
+        trial_.numbers[i] = i < variables.size() ? variables[i].value : kUnmeasured;
+    trial_ends_.push(trial_);
+}
+
 void Live::show(const servo::Frame& now) noexcept {
     note_zero(now.time);
+    note_trial(now);
     if (now.sequence == 0 || now.time - shown_ >= kInterval) {
         shown_ = now.time;
         frame.publish(now);

@@ -28,6 +28,22 @@ struct CurveSample {
     double object_height = kUnmeasured;      ///< height of the object's origin [m]
 };
 
+/// An attempt at a trial that has just ended.
+struct TrialEnd {
+    static constexpr size_t kNumbers = 8;  ///< further ones are left out
+
+    int32_t trial = 0;
+    int32_t attempt = 0;
+    int32_t outcome = -1;
+    double start = 0;       ///< [s]
+    double stop = 0;        ///< [s]
+    double peak_grip = 0;   ///< [N]
+    double peak_force = 0;  ///< sent to any finger [N]
+    /// What the task's variables, levels of procedures, and answers were, in this order; NaN behind
+    /// the last.
+    std::array<double, kNumbers> numbers{};
+};
+
 struct Live {
     /// Shortest time between frames handed over: a screen shows no more.
     static constexpr Time kInterval = std::chrono::milliseconds(4);
@@ -62,6 +78,9 @@ struct Live {
     /// The oldest sample not yet taken.
     std::optional<CurveSample> take_sample() { return samples_.pop(); }
 
+    /// The oldest end of a trial not yet taken.
+    std::optional<TrialEnd> take_trial_end() { return trial_ends_.pop(); }
+
     using Clock = std::chrono::steady_clock;
     /// The watching thread may hang, and with it every key that switches force off. After its first
     /// call it must keep calling this: force is switched off when a call is more than
@@ -88,6 +107,7 @@ struct Live {
 
   private:
     void note_zero(Time now) noexcept;
+    void note_trial(const servo::Frame& now) noexcept;
 
     static constexpr Clock::rep kNever = 0;
     std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive(), plus its `more`
@@ -99,6 +119,8 @@ struct Live {
         std::numeric_limits<Clock::rep>::max()};    // of the session's clock
     ValueRing<recording::Showing> showings_{4000};  // a minute's worth
     ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
+    ValueRing<TrialEnd> trial_ends_{400};
+    TrialEnd trial_;  // that runs
     int object_ = -1;
     task::Clearance clearance_;
     bool changeable_ = false;  // the kind of the proxies

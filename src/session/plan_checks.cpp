@@ -190,6 +190,17 @@ void check_textures(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
+/// Warns of a patch that a task asks for, and no rig has.
+void check_patch(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task || plan.rig.patch) return;
+    for (const task::State& state : plan.task->task.states) {
+        if (!state.patch) continue;
+        diagnostics.warning(state.place, "patch", "is seen by nobody: the rig has no patch",
+                            "Add e.g. patch: { corner: lower_right } to the rig file.");
+        return;
+    }
+}
+
 /// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
@@ -482,6 +493,7 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_devices(plan, diagnostics);
     check_proxy(plan, diagnostics);
     check_textures(plan, diagnostics);
+    check_patch(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
     check_columns(plan, diagnostics);

@@ -249,6 +249,7 @@ struct State {
     bool countdown = false;          ///< a line says for how many seconds the state may last still
     std::optional<AskSpec> ask;      ///< a number that is asked for
     int marker = 0;                  ///< event code on entering; 0: none
+    bool patch = false;              ///< the rig's patch is white while the state lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
@@ -276,6 +277,9 @@ struct State {
         v("marker", marker,
           Field::number().within(0, 255).says(
               "Event code that is sent as the state begins; 0 is none."));
+        v("patch", patch,
+          says("Whether the rig's patch for a photodiode is white while the state lasts; otherwise "
+               "it is black."));
         v("place", places, says("Bodies that are put somewhere as the state begins."));
         v("drive", drives, says("Bodies that move on paths while the state lasts."));
         v("motors", motors, says("Joints that are moved or pushed while the state lasts."));

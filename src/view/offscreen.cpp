@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.h"
 #include "view/gl.h"
+#include "view/scene_view.h"
 
 namespace dihaptic::view {
 namespace {
@@ -68,7 +69,7 @@ Offscreen::Offscreen(int width, int height)
 Offscreen::~Offscreen() = default;
 
 std::string Offscreen::renderer() const {
-    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return view::renderer();
 }
 
 void Offscreen::wait() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/diagnostics.h"
@@ -19,6 +20,7 @@ namespace dihaptic::view {
 namespace {
 
 constexpr int kSamples = 4;
+constexpr int kShadowMap = 512;  // texels across; half of them for pictures in less detail
 constexpr double kArrowPerNewton = 0.025;  // [m/N]
 constexpr double kDepthRange = 4;          // of the light [m]
 constexpr double kPlaneSize = 6;           // [m]
@@ -95,6 +97,15 @@ void check_version() {
 
 }  // namespace
 
+std::string renderer() {
+    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+bool is_software(const std::string& renderer) {
+    const auto has = [&](const char* name) { return renderer.find(name) != std::string::npos; };
+    return has("llvmpipe") || has("softpipe") || has("swrast") || has("SWR");
+}
+
 Vec3 SceneView::light() {
     return Vec3(-0.45, -0.5, 1).normalized();
 }
@@ -104,6 +115,7 @@ struct SceneView::Parts {
         gl::Model model;
         double radius = 0;
         double lowest = 0;  // z at the start [m]
+        double highest = -std::numeric_limits<double>::infinity();
         Vec3 colour = Vec3::Ones();
         bool ground = false;
         bool plane = false;
@@ -114,9 +126,10 @@ struct SceneView::Parts {
     std::vector<JointMark> joints;
     gl::Model floor;  // below everything, in the shadow map only: the depth beyond a table's edge
     Pose X_WF;
+    double table_top = 0;       // of what the bodies stand on [m]
     Vec3 start = Vec3::Zero();  // middle of the bodies that throw shadows, at the start
     double start_radius = 0.1;  // of a ball about it that holds them [m]
-    ShadowMap shadow_map;
+    ShadowMap shadow_map{kShadowMap};
     gl::Program surface;
     gl::Program background;
     gl::VertexArray nothing;
@@ -127,6 +140,10 @@ struct SceneView::Parts {
     gl::Renderbuffer depth;
     int width = 0;
     int height = 0;
+    double detail = 1;
+    // the picture before it is enlarged
+    gl::Framebuffer resolved;
+    gl::Renderbuffer resolved_colour;
 
     Parts(const scene::Scene& scene, Shadows shadows)
         : kind(shadows),
@@ -145,6 +162,7 @@ struct SceneView::Parts {
             Thing& thing =
                 bodies.emplace_back(make_thing(body.shape, body.pose(), body_colour(scene, i)));
             thing.ground = is_ground(body);
+            if (thing.ground) table_top = thing.highest;
             thing.plane = body.shape.kind == scene::ShapeKind::plane;
         }
         for (size_t i = 0; i < scene.fingers.size(); ++i)
@@ -164,6 +182,7 @@ struct SceneView::Parts {
             const Vec3 p_B = v.p.cast<double>();
             thing.radius = std::max(thing.radius, p_B.norm());
             thing.lowest = std::min(thing.lowest, (X_WB * p_B).z());
+            thing.highest = std::max(thing.highest, (X_WB * p_B).z());
         }
         return thing;
     }
@@ -202,7 +221,12 @@ struct SceneView::Parts {
         return start_radius * std::exp2(std::ceil(2 * std::log2(needed / start_radius)) / 2);
     }
 
-    void resize(int new_width, int new_height) {
+    /// Makes room for a picture of this size, drawn in less detail.
+    void resize(int picture_width, int picture_height) {
+        const auto of = [&](int pixels) {
+            return std::max(1, static_cast<int>(std::lround(detail * pixels)));
+        };
+        const int new_width = of(picture_width), new_height = of(picture_height);
         if (width == new_width && height == new_height) return;
         width = new_width;
         height = new_height;
@@ -221,6 +245,13 @@ struct SceneView::Parts {
         glBindFramebuffer(GL_FRAMEBUFFER, samples);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+        resolved_colour = gl::make_renderbuffer();
+        glBindRenderbuffer(GL_RENDERBUFFER, resolved_colour);
+        glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+        resolved = gl::make_framebuffer();
+        glBindFramebuffer(GL_FRAMEBUFFER, resolved);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                  resolved_colour);
     }
 
     void draw_models(const servo::Frame& frame, const gl::Program& program,
@@ -250,12 +281,14 @@ struct SceneView::Parts {
     Shown draw(const servo::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
                const Overlays& overlays);
     Lamp render_shadows(const servo::Frame& frame);
+    void draw_patch(const PatchLook& look) const;
     // `corner` and `size` are a pane's [pixels]
     void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
     void draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
                        const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                        const Lamp& lamp) const;
     void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
+    void add_drop_lines(Solids& out, const servo::Frame& frame) const;
     void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
     void draw_solids(const Solids& solids) const;
     void draw_targets(const servo::Frame& frame) const;
@@ -308,12 +341,42 @@ Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> al
     }
     glFrontFace(GL_CCW);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (overlays.patch) draw_patch(*overlays.patch);
     glDisable(GL_SCISSOR_TEST);
 
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, samples);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.name());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const auto copy = [&](GLuint from, GLuint to, int to_width, int to_height, GLenum filter) {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+        glBlitFramebuffer(0, 0, width, height, 0, 0, to_width, to_height, GL_COLOR_BUFFER_BIT,
+                          filter);
+    };
+    if (detail == 1) {
+        copy(samples, target.name(), width, height, GL_NEAREST);
+    } else {
+        // samples cannot be enlarged
+        copy(samples, resolved, width, height, GL_NEAREST);
+        copy(resolved, target.name(), new_width, new_height, GL_LINEAR);
+    }
     return {frame.sequence, frame.time};
+}
+
+void SceneView::set_detail(double share) {
+    const KeepTarget target;
+    const int size = share < 1 ? kShadowMap / 2 : kShadowMap;
+    if (size != parts_->shadow_map.size()) parts_->shadow_map = ShadowMap(size);
+    parts_->detail = share;
+}
+
+/// Needs the scissor test.
+void SceneView::Parts::draw_patch(const PatchLook& look) const {
+    using rig::Corner;
+    const int edge = static_cast<int>(std::lround(look.patch.size * height));
+    const Corner corner = look.patch.corner;
+    const bool right = corner == Corner::lower_right || corner == Corner::upper_right;
+    const bool upper = corner == Corner::upper_left || corner == Corner::upper_right;
+    const float light = look.white ? 1 : 0;
+    glScissor(right ? width - edge : 0, upper ? height - edge : 0, edge, edge);
+    glClearBufferfv(GL_COLOR, 0, std::array{light, light, light, 1.f}.data());
 }
 
 SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& frame) {
@@ -323,7 +386,7 @@ SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& fram
     out.light_from_world.topLeftCorner<3, 3>() = Vec3(1 / half, 1 / half, 1).asDiagonal() * R_LW;
     out.light_from_world.topRightCorner<3, 1>() =
         -out.light_from_world.topLeftCorner<3, 3>() * start;
-    out.texel = 2 * half / ShadowMap::kSize;
+    out.texel = 2 * half / shadow_map.size();
     shadow_map.render(out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
                       [&](const gl::Program& program) {
                           program.set("world_from_model", gl::matrix(X_WF));
@@ -445,12 +508,26 @@ void SceneView::Parts::draw_solids(const Solids& solids) const {
     draw_all();
 }
 
+/// Lines that show above which place of the table the fingers are, and how high.
+void SceneView::Parts::add_drop_lines(Solids& out, const servo::Frame& frame) const {
+    constexpr double kRadius = 4e-4, kFoot = 3e-3;  // [m]
+    for (size_t i = 0; i < fingers.size(); ++i) {
+        const Vec3 p = servo::displayed_proxy(frame, i).p;
+        const Vec3 foot(p.x(), p.y(), table_top);
+        if (!p.allFinite() || p.z() - table_top < kFoot) continue;
+        const std::array line{p, foot};
+        out.add(tube(line, kRadius), {}, fingers[i].colour);
+        out.add_ball(ball, foot, kFoot / 2, fingers[i].colour);
+    }
+}
+
 void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) const {
     Solids solids;
     if (!overlays.path.empty()) solids.add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
     add_contacts(solids, frame, overlays);
     if (overlays.grip_axis && fingers.size() > 1) add_grip_axis(solids, frame, fingers.size());
     for (const Workspace& workspace : overlays.workspaces) add_workspace(solids, workspace);
+    if (overlays.drop_lines) add_drop_lines(solids, frame);
     if (overlays.joints) {
         for (const JointMark& joint : joints) joint.add_to(solids, frame, ball);
     }

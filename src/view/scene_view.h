@@ -9,7 +9,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "rig/display.h"
 #include "scene/scene.h"
@@ -25,6 +27,12 @@ struct Workspace {
     Vec3 size = Vec3::Zero();  ///< edges [m]
 };
 
+/// The rig's patch, as it is now.
+struct PatchLook {
+    rig::Patch patch;
+    bool white = false;
+};
+
 /// What is drawn besides bodies and proxies.
 struct Overlays {
     bool handles = false;                   ///< a ghost of each proxy at its handle
@@ -34,6 +42,8 @@ struct Overlays {
     bool joints = false;                    ///< axes, points and springs of joints
     std::span<const Vec3> path;             ///< of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< of devices
+    std::optional<PatchLook> patch;         ///< once, whatever the panes
+    bool drop_lines = false;                ///< from each proxy down to the table
 };
 
 /// The number of the frame that was shown, and its time.
@@ -46,6 +56,11 @@ enum class Shadows {
     variance,  ///< soft, and softer the higher the body that throws them
     plain,     ///< hard, by one comparison of depths: to measure the cost of soft ones
 };
+
+/// OpenGL's name of what draws in the current context.
+std::string renderer();
+/// Whether a renderer of that name is a processor, not a graphics card.
+bool is_software(const std::string& renderer);
 
 class SceneView {
   public:
@@ -62,6 +77,10 @@ class SceneView {
     /// The same as the eyes see it on a display.
     Shown draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
                const Overlays& overlays = {});
+
+    /// Pictures are drawn with so many pixels as a share of their width and height, and enlarged:
+    /// for machines that draw in software. 1 at the beginning.
+    void set_detail(double share);
 
     /// Unit vector toward the main light, in W.
     static Vec3 light();

@@ -7,14 +7,19 @@
 namespace dihaptic::view {
 namespace {
 
-gl::Texture make_moments() {
+int levels_of(int size) {
+    int levels = 1;
+    while (size >> levels >= 16) ++levels;
+    return levels;
+}
+
+gl::Texture make_moments(int size) {
     gl::Texture texture = gl::make_texture();
     glBindTexture(GL_TEXTURE_2D, texture);
-    for (int i = 0; i < ShadowMap::kLevels; ++i) {
-        const int size = ShadowMap::kSize >> i;
-        glTexImage2D(GL_TEXTURE_2D, i, GL_RG32F, size, size, 0, GL_RG, GL_FLOAT, nullptr);
-    }
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, ShadowMap::kLevels - 1);
+    const int levels = levels_of(size);
+    for (int i = 0; i < levels; ++i)
+        glTexImage2D(GL_TEXTURE_2D, i, GL_RG32F, size >> i, size >> i, 0, GL_RG, GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -22,9 +27,9 @@ gl::Texture make_moments() {
     return texture;
 }
 
-std::vector<gl::Framebuffer> make_targets(GLuint texture) {
+std::vector<gl::Framebuffer> make_targets(GLuint texture, int levels) {
     std::vector<gl::Framebuffer> out;
-    for (int i = 0; i < ShadowMap::kLevels; ++i) {
+    for (int i = 0; i < levels; ++i) {
         out.push_back(gl::make_framebuffer());
         glBindFramebuffer(GL_FRAMEBUFFER, out.back());
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, i);
@@ -34,19 +39,21 @@ std::vector<gl::Framebuffer> make_targets(GLuint texture) {
 
 }  // namespace
 
-ShadowMap::ShadowMap()
-    : render_(shaders::kMomentsVertex, shaders::kMomentsFragment),
+ShadowMap::ShadowMap(int size)
+    : size_(size),
+      levels_(levels_of(size)),
+      render_(shaders::kMomentsVertex, shaders::kMomentsFragment),
       blur_(shaders::kBlurVertex, shaders::kBlurFragment),
-      moments_(make_moments()),
-      rows_(make_moments()),
+      moments_(make_moments(size)),
+      rows_(make_moments(size)),
       depth_(gl::make_renderbuffer()),
-      to_moments_(make_targets(moments_)),
-      to_rows_(make_targets(rows_)) {
+      to_moments_(make_targets(moments_, levels_)),
+      to_rows_(make_targets(rows_, levels_)) {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
     nothing_ = gl::VertexArray(name);
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, kSize, kSize);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size_, size_);
     glBindFramebuffer(GL_FRAMEBUFFER, to_moments_.front());
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
 }
@@ -54,7 +61,7 @@ ShadowMap::ShadowMap()
 void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_range, double texel,
                        bool blurred, const std::function<void(const gl::Program&)>& draw) const {
     glBindFramebuffer(GL_FRAMEBUFFER, to_moments_.front());
-    glViewport(0, 0, kSize, kSize);
+    glViewport(0, 0, size_, size_);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -75,7 +82,7 @@ void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_ran
     blur_.set("source", 0);
     glActiveTexture(GL_TEXTURE0);
     glBindVertexArray(nothing_);
-    for (int i = 0; i < kLevels; ++i) blur(i);
+    for (int i = 0; i < levels_; ++i) blur(i);
     glBindVertexArray(0);
 }
 
@@ -83,7 +90,7 @@ void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_ran
 /// are read from the next finer level: a step of two of its texels is one of this level's, and
 /// linear interpolation gives their mean.
 void ShadowMap::blur(int level) const {
-    const int size = kSize >> level;
+    const int size = size_ >> level;
     const int from = level > 0 ? level - 1 : 0;
     glViewport(0, 0, size, size);
     const auto pass = [&](GLuint source, int source_level, GLuint target,
@@ -98,7 +105,7 @@ void ShadowMap::blur(int level) const {
         blur_.set("texel", texel);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
-        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, kLevels - 1);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels_ - 1);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     };
     const auto at = static_cast<size_t>(level);

@@ -11,10 +11,8 @@ namespace dihaptic::view {
 
 class ShadowMap {
   public:
-    static constexpr int kSize = 512;  // texels of the finest level, across
-    static constexpr int kLevels = 6;
-
-    ShadowMap();
+    /// `size`: texels of the finest level, across, a power of two. The coarsest has sixteen.
+    explicit ShadowMap(int size);
 
     /// Renders moments. `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
     /// depth along the light [m]. `draw` draws what throws and receives shadows, and sets
@@ -25,10 +23,13 @@ class ShadowMap {
                 bool blurred, const std::function<void(const gl::Program&)>& draw) const;
 
     GLuint texture() const { return moments_; }
+    int size() const { return size_; }
 
   private:
     void blur(int level) const;
 
+    int size_;
+    int levels_;
     gl::Program render_;
     gl::Program blur_;
     gl::VertexArray nothing_;

@@ -3,6 +3,7 @@ import csv
 import pathlib
 import re
 import subprocess
+import time
 import unittest
 
 from window import Participants
@@ -30,26 +31,30 @@ class Patch(Participants):
         self.open(self.experiment("visuomotor-rotation", self.flicker))
         grab = subprocess.Popen(
             ["ffmpeg", "-loglevel", "error", "-f", "x11grab", "-framerate", str(RATE), "-video_size", "8x8", "-i",
-             self.environment["DISPLAY"] + "+20,690", "-f", "rawvideo", "-pix_fmt", "gray", "-"],
+             self.environment["DISPLAY"] + "+20,690", "-fps_mode", "cfr", "-f", "rawvideo",
+             "-pix_fmt", "gray", "-"],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.start()
         self.screenshot("patch")
         with self.ended("complete"):
             pass
+        time.sleep(1)  # then it is black again
         grey, _ = grab.communicate(b"q")
         seen = [sum(grey[i:i + 64]) / 64 for i in range(0, len(grey) - 63, 64)]
         white = [value > 250 for value in seen]
         begins = [i for i in range(1, len(white)) if white[i] and not white[i - 1]]
-        lasts = [next(k for k in range(i, len(white)) if not white[k]) - i for i in begins]
         self.assertEqual(len(begins), 4, seen)
+        # the pictures that shown.csv names say the same: when the first of each state came to the screen
         with open(self.recording() + "events.csv") as file:
-            onsets = [float(row["time_s"]) for row in csv.DictReader(file) if row["event"] == "phase light"]
-        self.assertEqual(len(onsets), 4)
-        # as far apart, and as long, as the states; a picture in software may be late
-        for gap, exact in zip(zip(begins, begins[1:]), zip(onsets, onsets[1:])):
-            self.assertAlmostEqual((gap[1] - gap[0]) / RATE, exact[1] - exact[0], delta=0.2)
-        for last in lasts:
-            self.assertAlmostEqual(last / RATE, 0.5, delta=0.2)
+            phases = [(float(row["time_s"]), row["detail"]) for row in csv.DictReader(file) if row["event"] == "phase"]
+        with open(self.recording() + "shown.csv") as file:
+            pictures = [(int(row["tick"]) * 1e-3, float(row["shown_s"])) for row in csv.DictReader(file)]
+        came = [(next(shown for tick, shown in pictures if tick > time - 5e-4), name) for time, name in phases]
+        self.assertEqual([name for _, name in came], ["dark", "light"] * 4)
+        changes = [time for time, _ in came[1:]]
+        on_screen = [i / RATE for i in range(1, len(white)) if white[i] != white[i - 1]][:len(changes)]
+        for (before, after), (told_before, told_after) in zip(zip(on_screen, on_screen[1:]), zip(changes, changes[1:])):
+            self.assertAlmostEqual(after - before, told_after - told_before, delta=0.15)
 
 
 if __name__ == "__main__":

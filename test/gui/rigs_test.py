@@ -41,6 +41,19 @@ class Rigs(Window):
         self.assertIn("\ncalibration: rig-calibration.yaml\n", pathlib.Path(self.folder.name + "/rig.yaml").read_text())
         self.quit()
 
+    def test_have_displays_that_are_registered_in_the_window(self):
+        self.with_rig(pathlib.Path("rigs/mirror-rig.yaml").read_text())
+        mine = pathlib.Path(self.folder.name + "/rig-mirror-registration.yaml")
+        for answer in ["Escape", "Return"]:
+            self.key("alt+s", "g")
+            self.dialog("^What the registration found")
+            self.screenshot("registration")
+            self.key(answer)
+            self.gone("^What the registration found")
+            self.assertEqual(mine.exists(), answer == "Return")
+        self.assertIn("rms_m", mine.read_text())
+        self.quit()
+
     def on_fakes(self, together, more=""):
         """Two devices that nobody moves, and how far apart they are said to have been; `more`: of the rig."""
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"

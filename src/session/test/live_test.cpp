@@ -436,5 +436,46 @@ TEST(Live, EndsInAPause) {
     EXPECT_NE(frames.back().status & servo::kPaused, 0u);
 }
 
+TEST(Live, HandsOverEachAttemptAsItEnds) {
+    Live live;
+    servo::Frame frame;
+    frame.fingers.resize(1);
+    const auto tick = [&](int64_t sequence, int trial, int attempt, int outcome, double grip) {
+        frame.sequence = sequence;
+        frame.time = sequence * milliseconds(1);
+        frame.trial = trial;
+        frame.task.attempt = attempt;
+        frame.task.outcome = outcome;
+        frame.task.variables = {{0.1 * static_cast<double>(sequence)}};
+        frame.grip_force = grip;
+        frame.fingers[0].f_sent_W = {0, 0, -grip};
+        live.show(frame);
+    };
+    tick(0, 0, 0, -1, 9);
+    tick(1, 1, 1, -1, 2);
+    tick(2, 1, 1, -1, 3);
+    EXPECT_FALSE(live.take_trial_end());
+    tick(3, 1, 1, 2, 1);
+    tick(4, 1, 2, -1, 1);
+    tick(5, 1, 2, 0, 1);
+    tick(6, 1, 2, 0, 1);
+    const auto first = live.take_trial_end();
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->trial, 1);
+    EXPECT_EQ(first->attempt, 1);
+    EXPECT_EQ(first->outcome, 2);
+    EXPECT_NEAR(first->start, 0.001, 1e-12);
+    EXPECT_NEAR(first->stop, 0.003, 1e-12);
+    EXPECT_EQ(first->peak_grip, 3);
+    EXPECT_EQ(first->peak_force, 3);
+    EXPECT_NEAR(first->numbers[0], 0.3, 1e-12);
+    EXPECT_TRUE(std::isnan(first->numbers[1]));
+    const auto second = live.take_trial_end();
+    ASSERT_TRUE(second);
+    EXPECT_EQ(second->attempt, 2);
+    EXPECT_EQ(second->outcome, 0);
+    EXPECT_FALSE(live.take_trial_end());
+}
+
 }  // namespace
 }  // namespace dihaptic::session::live_test

@@ -407,6 +407,52 @@ TEST(SceneView, DrawsTargets) {
     EXPECT_NE(with.rgb, without.rgb);
 }
 
+TEST(SceneView, DrawsThePatchInItsCorner) {
+    const scene::Scene scene = on_table({});
+    constexpr int kWidth = 200, kHeight = 100, kEdge = 20;
+    for (const auto corner : {rig::Corner::lower_left, rig::Corner::lower_right,
+                              rig::Corner::upper_left, rig::Corner::upper_right}) {
+        for (const bool white : {false, true}) {
+            Overlays overlays;
+            overlays.patch = PatchLook{{corner, 0.2}, white};
+            const Camera camera = cameras(scene).front();
+            const Image plain = picture(scene, start(scene), camera, kWidth, kHeight);
+            const Image image = picture(scene, start(scene), camera, kWidth, kHeight, overlays);
+            const bool right =
+                corner == rig::Corner::lower_right || corner == rig::Corner::upper_right;
+            const bool upper =
+                corner == rig::Corner::upper_left || corner == rig::Corner::upper_right;
+            for (int y = 0; y < kHeight; ++y) {
+                for (int x = 0; x < kWidth; ++x) {
+                    const bool in = (right ? x >= kWidth - kEdge : x < kEdge) &&
+                                    (upper ? y < kEdge : y >= kHeight - kEdge);
+                    for (int k = 0; k < 3; ++k)
+                        ASSERT_EQ(image.at(x, y)[k], in ? (white ? 255 : 0) : plain.at(x, y)[k]);
+                }
+            }
+        }
+    }
+}
+
+TEST(SceneView, OfLessDetailIsLikeTheWholePicture) {
+    const scene::Scene scene = on_table({box("block", Vec3::Constant(0.04), {0, 0, 0.06})});
+    const Camera camera = cameras(scene).front();
+    const Offscreen offscreen = software_offscreen(320, 240);
+    SceneView view(scene);
+    const auto drawn = [&](double detail) {
+        view.set_detail(detail);
+        view.draw(start(scene), camera, 320, 240);
+        return offscreen.read();
+    };
+    const Image whole = drawn(1), coarse = drawn(2.0 / 3), again = drawn(1);
+    EXPECT_EQ(whole.rgb, again.rgb);
+    double off = 0;
+    for (size_t i = 0; i < whole.rgb.size(); ++i) off += std::abs(whole.rgb[i] - coarse.rgb[i]);
+    off /= static_cast<double>(whole.rgb.size());
+    EXPECT_GT(off, 0.05);
+    EXPECT_LT(off, 3);
+}
+
 TEST(Image, IsWrittenWholeOrNotAtAll) {
     const Image image{2, 1, {1, 2, 3, 4, 5, 6}};
     const std::string file =
