@@ -365,6 +365,14 @@ void Joints::tell(const Joint& joint, contact::ContactProblem& problem) noexcept
     }
 }
 
+/// A guess of a body's velocities after the step: they change as before, unless it turns so far in
+/// a step that what acts on it has another direction by then.
+Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept {
+    constexpr double kFar = 0.1;  // [rad]
+    const Vec6 v = velocity_of(side);
+    return h * v.tail<3>().norm() > kFar ? v : Vec6(v + change.next());
+}
+
 void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                       contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept {
     // of what several joints share without need, a little is forgotten in each step
@@ -380,8 +388,7 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
         if (joint.spec.has_axis_spring() || joint.motor)
             joint.inverse_mass = along_coordinate(problem, joint.rows);
         if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, joint.rows);
-        ask(i, h, velocity_of(joint.a) + joint.change_a.next(),
-            velocity_of(joint.b) + joint.change_b.next());
+        ask(i, h, expected(joint.a, joint.change_a, h), expected(joint.b, joint.change_b, h));
         for (size_t e = 0; e < kElements; ++e) {
             const ProblemJoint& rows = joint.rows[e];
             joint.row_at[e] = -1;

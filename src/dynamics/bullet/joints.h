@@ -128,6 +128,7 @@ class Joints {
                      double q_near) noexcept;
     static void fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
                      std::span<contact::ProblemJoint> rows) noexcept;
+    static contact::Vec6 expected(const Side& side, const Change& change, double h) noexcept;
     /// With velocities guessed; returns the largest change of a bias.
     double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b) noexcept;
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;

@@ -493,6 +493,26 @@ TEST(Joints, TakeBodiesThatSpinFasterThanAStepCanFollow) {
     }
 }
 
+TEST(Distance, WithAStiffSpringOnALightBodyThatSpinsGivesItNoEnergy) {
+    scene::Scene scene;
+    scene.gravity = Vec3::Zero();
+    scene.bodies = {box("bead", {0.03, 0.05, 0.04}, {0, 0, 0.3}, 0.0055)};
+    scene::Joint band = joint(scene::JointKind::distance, {"bead"}, {0.01, 0.02, 0.31});
+    band.second_position = Vec3(0.01, 0.02, 0.41);
+    band.stiffness = 4100;
+    band.damping = 0.28;
+    band.rest = 0.1;
+    scene.joints = {band};
+    World world(scene, awake());
+    world.activate();
+    const double fastest = 0.04 * std::numbers::pi / 4 / kStep;  // of any place of the bead
+    for (int i = 0; i < 3000; ++i) {
+        if (i < 500) world.apply({0}, Vec3::Zero(), {2e-3, 3e-3, 2.5e-3});
+        ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;
+        ASSERT_LT(world.state({0}).v_WB.norm(), fastest) << i;
+    }
+}
+
 TEST(Joints, StepWithoutAllocating) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     scene::Joint slider = joint(JointKind::slider, {"first"}, Vec3::Zero(), Vec3::UnitX());
