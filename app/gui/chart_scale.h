@@ -1,6 +1,7 @@
 // Steps of scales that people read easily.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace dihaptic::gui {
@@ -12,6 +13,18 @@ inline double round_step(double least) {
         if (factor * power >= least) return factor * power;
     }
     return 10 * power;
+}
+
+/// From the lowest line of a scale to the highest, and from line to line.
+struct Scale {
+    double low, high, step;
+};
+
+/// The scale of values from low to high, with about so many steps.
+inline Scale scale_of(double low, double high, double lines) {
+    const double step = round_step((high - low) / std::max(1.0, lines));
+    // a value that is as good as on a line opens no step beyond it
+    return {std::floor(low / step + 0.05) * step, std::ceil(high / step - 0.05) * step, step};
 }
 
 }  // namespace dihaptic::gui

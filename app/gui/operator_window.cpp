@@ -22,6 +22,7 @@
 #include <cstring>
 #include <utility>
 
+#include "layers_menu.h"
 #include "rig/calibration_guide.h"
 #include "servo/shown_texts.h"
 #include "session_player.h"
@@ -116,10 +117,8 @@ OperatorWindow::~OperatorWindow() = default;
 void OperatorWindow::connect_scene() {
     connect(&scene_->rating(), &RatingView::clicked, this, &OperatorWindow::click);
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
-    connect(scene_, &SceneWidget::draws_in_software, this, [this](const QString& what) {
-        fine_action_->setChecked(false);
-        log(what);
-    });
+    connect(scene_, &SceneWidget::draws_in_software, this,
+            [this](const QString& what) { log(what); });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
@@ -247,33 +246,15 @@ void OperatorWindow::make_view_menu() {
                : "the devices' workspace turns back to where the rig has it");
         turn_workspaces();
     });
-    const auto layer = [&](const QString& name, bool SceneWidget::Layers::*which) {
-        QAction* action = view_menu_->addAction(name);
-        action->setCheckable(true);
-        connect(action, &QAction::toggled, this, [this, which](bool on) {
-            SceneWidget::Layers layers = scene_->layers();
-            layers.*which = on;
-            scene_->set_layers(layers);
-        });
-    };
     view_menu_->addSeparator();
-    layer("&Handles", &SceneWidget::Layers::handles);
-    layer("&Forces", &SceneWidget::Layers::forces);
-    layer("C&ontacts", &SceneWidget::Layers::contacts);
-    layer("&Grip axis", &SceneWidget::Layers::grip_axis);
-    layer("P&ath of the object", &SceneWidget::Layers::path);
-    layer("&Joints", &SceneWidget::Layers::joints);
-    layer("Works&paces", &SceneWidget::Layers::workspaces);
-    layer("&Lines down to the table", &SceneWidget::Layers::drop_lines);
+    add_layers(*view_menu_, *scene_);
+    add_layer(*view_menu_, *scene_, "Works&paces", &SceneWidget::Layers::workspaces);
+    add_layer(*view_menu_, *scene_, "&Lines down to the table", &SceneWidget::Layers::drop_lines);
     view_menu_->addSeparator();
     subject_action_ = view_menu_->addAction("&Subject's window");
     subject_action_->setCheckable(true);
     connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
-    fine_action_ = view_menu_->addAction("F&ine pictures");
-    fine_action_->setCheckable(true);
-    fine_action_->setChecked(true);
-    connect(fine_action_, &QAction::triggered, this, [this](bool on) {
-        scene_->set_fine(on);
+    connect(add_fine_pictures(*view_menu_, *scene_), &QAction::triggered, this, [this](bool on) {
         for (const auto& subject : subjects_) subject->scene().set_fine(on);
     });
     QAction* dark = view_menu_->addAction("&Dark");

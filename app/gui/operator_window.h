@@ -154,7 +154,6 @@ class OperatorWindow : public QMainWindow {
     QAction* calibrate_action_ = nullptr;
     QAction* register_action_ = nullptr;
     QMenu* recent_menu_ = nullptr;
-    QAction* fine_action_ = nullptr;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* view_menu_ = nullptr;

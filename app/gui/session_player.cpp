@@ -18,9 +18,8 @@
 #include <filesystem>
 
 #include "base/table.h"
+#include "layers_menu.h"
 #include "recording/log_scene.h"
-#include "recording/session.h"
-#include "scene_widget.h"
 #include "time_chart.h"
 
 namespace dihaptic::gui {
@@ -36,24 +35,20 @@ scene::Scene scene_of(const recording::SessionFolder& folder) {
     return out;
 }
 
-/// The session's folder, which must have a log.
-std::string folder_of(const std::string& path) {
-    return recording::SessionFolder::open(path).path();
-}
-
 }  // namespace
 
 SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
     : QMainWindow(parent),
-      folder_(folder_of(folder)),
-      scene_(scene_of(recording::SessionFolder::open(folder_))),
-      log_(recording::SessionFolder::open(folder_).raw_log()),
+      folder_(recording::SessionFolder::open(folder)),
+      scene_(scene_of(folder_)),
+      log_(folder_.raw_log()),
       view_(new SceneWidget),
       chart_(new TimeChart) {
-    recording::check_fits(log_.head(), scene_, folder_);
+    recording::check_fits(log_.head(), scene_, folder_.raw_log());
     setAttribute(Qt::WA_DeleteOnClose);
-    setWindowTitle(QString::fromStdString(std::filesystem::path(folder_).filename().string()) +
-                   " - Dihaptic");
+    setWindowTitle(
+        QString::fromStdString(std::filesystem::path(folder_.path()).filename().string()) +
+        " - Dihaptic");
     auto* lower = new QWidget;
     auto* layout = new QVBoxLayout(lower);
     layout->setContentsMargins(6, 0, 6, 0);
@@ -150,26 +145,8 @@ void SessionPlayer::make_menus() {
         view->addAction(QString::fromStdString(camera.name), this,
                         [this, name = camera.name] { view_->set_camera(name); });
     view->addSeparator();
-    const auto layer = [&](const QString& name, bool SceneWidget::Layers::*which) {
-        QAction* action = view->addAction(name);
-        action->setCheckable(true);
-        connect(action, &QAction::toggled, this, [this, which](bool on) {
-            SceneWidget::Layers layers = view_->layers();
-            layers.*which = on;
-            view_->set_layers(layers);
-        });
-    };
-    layer("&Handles", &SceneWidget::Layers::handles);
-    layer("&Forces", &SceneWidget::Layers::forces);
-    layer("C&ontacts", &SceneWidget::Layers::contacts);
-    layer("&Grip axis", &SceneWidget::Layers::grip_axis);
-    layer("P&ath of the object", &SceneWidget::Layers::path);
-    layer("&Joints", &SceneWidget::Layers::joints);
-    QAction* fine = view->addAction("F&ine pictures");
-    fine->setCheckable(true);
-    fine->setChecked(true);
-    connect(fine, &QAction::triggered, view_, &SceneWidget::set_fine);
-    connect(view_, &SceneWidget::draws_in_software, fine, [fine] { fine->setChecked(false); });
+    add_layers(*view, *view_);
+    add_fine_pictures(*view, *view_);
 }
 
 /// Lists what the session's tables say of when something happened.
@@ -179,13 +156,12 @@ void SessionPlayer::make_moments() {
     list_->setRootIsDecorated(false);
     list_->setHeaderLabels({"s", "what"});
     list_->setFocusPolicy(Qt::ClickFocus);
-    const auto folder = recording::SessionFolder::open(folder_);
-    add_moments(folder.file("trials.csv"), "start_time", {"trial_num", "condition", "outcome"});
-    add_moments(folder.file("events.csv"), "time_s", {"event", "detail"});
-    add_moments(folder.file("episodes.csv"), "start_time", {"episode", "slip_mm", "rise_mm"});
+    add_moments(folder_.file("trials.csv"), "start_time", {"trial_num", "condition", "outcome"});
+    add_moments(folder_.file("events.csv"), "time_s", {"event", "detail"});
+    add_moments(folder_.file("episodes.csv"), "start_time", {"episode", "slip_mm", "rise_mm"});
     for (const char* moment :
          {"touch_s", "load_onset_s", "lift_off_s", "replacement_s", "release_s"})
-        add_moments(folder.file("lifts.csv"), moment, {"trial_num"});
+        add_moments(folder_.file("lifts.csv"), moment, {"trial_num"});
     list_->sortItems(0, Qt::AscendingOrder);
     list_->header()->resizeSection(0, 80);
     std::sort(moments_.begin(), moments_.end());
@@ -256,8 +232,7 @@ void SessionPlayer::read_curves() {
             [this, begin, end](const std::vector<RecordedCurve>& curves, double share) {
                 chart_->set_curves(curves, begin, end, share);
             });
-    reader_.read(
-        {recording::SessionFolder::open(folder_).raw_log(), scene_, expressions_, begin, end});
+    reader_.read({folder_.raw_log(), scene_, expressions_, begin, end});
 }
 
 void SessionPlayer::go_to(double time) {
@@ -313,7 +288,7 @@ void SessionPlayer::next_moment(int way) {
 
 void SessionPlayer::save_picture() {
     const QString usual =
-        QString::fromStdString(folder_) + QString("/at-%1-s.png").arg(time_, 0, 'f', 3);
+        QString::fromStdString(folder_.path()) + QString("/at-%1-s.png").arg(time_, 0, 'f', 3);
     const QString file =
         QFileDialog::getSaveFileName(this, "Save the picture", usual, "Pictures (*.png)");
     if (file.isEmpty()) return;

@@ -9,6 +9,7 @@
 
 #include "curve_reader.h"
 #include "recording/log_browser.h"
+#include "recording/session.h"
 #include "task/recorded.h"
 
 class QComboBox;
@@ -52,7 +53,7 @@ class SessionPlayer : public QMainWindow {
     void next_moment(int way);
     void save_picture();
 
-    std::string folder_;
+    recording::SessionFolder folder_;
     scene::Scene scene_;
     recording::LogBrowser log_;
     double time_ = 0;

@@ -4,8 +4,6 @@
 #include <QPainterPath>
 #include <cmath>
 
-#include "chart_scale.h"
-
 namespace dihaptic::gui {
 namespace {
 
@@ -44,7 +42,7 @@ void StripChart::clear() {
     update();
 }
 
-StripChart::Range StripChart::range(int lines) const {
+Scale StripChart::range(int lines) const {
     double low = 0;
     double high = 0;
     for (const Sample& sample : samples_) {
@@ -55,15 +53,13 @@ StripChart::Range StripChart::range(int lines) const {
         }
     }
     high = std::max(high, low + least_range_);
-    const double step = round_step((high - low) / std::max(1, lines));
-    // a value that is as good as on a line opens no step beyond it
-    return {std::floor(low / step + 0.05) * step, std::ceil(high / step - 0.05) * step, step};
+    return scale_of(low, high, lines);
 }
 
 /// Maps times [s] and values to the widget.
 struct StripChart::Axes {
     QRectF area;
-    Range range;
+    Scale range;
     double end;  // latest time [s]
 
     double x(double time) const { return area.right() - (end - time) / kSeconds * area.width(); }

@@ -5,6 +5,8 @@
 #include <deque>
 #include <vector>
 
+#include "chart_scale.h"
+
 namespace dihaptic::gui {
 
 class StripChart : public QWidget {
@@ -37,11 +39,8 @@ class StripChart : public QWidget {
         double time;
         std::vector<double> values;
     };
-    struct Range {
-        double low, high, step;
-    };
     /// Range of the scale. `lines`: about how many steps it has.
-    Range range(int lines) const;
+    Scale range(int lines) const;
     struct Axes;
     QColor ink() const;
     void draw_values(QPainter& painter, const Axes& axes) const;

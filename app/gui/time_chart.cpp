@@ -115,18 +115,16 @@ void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t r
     const QColor ink = palette().color(QPalette::WindowText);
     QColor faint = ink;
     faint.setAlpha(40);
-    double low = 0, high = 0;
+    double least = 0, most = 0;
     for (size_t i = 0; i < curve.low.size(); ++i) {
         if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
-        low = std::min(low, static_cast<double>(curve.low[i]));
-        high = std::max(high, static_cast<double>(curve.high[i]));
+        least = std::min(least, static_cast<double>(curve.low[i]));
+        most = std::max(most, static_cast<double>(curve.high[i]));
     }
-    if (high <= low) high = low + 1;
+    if (most <= least) most = least + 1;
     const int line = fontMetrics().height();
-    const double step = round_step((high - low) / std::max(1.0, in.height() / (2.0 * line)));
-    low = std::floor(low / step + 0.05) * step;
-    high = std::ceil(high / step - 0.05) * step;
-    const auto y = [&](double value) {
+    const auto [low, high, step] = scale_of(least, most, in.height() / (2.0 * line));
+    const auto y = [&, low = low, high = high](double value) {
         return in.bottom() - (value - low) / (high - low) * in.height();
     };
     for (int i = 0; low + i * step < high + step / 2; ++i) {
