@@ -24,18 +24,14 @@ struct RegisterOptions {
 /// command is for.
 rig::Display misplaced(const rig::Display& display) {
     rig::Display out = display;
-    const Vec3 about = display.lower_left + (display.right() + display.up()) / 2;
+    const Vec3 about = display.at({0.5, 0.5});
     const Quat R(Eigen::AngleAxisd(2 * kDegree, display.up().normalized()));
     for (Vec3* corner : {&out.lower_left, &out.lower_right, &out.upper_left})
         *corner = about + R * (*corner - about) + Vec3(3e-3, 0, 4e-3);
     return out;
 }
 
-void draw_crosses(const RegisterOptions& options) {
-    Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig_to_register(options.rig, diagnostics);
-    diagnostics.throw_if_errors();
-    const rig::Display& display = rig::display_of(rig, options.display);
+void draw_crosses(const rig::Display& display, const RegisterOptions& options) {
     check_output(options.crosses, options.rig, "the rig file");
     write_file(rig::cross_picture(display), options.crosses);
     fmt::print("{}: show it on the whole of {}'s screen, then register without --crosses\n",
@@ -43,12 +39,12 @@ void draw_crosses(const RegisterOptions& options) {
 }
 
 void register_display(const RegisterOptions& options) {
-    if (!options.crosses.empty()) return draw_crosses(options);
     Diagnostics diagnostics;
     const rig::Rig rig = rig::read_rig_to_register(options.rig, diagnostics);
     diagnostics.throw_if_errors();
-    const rig::Display& display = rig::display_of(rig, options.display);
     print(diagnostics.problems());
+    const rig::Display& display = rig::display_of(rig, options.display);
+    if (!options.crosses.empty()) return draw_crosses(display, options);
     const std::string finger =
         options.finger.empty() ? rig::held_fingers(rig).front() : options.finger;
     const std::string out =

@@ -22,9 +22,8 @@ struct Delete {
     void operator()(dxWorld* world) const { dWorldDestroy(world); }
 };
 
-dBodyID make_body(dWorldID world, const scene::Body& body, const Pose& X_BM) {
-    const scene::Solid solid = scene::solid_of(body.shape, scene::mass(body));
-    const Pose X_WM = body.pose() * X_BM;
+dBodyID make_body(dWorldID world, const scene::Body& body, const scene::Solid& solid) {
+    const Pose X_WM = body.pose() * solid.X_BM;
     const dQuaternion q{X_WM.R.w(), X_WM.R.x(), X_WM.R.y(), X_WM.R.z()};
     dMass mass;
     dMassSetParameters(&mass, solid.mass, 0, 0, 0, solid.inertia.x(), solid.inertia.y(),
@@ -43,8 +42,9 @@ void run(Step step, const Trial& trial, int steps, const Watch& watch) {
     std::vector<dBodyID> bodies;
     std::vector<Pose> X_BM;
     for (const scene::Body& body : trial.scene.bodies) {
-        X_BM.push_back(scene::solid_of(body.shape, scene::mass(body)).X_BM);
-        bodies.push_back(make_body(world.get(), body, X_BM.back()));
+        const scene::Solid solid = scene::solid_of(body.shape, scene::mass(body));
+        X_BM.push_back(solid.X_BM);
+        bodies.push_back(make_body(world.get(), body, solid));
     }
     for (const Hinge& hinge : hinges_of(trial.scene)) {
         const dJointID joint = dJointCreateHinge(world.get(), nullptr);

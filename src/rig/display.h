@@ -84,6 +84,10 @@ struct Display {
 
     Vec3 right() const { return lower_right - lower_left; }
     Vec3 up() const { return upper_left - lower_left; }
+    /// Where the person sees a cross on it [m].
+    Vec3 at(const Cross& cross) const {
+        return lower_left + cross.right * right() + cross.up * up();
+    }
     void move(const Vec3& by);
     /// Takes the corners of a registration.
     void set(const Registration& found);

@@ -17,10 +17,6 @@ constexpr double kMargin = 0.08;       // of crosses from the screen's edges, in
 constexpr double kMostRms = 3e-3;      // of touches that one screen can have [m]
 constexpr double kMostStretch = 0.03;  // of a size that was measured by a ruler
 
-Vec3 on_screen(const Display& display, const Cross& cross) {
-    return display.lower_left + cross.right * display.right() + cross.up * display.up();
-}
-
 }  // namespace
 
 std::vector<Cross> crosses() {
@@ -38,7 +34,7 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
     Eigen::Matrix3Xd told(3, static_cast<Eigen::Index>(all.size()));
     Eigen::Matrix3Xd touched(3, static_cast<Eigen::Index>(all.size()));
     for (size_t i = 0; i < all.size(); ++i) {
-        told.col(static_cast<Eigen::Index>(i)) = on_screen(display, all[i]);
+        told.col(static_cast<Eigen::Index>(i)) = display.at(all[i]);
         touched.col(static_cast<Eigen::Index>(i)) = touches[i];
     }
     // Umeyama 1991: the least squares of a rigid movement
@@ -69,7 +65,7 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
     out.registration.lower_left = moved(display.lower_left);
     out.registration.lower_right = moved(display.lower_right);
     out.registration.upper_left = moved(display.upper_left);
-    const Vec3 middle = on_screen(display, {0.5, 0.5});
+    const Vec3 middle = display.at({0.5, 0.5});
     out.moved = (moved(middle) - middle).norm();
     out.turned = Eigen::AngleAxisd(R).angle();
     return out;

@@ -43,8 +43,7 @@ class TouchingHand final : public hand::Driver {
 
 std::vector<Vec3> places_of(const Display& display) {
     std::vector<Vec3> out;
-    for (const Cross& cross : crosses())
-        out.push_back(display.lower_left + cross.right * display.right() + cross.up * display.up());
+    for (const Cross& cross : crosses()) out.push_back(display.at(cross));
     return out;
 }
 

@@ -69,19 +69,28 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     }
 }
 
+/// Reads a file that a rig file names by a key; false, with `remedy`, if there is none to read.
+template <class File>
+bool read_named(const std::string& file, const Place& place, const char* key,
+                const std::string& named, const char* remedy, File& out, Diagnostics& diagnostics) {
+    try {
+        read_fields(out, read_yaml(file), diagnostics);
+        return true;
+    } catch (const Error& e) {
+        diagnostics.error(place, key, fmt::format("{} cannot be used", named), remedy);
+        diagnostics.add(e.problems());
+        return false;
+    }
+}
+
 void read_registration(const Rig& rig, Display& display, const std::string& file,
                        Diagnostics& diagnostics) {
     Registration registration;
-    try {
-        read_fields(registration, read_yaml(file), diagnostics);
-    } catch (const Error& e) {
-        diagnostics.error(display.place, "registration",
-                          fmt::format("{} cannot be used", display.registration),
-                          "Register the display (dihaptic register), or leave out registration.");
-        diagnostics.add(e.problems());
-        return;
-    }
-    if (diagnostics.has_errors()) return;
+    const bool read =
+        read_named(file, display.place, "registration", display.registration,
+                   "Register the display (dihaptic register), or leave out registration.",
+                   registration, diagnostics);
+    if (!read || diagnostics.has_errors()) return;
     registration.move(-rig.moved_by);
     registration.place.file = file;
     display.set(registration);
@@ -90,15 +99,10 @@ void read_registration(const Rig& rig, Display& display, const std::string& file
 
 void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostics) {
     Calibration calibration;
-    try {
-        read_fields(calibration, read_yaml(file), diagnostics);
-    } catch (const Error& e) {
-        diagnostics.error(rig.place, "calibration",
-                          fmt::format("{} cannot be used", rig.calibration),
-                          "Calibrate the rig (dihaptic calibrate), or leave out calibration.");
-        diagnostics.add(e.problems());
+    if (!read_named(file, rig.place, "calibration", rig.calibration,
+                    "Calibrate the rig (dihaptic calibrate), or leave out calibration.",
+                    calibration, diagnostics))
         return;
-    }
     if (!days_between(calibration.date, calibration.date) && !calibration.date.empty()) {
         diagnostics.error(calibration.place, "date",
                           fmt::format("'{}' is no date", calibration.date),

@@ -64,7 +64,7 @@ class Joints {
     std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;
 
     /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
-    /// by item. The first guess is that velocities change as they changed in the last two steps.
+    /// by item. The first guess is that of expected().
     /// Impulses to start from, somewhat less than those of the last step, go to `start`.
     void add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                   contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept;

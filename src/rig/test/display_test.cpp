@@ -73,16 +73,12 @@ Display example() {
     return read(folder, kRig, diagnostics).displays.at(0);
 }
 
-Vec3 on(const Display& display, const Cross& cross) {
-    return display.lower_left + cross.right * display.right() + cross.up * display.up();
-}
-
 /// The display turned by 2 degrees about some axis through its middle, and moved by 5 mm.
 Display misplaced(const Display& display, Random& random) {
     const auto unit = [&] {
         return Vec3(random.normal(), random.normal(), random.normal()).normalized();
     };
-    const Vec3 middle = on(display, {0.5, 0.5});
+    const Vec3 middle = display.at({0.5, 0.5});
     const Quat R(Eigen::AngleAxisd(2 * kDegree, unit()));
     const Vec3 by = 5e-3 * unit();
     Display out = display;
@@ -96,7 +92,7 @@ TEST(Registration, FindsAScreenThatIsExactlySomewhereElse) {
     const Display display = example();
     const Display seen = misplaced(display, random);
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(on(seen, cross));
+    for (const Cross& cross : crosses()) touches.push_back(seen.at(cross));
     const RegistrationResult found = register_screen(display, touches);
     EXPECT_LT((found.registration.upper_left - seen.upper_left).norm(), 1e-12);
     EXPECT_NEAR(found.moved, 5e-3, 1e-12);
@@ -121,7 +117,7 @@ TEST(Registration, FindsAMisplacedScreenByANoisyFinger) {
         const RegistrationResult found = register_screen(display, touches);
         Display is = display;
         is.set(found.registration);
-        const double away = (on(is, {0.5, 0.5}) - on(seen, {0.5, 0.5})).norm();
+        const double away = (is.at({0.5, 0.5}) - seen.at({0.5, 0.5})).norm();
         const double tilted = is.right()
                                   .cross(is.up())
                                   .normalized()
@@ -151,7 +147,7 @@ TEST(Registration, IsKeptInTheRigFilesFrame) {
     Random random(5, "registration");
     const Display seen = misplaced(display_of(rig, ""), random);
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(on(seen, cross));
+    for (const Cross& cross : crosses()) touches.push_back(seen.at(cross));
     RegistrationResult found = register_screen(display_of(rig, ""), touches);
     found.registration.date = "2026-11-24";
     store_registration(rig, found.registration, registration_file(display_of(rig, ""), file));
@@ -178,7 +174,7 @@ std::string refusal(const std::vector<Vec3>& touches) {
 TEST(Registration, RefusesTouchesThatContradictEachOther) {
     const Display display = example();
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(on(display, cross));
+    for (const Cross& cross : crosses()) touches.push_back(display.at(cross));
     EXPECT_EQ(refusal(touches), "");
     std::vector<Vec3> large = touches;
     for (Vec3& p : large) p *= 1.05;
