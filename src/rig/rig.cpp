@@ -83,6 +83,12 @@ bool read_named(const std::string& file, const Place& place, const char* key,
     }
 }
 
+void check_date(const std::string& date, const Place& place, Diagnostics& diagnostics) {
+    if (date.empty() || days_between(date, date)) return;
+    diagnostics.error(place, "date", fmt::format("'{}' is no date", date),
+                      "Write it as 2026-11-21.");
+}
+
 void read_registration(const Rig& rig, Display& display, const std::string& file,
                        Diagnostics& diagnostics) {
     Registration registration;
@@ -91,6 +97,7 @@ void read_registration(const Rig& rig, Display& display, const std::string& file
                    "Register the display (dihaptic register), or leave out registration.",
                    registration, diagnostics);
     if (!read || diagnostics.has_errors()) return;
+    check_date(registration.date, registration.place, diagnostics);
     registration.move(-rig.moved_by);
     registration.place.file = file;
     display.set(registration);
@@ -103,11 +110,7 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
                     "Calibrate the rig (dihaptic calibrate), or leave out calibration.",
                     calibration, diagnostics))
         return;
-    if (!days_between(calibration.date, calibration.date) && !calibration.date.empty()) {
-        diagnostics.error(calibration.place, "date",
-                          fmt::format("'{}' is no date", calibration.date),
-                          "Write it as 2026-11-21.");
-    }
+    check_date(calibration.date, calibration.place, diagnostics);
     std::set<std::string> parts;
     for (const DeviceCalibration& part : calibration.devices) {
         if (parts.insert(part.finger).second) continue;

@@ -154,6 +154,14 @@ TEST(Registration, IsKeptInTheRigFilesFrame) {
     const Rig again = read_rig(file, diagnostics);
     diagnostics.throw_if_errors();
     EXPECT_LT((display_of(again, "").lower_right - seen.lower_right).norm(), 1e-9);
+    found.registration.date = "yesterday";
+    store_registration(rig, found.registration, registration_file(display_of(rig, ""), file));
+    Diagnostics wrong;
+    read_rig(file, wrong);
+    ASSERT_EQ(wrong.problems().size(), 1u);
+    EXPECT_NE(wrong.problems()[0].text().find("found.yaml:1: error: date: 'yesterday' is no date"),
+              std::string::npos)
+        << wrong.problems()[0].text();
     check_age(again, "2026-12-01", diagnostics);
     EXPECT_TRUE(diagnostics.problems().empty());
     check_age(again, "2027-02-01", diagnostics);
