@@ -67,6 +67,11 @@ class Reports(unittest.TestCase):
         dom = self.drawn(session + "/report.html", 4)
         self.assertIn("Adaptation to visuomotor rotations about four axes", dom)
         self.assertIn("seed 1", dom)
+        with open(session + "/trials.csv") as file:
+            reaches = sum(1 for _ in csv.DictReader(file))
+        paths = re.search(r"<svg.*?</svg>", dom[dom.index("<h2>Each reach"):], flags=re.S).group()
+        self.assertEqual(paths.count('stroke-opacity="0.5"'), reaches)
+        self.assertIn("each with 4 blocks: baseline (", dom)
         self.assertIn("dihaptic 0.1.0", dom)
         with open(session + "/trials.csv") as file:
             trials = list(csv.DictReader(file))
@@ -83,7 +88,12 @@ class Reports(unittest.TestCase):
     def test_a_lift_is_drawn_over_time(self):
         session = next(s for s in self.sessions if "lift-block" in s)
         dihaptic("report", session)
-        self.drawn(session + "/report.html", 3)
+        dom = self.drawn(session + "/report.html", 4)  # forces and height over time, and from lift-off on
+        # of all lifts' curves the legend names the means alone
+        legends = re.findall(r'<div class="legend">(.*?)<figcaption', dom, flags=re.S)
+        self.assertTrue(any("grip force" in legend for legend in legends))
+        self.assertFalse(any("in trial" in legend for legend in legends))
+        self.assertIn("No person took part.", dom[dom.index("<h2>In words"):])
 
     def test_people_are_averaged_and_damaged_sessions_left_out(self):
         bad = pathlib.Path(self.out, "bad")

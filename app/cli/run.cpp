@@ -49,6 +49,7 @@ std::string trial_at(const session::Plan& plan, double share) {
 class Console {
   public:
     explicit Console(session::RunOptions& run) {
+        run.warn = [](const std::string& message) { fmt::print("WARNING: {}\n", message); };
         if (run.clock != session::Clock::real) return;
         escape_.emplace(stop_requested, key_);
         no_suspension_.emplace();

@@ -1,5 +1,7 @@
 #include "loader.h"
 
+#include "person/population.h"
+
 namespace dihaptic::gui {
 namespace {
 
@@ -19,6 +21,9 @@ void describe_devices(Opened& out, const std::vector<Pose>& X_WD) {
 void make_plan(Opened& out, const Wanted& wanted) {
     if (wanted.resumes.empty()) {
         out.plan = session::make_plan(wanted.request);
+        if (wanted.by_person && out.plan.task)
+            session::sit_down(out.plan, person::draw_person(person::Objects::device, out.plan.seed,
+                                                            wanted.request.participant));
         return;
     }
     session::Rest rest = session::rest_of(wanted.resumes, session::Seat::window, {});

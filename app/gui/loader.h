@@ -30,6 +30,7 @@ struct Wanted {
     session::Request request;
     /// A session follows: its devices are opened too. Otherwise none is.
     bool to_run = false;
+    bool by_person = false;  ///< a simulated person moves the hand
     /// Folder of the session to go on with, in place of the request; "": none.
     std::string resumes;
 };

@@ -70,11 +70,10 @@ int main(int argc, char** argv) {
     QObject::connect(&stop, &dihaptic::gui::StopRequest::came, &window,
                      &dihaptic::gui::OperatorWindow::end);
     window.show();
-    const QString usual = "scenes/block-on-table.yaml";
-    if (!file.isEmpty()) {
+    if (file.isEmpty()) {
+        window.show_start_page();
+    } else {
         window.open(file);
-    } else if (QFileInfo::exists(usual)) {
-        window.open(usual);
     }
     return QApplication::exec();
 }

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QCloseEvent>
 #include <QCoreApplication>
+#include <QDate>
 #include <QDateTime>
 #include <QDesktopServices>
 #include <QDir>
@@ -46,6 +47,9 @@ const QString kFingerHelp =
     "Right drag: look around.   Ctrl + wheel: zoom.\n"
     "H: the finger stays, or moves on.   Escape: force off.";
 
+/// A simulated person, unless the operator gives it another name.
+const std::string kSimulated = "sim-001";
+
 /// The texts that the task shows, a line each.
 QString texts_of(const session::Plan& plan, const servo::Frame& frame) {
     QStringList out;
@@ -70,6 +74,14 @@ QString question_of(const session::Unfinished& session, const std::string& parti
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
+/// A person's hand, and what stands in for it at a script's own pace, need real time.
+session::Clock clock_of(const session::Plan& plan, double pace) {
+    const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
+    return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
+               ? session::Clock::virtual_clock
+               : session::Clock::real;
+}
+
 /// How the rig's patch is in a frame; nullopt: there is none.
 std::optional<view::PatchLook> patch_of(const session::Plan& plan, const servo::Frame& frame) {
     if (!plan.rig.patch) return {};
@@ -85,7 +97,10 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     : out_(std::move(out)),
       sync_(sync),
       runner_(stop),
+      subjects_(*this),
       calibrator_(new Calibrator(this)),
+      centre_(new QStackedWidget),
+      start_page_(new StartPage),
       scene_(new SceneWidget),
       session_(new SessionPanel),
       plots_(new PlotsPanel),
@@ -94,13 +109,16 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
       tuning_(new TuningPanel),
       log_(new LogView) {
     setWindowTitle("Dihaptic");
-    setCentralWidget(scene_);
+    centre_->addWidget(scene_);
+    centre_->addWidget(start_page_);
+    setCentralWidget(centre_);
     make_docks();
     make_file_menu();
     make_session_menu();
     make_view_menu();
     make_help_menu();
     connect_scene();
+    connect_subjects();
     connect_session();
     connect_tuning();
     connect_reports();
@@ -127,6 +145,18 @@ void OperatorWindow::connect_scene() {
     });
 }
 
+void OperatorWindow::connect_subjects() {
+    connect(&subjects_, &SubjectWindows::key_pressed, this, &OperatorWindow::press);
+    connect(&subjects_, &SubjectWindows::clicked, this, &OperatorWindow::click);
+    connect(&subjects_, &SubjectWindows::closed, this,
+            [this] { subject_action_->setChecked(false); });
+    connect(&subjects_, &SubjectWindows::complained, this,
+            [this](const QString& what) { log(what, true); });
+    // pictures of what the first one shows count as seen
+    connect(&subjects_, &SubjectWindows::presented, this,
+            [this](qint64 tick) { runner_.note_shown(tick); });
+}
+
 void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
@@ -137,7 +167,12 @@ void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
     connect(session_, &SessionPanel::stop_requested, this, &OperatorWindow::stop);
     connect(session_, &SessionPanel::pause_requested, this, &OperatorWindow::pause);
+    connect(session_, &SessionPanel::pace_changed, this, [this](double pace) {
+        if (runner_.running() && runner_.on_virtual_clock()) runner_.set_pace(pace);
+    });
     connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
+    connect(&runner_, &SessionRunner::warned, this,
+            [this](const QString& message) { log(message, true); });
     connect(&runner_, &SessionRunner::finishing_progressed, session_, &SessionPanel::set_finishing);
 }
 
@@ -159,6 +194,9 @@ void OperatorWindow::connect_reports() {
 }
 
 void OperatorWindow::connect_files() {
+    connect(start_page_, &StartPage::chosen, this, &OperatorWindow::open);
+    connect(start_page_, &StartPage::open_requested, this, &OperatorWindow::choose_file);
+    connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
     connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
@@ -197,6 +235,7 @@ void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu("&File");
     open_action_ =
         file->addAction("&Open ...", QKeySequence::Open, this, &OperatorWindow::choose_file);
+    start_page_action_ = file->addAction("S&tart page", this, &OperatorWindow::show_start_page);
     recent_menu_ = file->addMenu("Open &recent");
     connect(recent_menu_, &QMenu::aboutToShow, this, &OperatorWindow::fill_recent);
     file->addAction("Recorded &sessions ...", QKeySequence("Ctrl+Shift+O"), this,
@@ -205,6 +244,7 @@ void OperatorWindow::make_file_menu() {
         QDir().mkpath(out_);
         QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
     });
+    file->addAction("&Where sessions go ...", this, &OperatorWindow::choose_folder);
     file->addAction("Re&port of the last session", QKeySequence("Ctrl+R"), this,
                     &OperatorWindow::report);
     file->addSeparator();
@@ -222,9 +262,13 @@ void OperatorWindow::make_session_menu() {
     pause_action_ = add("&Pause, or go on", Qt::Key_F6, [this] { pause(!runner_.paused()); });
     stop_action_ = add("S&top", Qt::Key_F7, &OperatorWindow::stop);
     skip_action_ = add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
+    step_action_ = session->addAction("Do &one tick", QKeySequence("Ctrl+."), this,
+                                      [this] { runner_.step(1); });
     // Application sees this key, whichever widget has the keyboard focus
     force_off_action_ = add("&Force off", Qt::Key_Escape, &OperatorWindow::force_off);
     session->addSeparator();
+    checklist_action_ = session->addAction("Checklist &before the session ...", this,
+                                           [this] { show_checklist(false); });
     calibrate_action_ =
         session->addAction("&Calibrate the rig ...", this, &OperatorWindow::calibrate);
     register_action_ = session->addAction("Re&gister the display ...", this,
@@ -254,9 +298,8 @@ void OperatorWindow::make_view_menu() {
     subject_action_ = view_menu_->addAction("&Subject's window");
     subject_action_->setCheckable(true);
     connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
-    connect(add_fine_pictures(*view_menu_, *scene_), &QAction::triggered, this, [this](bool on) {
-        for (const auto& subject : subjects_) subject->scene().set_fine(on);
-    });
+    connect(add_fine_pictures(*view_menu_, *scene_), &QAction::triggered, this,
+            [this](bool on) { subjects_.each([on](SceneWidget& scene) { scene.set_fine(on); }); });
     QAction* dark = view_menu_->addAction("&Dark");
     dark->setCheckable(true);
     dark->setChecked(QSettings().value("dark", false).toBool());
@@ -287,8 +330,7 @@ void OperatorWindow::choose_file() {
 
 void OperatorWindow::fill_recent() {
     recent_menu_->clear();
-    for (const QString& file : QSettings().value("recent").toStringList()) {
-        if (!QFileInfo::exists(file)) continue;
+    for (const QString& file : StartPage::recent_files()) {
         recent_menu_->addAction(file, this, [this, file] {
             if (open_action_->isEnabled()) open(file);
         });
@@ -308,12 +350,7 @@ void OperatorWindow::remember(const QString& file) {
 void OperatorWindow::make_help_menu() {
     QMenu* help = menuBar()->addMenu("&Help");
     const auto page = [&](const QString& name, const QString& file) {
-        help->addAction(name, this, [this, file] {
-            // the program is in build/PRESET
-            const QDir docs(QCoreApplication::applicationDirPath() + "/../../docs");
-            if (!docs.exists(file)) return log("there is no " + docs.filePath(file), true);
-            QDesktopServices::openUrl(QUrl::fromLocalFile(QDir::cleanPath(docs.filePath(file))));
-        });
+        help->addAction(name, this, [this, file] { show_page_of_docs(file); });
     };
     page("This &window", "window.md");
     page("&Files: scenes, rigs, experiments", "files.md");
@@ -330,6 +367,13 @@ void OperatorWindow::make_help_menu() {
         about->setAttribute(Qt::WA_DeleteOnClose);
         about->open();
     });
+}
+
+void OperatorWindow::show_page_of_docs(const QString& file) {
+    // the program is in build/PRESET
+    const QDir docs(QCoreApplication::applicationDirPath() + "/../../docs");
+    if (!docs.exists(file)) return log("there is no " + docs.filePath(file), true);
+    QDesktopServices::openUrl(QUrl::fromLocalFile(QDir::cleanPath(docs.filePath(file))));
 }
 
 void OperatorWindow::choose_session() {
@@ -350,7 +394,8 @@ session::Request OperatorWindow::request() const {
     session::Request request;
     request.file = file_.toStdString();
     request.rig = session_->rig().toStdString();
-    request.mouse = session_->by_mouse();
+    request.mouse = session_->hand() == SessionPanel::Hand::mouse;
+    request.simulate = session_->hand() == SessionPanel::Hand::person;
     request.participant = session_->participant().toStdString();
     // for showing a file that needs a participant; a session has its own
     if (request.participant.empty()) request.participant = "S01";
@@ -358,7 +403,15 @@ session::Request OperatorWindow::request() const {
     return request;
 }
 
+void OperatorWindow::show_start_page() {
+    if (!open_action_->isEnabled()) return;
+    start_page_->fill();
+    centre_->setCurrentWidget(start_page_);
+}
+
 void OperatorWindow::open(const QString& file) {
+    start_page_->rest();
+    centre_->setCurrentWidget(scene_);
     file_ = file;
     starts_.reset();
     recorded_.clear();
@@ -379,7 +432,7 @@ void OperatorWindow::reload() {
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
     changed_ = runner_.running() || starts_;
     if (changed_) return;
-    loader_.load({request(), false, ""});
+    loader_.load({request(), false, false, ""});
     update_state();
 }
 
@@ -397,7 +450,7 @@ void OperatorWindow::opened(const Opened& opened) {
     }
     workspaces_ = opened.workspaces;
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
-    show_to_subjects();
+    subjects_.set_scene(plan_->scene, frame_, plan_->rig.displays);
     plots_->set_scene(plan_->scene);
     tuning_->set_knobs(servo::Knobs::of(plan_->settings));
     devices_->set_devices(opened.devices);
@@ -432,7 +485,51 @@ void OperatorWindow::refused(const QStringList& problems) {
 void OperatorWindow::start() {
     start_when_opened_ = loader_.loading() && !starts_;
     if (!plan_ || runner_.running() || loader_.loading()) return;
-    if (plan_->task) {
+    // what can hurt is looked at before, and what cannot when one likes
+    if (rig::is_real(plan_->rig)) {
+        show_checklist(true);
+    } else {
+        start_checked();
+    }
+}
+
+void OperatorWindow::show_checklist(bool before_start) {
+    const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
+    auto* list =
+        new Checklist(session::readiness(*plan_, out_.toStdString(), today), before_start, this);
+    connect(list, &Checklist::chosen, this, &OperatorWindow::remedy);
+    if (before_start) connect(list, &QDialog::accepted, this, &OperatorWindow::start_checked);
+    list->open();
+}
+
+void OperatorWindow::remedy(session::Remedy remedy) {
+    switch (remedy) {
+        case session::Remedy::calibrate:
+            return calibrate();
+        case session::Remedy::register_display:
+            return calibrator_->register_display(rig_file());
+        case session::Remedy::choose_folder:
+            return choose_folder();
+        case session::Remedy::allow_real_time:
+            return show_page_of_docs("safety.md");
+        case session::Remedy::none:
+            return;
+    }
+}
+
+void OperatorWindow::choose_folder() {
+    const QString folder = QFileDialog::getExistingDirectory(this, "Where sessions go", out_);
+    if (folder.isEmpty()) return;
+    out_ = folder;
+    log("sessions go to " + folder);
+}
+
+void OperatorWindow::start_checked() {
+    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (session_->hand() == SessionPanel::Hand::person) {
+        const QString id = session_->participant();
+        begin({id.isEmpty() ? kSimulated : id.toStdString(), "", "", ""});
+    } else if (plan_->task) {
         start_trials();
     } else {
         begin({session_->participant().toStdString(), "", "", ""});
@@ -479,7 +576,7 @@ void OperatorWindow::begin(const recording::Participant& participant, const std:
     session::Request asked = request();
     asked.participant = participant.id;
     starts_ = participant;
-    loader_.load({asked, true, resumes});
+    loader_.load({asked, true, session_->hand() == SessionPanel::Hand::person, resumes});
     update_state();
 }
 
@@ -496,7 +593,10 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
     changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
-    runner_.start(made, options, std::move(devices));
+    options.clock = clock_of(made, session_->pace());
+    start_page_->rest();
+    centre_->setCurrentWidget(scene_);
+    runner_.start(made, options, session_->pace(), std::move(devices));
     const session::Plan& plan = runner_.plan();
     trials_->set_plan(plan.task);
     if (plan.mouse) {
@@ -508,6 +608,8 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     turn_workspaces();
     scene_->setFocus();
     log("started: " + QString::fromStdString(plan.title));
+    if (session_->hand() == SessionPanel::Hand::person && !plan.task)
+        log("Simulated people do trials, and this file has none: its script moves the hand.");
     update_state();
 }
 
@@ -557,8 +659,7 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
     // what is felt on the right has to be seen on the right, by the subject too
-    for (const auto& subject : subjects_)
-        if (follow) subject->scene().set_camera(scene_->camera());
+    if (follow) subjects_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
 
@@ -566,7 +667,10 @@ void OperatorWindow::pause(bool paused) {
     if (!runner_.running() || runner_.finishing()) return;
     runner_.set_paused(paused);
     complaint_.clear();
-    log(paused ? "paused: force is off. F6 goes on, F7 ends the session." : "goes on");
+    log(!paused ? "goes on"
+        : runner_.on_virtual_clock()
+            ? "paused. F6 goes on, Ctrl+. does one tick, F7 ends the session."
+            : "paused: force is off. F6 goes on, F7 ends the session.");
     if (paused) devices_->rest("paused");
     update_state();
 }
@@ -629,13 +733,13 @@ void OperatorWindow::refresh() {
 
 /// What the person looks at, first of all.
 SceneWidget& OperatorWindow::first_scene() {
-    return subjects_.empty() ? *scene_ : subjects_.front()->scene();
+    return subjects_.empty() ? *scene_ : subjects_.first();
 }
 
 void OperatorWindow::show_frame(const servo::Frame& frame) {
     first_scene().set_patch(patch_of(runner_.plan(), frame));
     scene_->show_frame(frame);
-    for (const auto& subject : subjects_) subject->scene().show_frame(frame);
+    subjects_.each([&](SceneWidget& scene) { scene.show_frame(frame); });
     show_question();
     devices_->show_frame(frame);
     if (runner_.finishing()) return;
@@ -660,7 +764,7 @@ const task::AskSpec* OperatorWindow::asked_by_mouse() {
 void OperatorWindow::show_question() {
     const task::AskSpec* question = asked_by_mouse();
     scene_->rating().set_question(question);
-    for (const auto& subject : subjects_) subject->scene().rating().set_question(question);
+    subjects_.each([&](SceneWidget& scene) { scene.rating().set_question(question); });
 }
 
 bool OperatorWindow::has_trials() const {
@@ -683,44 +787,14 @@ void OperatorWindow::move_hand(double h) {
 }
 
 void OperatorWindow::show_subject_window(bool shown) {
-    subjects_.clear();
+    subjects_.close();
     if (!shown) return;
-    if (plan_ && !plan_->rig.displays.empty()) {
-        for (const rig::Display& display : plan_->rig.displays) add_subject_window(display);
-    } else {
-        add_subject_window({});
-    }
-    // pictures of what the first one shows count as seen
-    connect(&subjects_.front()->scene(), &SceneWidget::presented, this,
-            [this](qint64 tick) { runner_.note_shown(tick); });
+    const auto displays = plan_ ? plan_->rig.displays : std::vector<rig::Display>{};
+    subjects_.open(displays);
+    if (plan_)
+        subjects_.set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_, displays);
     turn_workspaces();
     update_state();
-}
-
-/// Gives the subject's windows the scene, and the displays of a rig that may be another one.
-void OperatorWindow::show_to_subjects() {
-    if (subjects_.empty()) return;
-    const std::vector<rig::Display>& displays = plan_->rig.displays;
-    if (subjects_.size() != std::max<size_t>(1, displays.size())) return show_subject_window(true);
-    for (size_t i = 0; i < subjects_.size(); ++i) {
-        SceneWidget& scene = subjects_[i]->scene();
-        scene.set_display(displays.empty() ? std::nullopt : std::optional(displays[i]));
-        scene.set_scene(plan_->scene, frame_);
-    }
-}
-
-void OperatorWindow::add_subject_window(const std::optional<rig::Display>& display) {
-    SubjectWindow& subject = *subjects_.emplace_back(std::make_unique<SubjectWindow>());
-    SceneWidget& scene = subject.scene();
-    scene.set_display(display);
-    if (plan_) scene.set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_);
-    connect(&subject, &SubjectWindow::key_pressed, this, &OperatorWindow::press);
-    connect(&scene.rating(), &RatingView::clicked, this, &OperatorWindow::click);
-    connect(
-        &subject, &SubjectWindow::closed, this, [this] { subject_action_->setChecked(false); },
-        Qt::QueuedConnection);
-    const QString monitor = display ? QString::fromStdString(display->monitor) : "";
-    if (const QString wrong = show_on(subject, monitor, *this); !wrong.isEmpty()) log(wrong, true);
 }
 
 SessionPanel::State OperatorWindow::state() const {
@@ -734,7 +808,10 @@ SessionPanel::State OperatorWindow::state() const {
 QString OperatorWindow::banner() const {
     if (runner_.running() && !runner_.paused()) return message();
     if (runner_.running())
-        return complaint_ + (complaint_.isEmpty() ? "Force is off.\n" : "\n") +
+        return complaint_ +
+               (!complaint_.isEmpty()        ? "\n"
+                : runner_.on_virtual_clock() ? "Time stands still.   Ctrl+.: one tick.\n"
+                                             : "Force is off.\n") +
                "F6: go on.   F7: end the session.";
     if (loader_.loading()) return "Opening " + file_ + " ...";
     if (!complaint_.isEmpty()) return complaint_;
@@ -759,22 +836,26 @@ void OperatorWindow::update_state() {
     const bool idle = now == State::nothing || now == State::ready || now == State::opening;
     const bool runs = now == State::running || now == State::paused;
     open_action_->setEnabled(idle);
+    start_page_action_->setEnabled(idle);
     start_action_->setEnabled(now == State::ready || now == State::opening);
     pause_action_->setEnabled(runs);
     stop_action_->setEnabled(runs || now == State::opening);
+    step_action_->setEnabled(now == State::paused && runner_.on_virtual_clock());
     skip_action_->setEnabled(now == State::running && has_trials());
     force_off_action_->setEnabled(now == State::running);
+    checklist_action_->setEnabled(now == State::ready);
     calibrate_action_->setEnabled(now == State::nothing || now == State::ready);
     register_action_->setEnabled(now == State::ready && !rig_file().isEmpty() &&
                                  !plan_->rig.displays.empty());
     session_->set_state(now, has_trials());
+    tuning_->setEnabled(plan_.has_value());
     scene_->set_banner(banner());
     show_page(*scene_);
     show_question();
-    for (const auto& subject : subjects_) {
-        subject->scene().set_banner(message());
-        show_page(subject->scene());
-    }
+    subjects_.each([&](SceneWidget& scene) {
+        scene.set_banner(message());
+        show_page(scene);
+    });
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {
@@ -793,7 +874,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());
-    subjects_.clear();
+    subjects_.close();
     event->accept();
     if (ended_) QCoreApplication::exit(1);  // even if a dialog is open
 }

@@ -5,11 +5,13 @@
 #include <QElapsedTimer>
 #include <QFileSystemWatcher>
 #include <QMainWindow>
+#include <QStackedWidget>
 #include <QTimer>
 #include <memory>
 #include <optional>
 
 #include "calibrator.h"
+#include "checklist.h"
 #include "device_panel.h"
 #include "loader.h"
 #include "log_view.h"
@@ -18,7 +20,8 @@
 #include "reporter.h"
 #include "session_panel.h"
 #include "session_runner.h"
-#include "subject_window.h"
+#include "start_page.h"
+#include "subject_windows.h"
 #include "trials_panel.h"
 #include "tuning_panel.h"
 
@@ -33,6 +36,8 @@ class OperatorWindow : public QMainWindow {
     OperatorWindow(QString out, double sync, std::atomic<bool>& stop);
     ~OperatorWindow() override;
 
+    /// Shows what there is to begin with.
+    void show_start_page();
     /// Opens a scene or an experiment. Problems go to the log, and the last good file stays.
     void open(const QString& file);
     /// Pauses the running session: force is off from the servo's next tick until it goes on.
@@ -52,6 +57,7 @@ class OperatorWindow : public QMainWindow {
     /// To be called after make_docks(), whose docks it lists.
     void make_view_menu();
     void connect_scene();
+    void connect_subjects();
     void connect_session();
     void connect_tuning();
     void connect_reports();
@@ -68,6 +74,14 @@ class OperatorWindow : public QMainWindow {
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
+    /// Starts, after what there is to check and to ask.
+    void start_checked();
+    /// Shows the checklist; `before_start`: a session follows.
+    void show_checklist(bool before_start);
+    void remedy(session::Remedy remedy);
+    void choose_folder();
+    /// Opens a page of the documents.
+    void show_page_of_docs(const QString& file);
     /// Asks who the person is, then starts.
     void start_trials();
     /// Offers to go on with an unfinished session of that person, if there is one.
@@ -100,8 +114,6 @@ class OperatorWindow : public QMainWindow {
     void show_frame(const servo::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
-    void show_to_subjects();
-    void add_subject_window(const std::optional<rig::Display>& display);
     void show_progress(const servo::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
@@ -134,8 +146,11 @@ class OperatorWindow : public QMainWindow {
 
     Loader loader_;
     SessionRunner runner_;
+    SubjectWindows subjects_;
     Calibrator* calibrator_;
     Reporter reporter_;
+    QStackedWidget* centre_;
+    StartPage* start_page_;
     SceneWidget* scene_;
     SessionPanel* session_;
     PlotsPanel* plots_;
@@ -143,16 +158,17 @@ class OperatorWindow : public QMainWindow {
     DevicePanel* devices_;
     TuningPanel* tuning_;
     LogView* log_;
-    /// One for each display of the rig, or one without a display.
-    std::vector<std::unique_ptr<SubjectWindow>> subjects_;
     QAction* open_action_ = nullptr;
+    QAction* start_page_action_ = nullptr;
     QAction* start_action_ = nullptr;
     QAction* pause_action_ = nullptr;
     QAction* stop_action_ = nullptr;
     QAction* skip_action_ = nullptr;
+    QAction* step_action_ = nullptr;
     QAction* force_off_action_ = nullptr;
     QAction* calibrate_action_ = nullptr;
     QAction* register_action_ = nullptr;
+    QAction* checklist_action_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     QAction* subject_action_ = nullptr;
     QAction* follow_action_ = nullptr;

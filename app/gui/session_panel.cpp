@@ -19,6 +19,7 @@ SessionPanel::SessionPanel(QWidget* parent)
       rig_(new QComboBox),
       participant_(new QLineEdit),
       hand_(new QComboBox),
+      pace_(new QComboBox),
       open_(new QPushButton("&Open ...")),
       start_(new QPushButton("Start")),
       pause_(new QPushButton("Pause")),
@@ -30,7 +31,7 @@ SessionPanel::SessionPanel(QWidget* parent)
     rig_->addItem("as the file says", QString());
     rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     set_up_identifier(*participant_);
-    hand_->addItems({"the mouse", "the file's script"});
+    set_up_hand();
     pause_->setCheckable(true);
     start_->setToolTip("F5");
     pause_->setToolTip("F6, or Escape: time stands still, and no force acts");
@@ -48,7 +49,12 @@ SessionPanel::SessionPanel(QWidget* parent)
     form->addRow("File", file_row);
     form->addRow("&Rig", rig_);
     form->addRow("S&ubject", participant_);
-    form->addRow("&Hand moved by", hand_);
+    auto* hand_row = new QHBoxLayout;
+    hand_row->addWidget(hand_, 1);
+    hand_row->addWidget(pace_, 1);
+    auto* hand_label = new QLabel("&Hand moved by");
+    hand_label->setBuddy(hand_);
+    form->addRow(hand_label, hand_row);
     auto* buttons = new QHBoxLayout;
     for (QPushButton* button : {start_, pause_, skip_, stop_}) buttons->addWidget(button);
     auto* layout = new QVBoxLayout(this);
@@ -64,8 +70,28 @@ SessionPanel::SessionPanel(QWidget* parent)
     connect(skip_, &QPushButton::clicked, this, &SessionPanel::skip_requested);
     connect(stop_, &QPushButton::clicked, this, &SessionPanel::stop_requested);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
-    connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     set_state(State::nothing, false);
+}
+
+/// Who moves simulated hands, and how fast their time goes by.
+void SessionPanel::set_up_hand() {
+    hand_->addItems({"the mouse", "the file's script", "a simulated person"});
+    hand_->setToolTip(
+        "Who holds simulated devices. A simulated person does the trials of an experiment: it "
+        "sees, "
+        "feels, adapts and answers (dihaptic run --simulate). Real devices are held by a person.");
+    for (const auto& [name, pace] :
+         {std::pair("in real time", 1.0), std::pair("10 times faster", 10.0),
+          std::pair("as fast as it goes", 0.0), std::pair("10 times slower", 0.1)})
+        pace_->addItem(name, pace);
+    pace_->setToolTip(
+        "How fast a simulated hand's time goes by. Nothing that is computed depends on "
+        "it. While the session is paused, Ctrl+. does one tick.");
+    connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
+    connect(hand_, &QComboBox::currentIndexChanged, this,
+            [this] { pace_->setVisible(hand() != Hand::mouse); });
+    connect(pace_, &QComboBox::activated, this, [this] { Q_EMIT pace_changed(pace()); });
+    pace_->hide();
 }
 
 void SessionPanel::set_file(const QString& file) {
@@ -78,6 +104,10 @@ void SessionPanel::set_rigs(const QStringList& files) {
     while (rig_->count() > 1) rig_->removeItem(1);
     for (const QString& file : files) rig_->addItem(QFileInfo(file).completeBaseName(), file);
     rig_->setCurrentIndex(std::max(0, rig_->findData(chosen)));
+}
+
+double SessionPanel::pace() const {
+    return hand() == Hand::mouse ? 1 : pace_->currentData().toDouble();
 }
 
 void SessionPanel::set_state(State state, bool trials) {

@@ -35,12 +35,16 @@ class SessionPanel : public QWidget {
     QString rig() const { return rig_->currentData().toString(); }
     QString participant() const { return participant_->text().trimmed(); }
     void set_participant(const QString& id) { participant_->setText(id); }
-    bool by_mouse() const { return hand_->currentIndex() == 0; }
+    enum class Hand { mouse, script, person };
+    Hand hand() const { return static_cast<Hand>(hand_->currentIndex()); }
+    /// Session time over time; 0: as fast as the machine allows. Of the mouse it is 1.
+    double pace() const;
 
   Q_SIGNALS:
     void open_requested();
     /// Another rig or another hand was chosen.
     void choice_changed();
+    void pace_changed(double pace);
     void start_requested();
     void pause_requested(bool paused);
     void skip_requested();
@@ -48,10 +52,13 @@ class SessionPanel : public QWidget {
     void stop_requested();
 
   private:
+    void set_up_hand();
+
     QLabel* file_;
     QComboBox* rig_;
     QLineEdit* participant_;
     QComboBox* hand_;
+    QComboBox* pace_;
     QPushButton* open_;
     QPushButton* start_;
     QPushButton* pause_;

@@ -57,7 +57,7 @@ void SessionRunner::watch() {
     alive_.start();
 }
 
-void SessionRunner::start(session::Plan plan, session::RunOptions options,
+void SessionRunner::start(session::Plan plan, session::RunOptions options, double pace,
                           std::unique_ptr<devices::DeviceGroup> devices) {
     session_ = std::make_unique<Session>();
     no_suspension_.emplace();
@@ -72,7 +72,13 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options,
     std::atexit(end_program);
     options.live = &session_->live;
     options.keys = &session_->key;
-    options.clock = session::Clock::real;
+    session_->clock = options.clock;
+    session_->live.pace = pace;
+    options.warn = [this](const std::string& message) {
+        QMetaObject::invokeMethod(
+            this, [this, said = QString::fromStdString(message)] { Q_EMIT warned(said); },
+            Qt::QueuedConnection);
+    };
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
         std::_Exit(1);  // an orderly end would wait for a thread that is stuck

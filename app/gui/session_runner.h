@@ -32,8 +32,8 @@ class SessionRunner : public QObject {
     ~SessionRunner() override;
 
     /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
-    /// `options.live` itself.
-    void start(session::Plan plan, session::RunOptions options,
+    /// `options.live` itself. `pace`: of a session on the virtual clock, as for set_pace().
+    void start(session::Plan plan, session::RunOptions options, double pace,
                std::unique_ptr<devices::DeviceGroup> devices = nullptr);
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
@@ -63,6 +63,11 @@ class SessionRunner : public QObject {
         session_->knobs.workspace_turn = angle;
         session_->live.knobs.publish(session_->knobs);
     }
+    /// Of a session on the virtual clock: session time over time, 0: as fast as it can be.
+    void set_pace(double pace) { session_->live.pace = pace; }
+    /// Does so many ticks of it though it is paused.
+    void step(int ticks) { session_->live.steps += ticks; }
+    bool on_virtual_clock() const { return session_->clock == session::Clock::virtual_clock; }
     /// Skips the current trial.
     void skip() { session_->live.skip = true; }
     /// Share of the trials that are over.
@@ -90,6 +95,8 @@ class SessionRunner : public QObject {
   Q_SIGNALS:
     /// `share`: of the session's files that is written. Both signals come in the window's thread.
     void finishing_progressed(double share);
+    /// What a session that begins goes without.
+    void warned(const QString& message);
     void ended(const dihaptic::gui::SessionEnd& end);
 
   private:
@@ -97,6 +104,7 @@ class SessionRunner : public QObject {
         session::Plan plan;
         std::unique_ptr<devices::DeviceGroup> devices;
         session::Live live;
+        session::Clock clock = session::Clock::real;
         servo::Knobs knobs;  ///< to be reached
         std::atomic<char> key{0};
         std::atomic<bool> finishing{false};

@@ -60,10 +60,16 @@ void EventFinder::add_task(const servo::Frame& frame) {
     perturbed_ = perturbed;
     if (task.marker != 0) say(frame, "marker", std::to_string(task.marker));
     add_texts(frame);
+    add_sounds(frame);
     if (task.placements.size() > placed_)  // a body that is held is placed in each tick
         say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
     placed_ = task.placements.size();
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
+}
+
+void EventFinder::add_sounds(const servo::Frame& frame) {
+    for (const servo::SoundFrame& sound : frame.task.sounds)
+        say(frame, sound.on != 0 ? "sound" : "sound ends", listed(head_.sounds, sound.sound));
 }
 
 void EventFinder::add_texts(const servo::Frame& frame) {

@@ -16,9 +16,10 @@ struct Event {
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
                        ///< "went on"; with a task "trial", "perturbation", "marker", "message",
-                       ///< "line", "page", "put back", "outcome"
+                       ///< "line", "page", "sound", "put back", "outcome"
     std::string detail;          ///< fingers, bodies or values concerned
     double shown = kUnmeasured;  ///< [s]
+    double heard = kUnmeasured;  ///< [s]
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -27,6 +28,7 @@ struct Event {
         v("event", f.name, "", "what happened");
         v("detail", f.detail, "", "to whom, or what");
         v("shown", f.shown, "s", "when the first picture of it came to the screen; empty: none");
+        v("heard", f.heard, "s", "when the sound left the loudspeaker; empty: it was not played");
     }
 };
 
@@ -50,6 +52,7 @@ class EventFinder {
     void add_trial(const servo::Frame& frame);
     void add_task(const servo::Frame& frame);
     void add_texts(const servo::Frame& frame);
+    void add_sounds(const servo::Frame& frame);
     void add_phase(const servo::Frame& frame);
     void add_touches(const servo::Frame& frame);
     void add_support(const servo::Frame& frame);

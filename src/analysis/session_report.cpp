@@ -21,6 +21,7 @@
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/unmeasured.h"
+#include "recording/hearings.h"
 #include "recording/log_scene.h"
 #include "recording/nwb.h"
 #include "recording/showings.h"
@@ -302,6 +303,18 @@ void find_shown(std::vector<Event>& events, const recording::Showings& showings)
     }
 }
 
+/// Finds when each sound was heard.
+void find_heard(std::vector<Event>& events, const std::vector<recording::Hearing>& hearings) {
+    std::map<std::pair<int64_t, std::string>, double> heard;
+    for (const recording::Hearing& hearing : hearings)
+        heard[{hearing.tick, hearing.sound}] = hearing.heard;
+    for (Event& event : events) {
+        if (event.name != "sound") continue;
+        const auto found = heard.find({event.tick, event.detail});
+        if (found != heard.end()) event.heard = found->second;
+    }
+}
+
 /// The table of events in NWB's form: intervals, with a start and an end.
 Table as_intervals(const Table& events) {
     Table table;
@@ -451,6 +464,7 @@ Table events_of(const Reading& reading, const recording::SessionFolder& folder,
                 const recording::SessionInfo& info) {
     std::vector<Event> events = reading.events;
     find_shown(events, recording::Showings(folder));
+    find_heard(events, recording::read_hearings(folder));
     return recording::marked(figure_table<Event>(events), info.moved_by);
 }
 

@@ -79,6 +79,7 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.task.variables.resize(servo::TaskFrame::kMostVariables);
     frame.task.looks.resize(layout.bodies + layout.fingers);
     frame.task.displaced.resize(1 + layout.fingers);
+    frame.task.sounds.resize(servo::TaskFrame::kMostSounds);
     frame.task.lines.resize(servo::TaskFrame::kMostLines);
     frame.task.numbers.resize(servo::TaskFrame::kMostNumbers);
     std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +

@@ -52,6 +52,7 @@ constexpr Coded kCoded[] = {
     {"outcome", [](const LogHead& head) { return listed_or_none(head.outcomes); }},
     {"message", [](const LogHead& head) { return listed_or_none(head.messages); }},
     {"page", [](const LogHead& head) { return listed_or_none(head.pages); }},
+    {"sound", [](const LogHead& head) { return listed(head.sounds); }},
     {"status", [](const LogHead&) { return bits(); }},
     {"solver_route", [](const LogHead&) { return listed<contact::Route>(); }},
 };

@@ -71,6 +71,7 @@ struct Setup {
     std::vector<std::string> levels;     ///< numbers that procedures choose; in frames they follow
     std::vector<std::string> answers;    ///< and after these what states ask for
     std::vector<std::string> pages;      ///< pages' texts or pictures, by their index in frames
+    std::vector<std::string> sounds;     ///< sounds' names, by their index in frames
     std::vector<InputFile> inputs;
 
     /// Planned length of the session [s]; 0: not known.
@@ -94,6 +95,7 @@ struct Setup {
         v("levels", levels);
         v("answers", answers);
         v("pages", pages);
+        v("sounds", sounds);
         v("inputs", inputs);
     }
 };

@@ -6,6 +6,7 @@
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
 #include "rig/display.h"
+#include "rig/sound.h"
 
 namespace dihaptic::rig {
 
@@ -86,7 +87,8 @@ struct Rig {
     std::vector<JigPoint> jig;
     std::vector<Display> displays;
     std::optional<Patch> patch;
-    Node settings;  ///< settings that this rig asks for (servo::Settings)
+    std::optional<SoundOutput> sound;  ///< unset: the system's default
+    Node settings;                     ///< settings that this rig asks for (servo::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
     Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
@@ -108,6 +110,8 @@ struct Rig {
                "says what is seen."));
         v("patch", patch,
           says("Square for a photodiode, in a corner of what the person sees first."));
+        v("sound", sound,
+          says("Where the sounds of tasks are played; left out, on the system's default device."));
         v("settings", settings,
           says("Settings that the rig asks for; those of safety are its limits."));
         if constexpr (requires { v.place(); }) place = v.place();

@@ -222,6 +222,17 @@ struct DisplacedFrame {
     }
 };
 
+struct SoundFrame {
+    int32_t sound = -1;
+    uint32_t on = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& s, Visitor& v) {
+        v(s.sound, {"sound", "1", "", "Index of the sound in the session's list."});
+        v(s.on, {"on", "1", "", "1 if it begins in the tick, 0 if it ends."});
+    }
+};
+
 struct LineFrame {
     int32_t message = -1;
 
@@ -248,6 +259,7 @@ struct TaskFrame {
     static constexpr size_t kMostMotors = 8;
     static constexpr size_t kMostVariables = 32;
     static constexpr size_t kMostFingers = 32;
+    static constexpr size_t kMostSounds = 32;
     static constexpr size_t kMostLines = 6;
     static constexpr size_t kMostNumbers = 28;
 
@@ -268,6 +280,7 @@ struct TaskFrame {
     std::vector<VariableFrame> variables;
     std::vector<LookFrame> looks;
     std::vector<DisplacedFrame> displaced;
+    std::vector<SoundFrame> sounds;
     std::vector<LineFrame> lines;
     std::vector<NumberFrame> numbers;
 
@@ -283,6 +296,7 @@ struct TaskFrame {
         variables.reserve(kMostVariables);
         looks.reserve(bodies + kMostFingers);
         displaced.reserve(1 + kMostFingers);
+        sounds.reserve(kMostSounds);
         lines.reserve(kMostLines);
         numbers.reserve(kMostNumbers);
     }
@@ -303,6 +317,7 @@ struct TaskFrame {
         variables.clear();
         looks.clear();
         displaced.clear();
+        sounds.clear();
         lines.clear();
         numbers.clear();
     }
@@ -336,6 +351,7 @@ struct TaskFrame {
             "One for each body or proxy that is hidden, or drawn otherwise than the scene has it.");
         v.each("displaced", t.displaced,
                "One for each body or proxy that is shown late, shaken, or where it was.");
+        v.each("sounds", t.sounds, "One for each sound that begins or ends in the tick.");
         v.each("lines", t.lines, "One for each text that is shown below the message.");
         v.each("numbers", t.numbers,
                "One for each number in the shown texts, the message's first, then the lines'.");

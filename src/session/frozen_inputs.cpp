@@ -68,6 +68,17 @@ std::vector<std::string> freeze_pictures(task::Task& task, const recording::Sess
     return names;
 }
 
+/// Copies the task's sound files to the session's folder, and makes the task name the copies.
+std::vector<std::string> freeze_sounds(task::Task& task, const recording::SessionFolder& folder) {
+    std::vector<std::string> names;
+    for (task::SoundSpec& sound : task.sounds) {
+        if (sound.file.empty()) continue;
+        sound.file = copied(sound.file, "sound", names.size() + 1, folder);
+        names.push_back(sound.file);
+    }
+    return names;
+}
+
 Table fault_table(const MovementReport& movement) {
     Table faults;
     faults.columns = {{"start_s", "last good frame before"},
@@ -122,6 +133,8 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
         task::Task task = plan.task->task;
         const std::vector<std::string> pictures = freeze_pictures(task, folder);
         names.insert(names.end(), pictures.begin(), pictures.end());
+        const std::vector<std::string> sounds = freeze_sounds(task, folder);
+        names.insert(names.end(), sounds.begin(), sounds.end());
         write_file(to_yaml(write_fields(task)), folder.file("task.yaml"));
         write_csv(task::frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
         names.insert(names.end(), {"task.yaml", "trial-list.csv"});

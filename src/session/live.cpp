@@ -51,7 +51,8 @@ void Live::note_trial(const servo::Frame& now) noexcept {
 void Live::show(const servo::Frame& now) noexcept {
     note_zero(now.time);
     note_trial(now);
-    if (now.sequence == 0 || now.time - shown_ >= kInterval) {
+    // in a pause each tick was asked for by itself
+    if (now.sequence == 0 || now.time - shown_ >= kInterval || paused) {
         shown_ = now.time;
         frame.publish(now);
     }

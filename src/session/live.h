@@ -51,9 +51,11 @@ struct Live {
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
     Latest<servo::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
-    /// While set, time stands still and no force acts, from the next tick on. A trial that a pause
-    /// interrupts begins anew.
+    /// While set, time stands still. On the real clock no force acts, from the next tick on, and a
+    /// trial that a pause interrupts begins anew.
     std::atomic<bool> paused{false};
+    std::atomic<double> pace{1};     ///< virtual clock: session time over time; 0: as it can be
+    std::atomic<int> steps{0};       ///< virtual clock: ticks to be done though it is paused
     std::atomic<bool> ended{false};  ///< asks the session to end in an orderly way
     std::atomic<bool> skip{false};   ///< asks the running trial to end in the next tick
     /// Share of a question's line that was clicked, until a tick takes it.

@@ -14,6 +14,7 @@
 #include "person/simulated_limits.h"
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
+#include "sound/player.h"
 #include "task/opening.h"
 #include "task/task_director.h"
 #include "task/task_hand.h"
@@ -145,9 +146,16 @@ void check_use_of_movement(const Plan& plan, const Request& request,
     }
 }
 
+/// Finds the files that a task names, from `folder` on.
+void find_files(task::Task& task, const std::string& folder, Diagnostics& diagnostics) {
+    task::find_pictures(task, folder, diagnostics);
+    task::find_sounds(task, folder, diagnostics);
+}
+
 /// The trials, and the hand that does them.
 void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
-    task::find_pictures(task, fs::path(request.file).parent_path().string(), diagnostics);
+    find_files(task, fs::path(request.file).parent_path().string(), diagnostics);
+    sound::check(task.sounds, plan.rig.sound.value_or(rig::SoundOutput{}), diagnostics);
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     const int number = request.order_number.value_or(task::participant_number(request.participant));
     if (task::needs_number(task) && number < 0) {
@@ -368,7 +376,7 @@ Plan frozen_plan(const recording::SessionFolder& folder, const recording::Sessio
     read_given_fields(plan.hand, plan.scene.hand, diagnostics);
     task::Task task;
     read_fields(task, read_yaml(folder.file("task.yaml")), diagnostics);
-    task::find_pictures(task, folder.path(), diagnostics);
+    find_files(task, folder.path(), diagnostics);
     diagnostics.throw_if_errors();
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     diagnostics.throw_if_errors();

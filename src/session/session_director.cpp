@@ -79,11 +79,12 @@ void SessionDirector::direct_task(const servo::Frame& last,
     (*task_)(last, handles, commands);
 }
 
-/// Applies what the thread that watches the session, on the real clock, asks for.
+/// Applies what the thread that watches the session asks for. On the virtual clock the session
+/// stands still in a pause (Pacing), and nobody's hand is at stake.
 void SessionDirector::be_steered(const servo::Frame& last, servo::Commands& commands) {
     commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
-    commands.rest = live_->paused.load(std::memory_order_relaxed);
-    commands.abandoned = live_->abandoned();
+    commands.rest = real_ && live_->paused.load(std::memory_order_relaxed);
+    commands.abandoned = real_ ? live_->abandoned() : 0;
     live_->turn_knobs(last, plan_.settings.tick(), commands.knobs);
     if (task_) {
         if (live_->skip.exchange(false, std::memory_order_relaxed)) task_->skip();

@@ -11,7 +11,9 @@
 #include "base/field_writer.h"
 #include "base/plural.h"
 #include "session/frozen_inputs.h"
+#include "session/pacing.h"
 #include "session/session_director.h"
+#include "sound/player.h"
 #include "task/levels.h"
 
 namespace dihaptic::session {
@@ -137,10 +139,12 @@ class Run {
     void describe_task();
     void open_record();
     void begin();
+    void open_sounds();
     void make_director();
 
     void take(const servo::Frame& frame);
     void run_ticks();
+    void run_virtual_ticks(const servo::Director& director, const servo::FrameSink& sink);
     void run_real_ticks(const servo::Director& director, const servo::FrameSink& sink);
     double share() const noexcept;
     std::string fault_text() const;
@@ -165,6 +169,7 @@ class Run {
     std::optional<recording::Recorder> recorder_;
     servo::FrameSink read_;           // takes the frames in place of recorder_
     std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
+    std::optional<sound::Player> player_;
     std::optional<SessionDirector> director_;
     Time whole_{0};                    // the session is over after this time
     std::atomic<int64_t> reached_{0};  // session time [ns]
@@ -175,6 +180,7 @@ RunResult Run::run() {
     describe();
     open_record();
     begin();
+    open_sounds();
     make_director();
     const auto begun = Wall::now();
     run_ticks();
@@ -230,6 +236,7 @@ void Run::describe_task() {
         info_.pages.push_back(page.spec.picture.empty()
                                   ? page.spec.text
                                   : fs::path(page.spec.picture).filename().string());
+    for (const task::SoundSpec& sound : plan_.task->task.sounds) info_.sounds.push_back(sound.name);
     info_.resumes = plan_.resumes;
 }
 
@@ -265,6 +272,21 @@ void Run::begin() {
     }
 }
 
+/// A session whose sounds cannot be played runs without them.
+void Run::open_sounds() {
+    if (!plan_.task || plan_.task->task.sounds.empty() || options_.in_place_of_log) return;
+    const rig::SoundOutput output = plan_.rig.sound.value_or(rig::SoundOutput{});
+    const bool in_real_time = output.to == rig::SoundTo::speakers;
+    if (output.to == rig::SoundTo::nowhere || (in_real_time && !real_)) return;
+    try {
+        player_.emplace(sound::Player::Plan{plan_.task->task.sounds, output, plan_.seed, real_},
+                        folder_);
+    } catch (const Error& e) {
+        info_.notes.push_back(fmt::format("The sounds are not played: {}", e.what()));
+        if (options_.warn) options_.warn(info_.notes.back());
+    }
+}
+
 /// Makes everything that the ticks need before the first one, since ticks allocate nothing.
 void Run::make_director() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
@@ -283,6 +305,7 @@ void Run::take(const servo::Frame& frame) {
         ++result_.ticks;
     }
     if (outward_) outward_->send(frame);
+    if (player_) player_->hear(frame);
     if (plan_.seeing) plan_.seeing->see(frame);
     if (live_ != nullptr) live_->show(frame);
     reached_.store(frame.time.count(), std::memory_order_relaxed);
@@ -300,14 +323,27 @@ void Run::run_ticks() {
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
         if (live_ == nullptr) return;
-        while (const auto showing = live_->take_showing()) showings.add(*showing);
+        while (const auto showing = live_->take_showing()) {
+            if (real_) showings.add(*showing);  // nobody saw a rehearsal in its own time
+        }
         showings.flush();
     });
     if (real_) {
         run_real_ticks(director, sink);
     } else {
-        servo::run_virtual(*servo_, director, sink, whole_, stop_, &result_.timing.ticks);
+        run_virtual_ticks(director, sink);
     }
+}
+
+/// Runs the ticks; if the session is watched, at the pace that is asked for.
+void Run::run_virtual_ticks(const servo::Director& director, const servo::FrameSink& sink) {
+    std::optional<Pacing> pacing;
+    if (live_ != nullptr) pacing.emplace(*live_, stop_);
+    const servo::FrameSink paced = [&](const servo::Frame& frame) {
+        sink(frame);
+        if (pacing) pacing->wait(frame.time);
+    };
+    servo::run_virtual(*servo_, director, paced, whole_, stop_, &result_.timing.ticks);
 }
 
 /// Runs the ticks once; if the session is steered, from pause to pause and from fault to remedy.
@@ -376,6 +412,9 @@ void Run::close_record() {
     }
     if (outward_) {
         for (const std::string& failure : outward_->finish()) info_.notes.push_back(failure);
+    }
+    if (player_) {
+        for (const std::string& failure : player_->finish()) info_.notes.push_back(failure);
     }
     result_.simulated = seconds(Time(reached_.load()));
     if (plan_.open_ended()) info_.phases.back().end = result_.simulated;

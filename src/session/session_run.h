@@ -24,6 +24,8 @@ struct RunOptions {
     /// Called from another thread when a call to the devices never returns, so that run_session()
     /// cannot return either. It must show the message and end the program.
     std::function<void(const std::string& message)> stuck;
+    /// Called from the session's thread, before the first tick, with what the session goes without.
+    std::function<void(const std::string& message)> warn;
     /// Called on active devices, before the first tick and without force; returns warnings. An
     /// exception from it ends the session, and its folder is removed.
     std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
@@ -35,7 +37,7 @@ struct RunOptions {
     std::function<servo::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
                                    const recording::LogHead&)>
         in_place_of_log;
-    Live* live = nullptr;  ///< real clock only: link to the watching thread; must outlive the run
+    Live* live = nullptr;  ///< link to the watching thread; must outlive the run
 };
 
 struct RunResult {

@@ -16,6 +16,7 @@
 #include "task/procedure_spec.h"
 #include "task/rating.h"
 #include "task/show.h"
+#include "task/sound.h"
 
 namespace dihaptic::task {
 
@@ -108,6 +109,7 @@ struct Exit {
     int chooses = 0;        ///< ends the trial with the answer that this interval has more
     bool redo = false;      ///< the trial is to be done again
     std::string feedback;   ///< shown for Task::feedback at least, then until the next message
+    std::string sound;      ///< begins when the exit is taken
     Place place;
 
     /// Whether its condition has any of these (WhenRow::Has).
@@ -176,6 +178,7 @@ struct Exit {
         v("redo", redo, says("Whether the trial is to be done again."));
         v("feedback", feedback,
           says("Text that is shown then, for feedback_s at least; numbers stand in braces."));
+        v("sound", sound, says("Sound that is played then, once."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -250,6 +253,7 @@ struct State {
     std::optional<AskSpec> ask;      ///< a number that is asked for
     int marker = 0;                  ///< event code on entering; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
+    Texts sounds;                    ///< that begin with it, or go on while it lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
@@ -280,6 +284,9 @@ struct State {
         v("patch", patch,
           says("Whether the rig's patch for a photodiode is white while the state lasts; otherwise "
                "it is black."));
+        v("sounds", sounds,
+          says("Sounds that begin with the state; those that last as long as a state end with it, "
+               "unless the next one names them too."));
         v("place", places, says("Bodies that are put somewhere as the state begins."));
         v("drive", drives, says("Bodies that move on paths while the state lasts."));
         v("motors", motors, says("Joints that are moved or pushed while the state lasts."));
@@ -575,6 +582,7 @@ struct Task {
     std::vector<Factor> cross;      ///< makes the conditions
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
+    std::vector<SoundSpec> sounds;
     std::vector<State> states;  ///< each trial begins in the first one
     /// Empty: one condition without a name. With factors that are crossed, what is to be added to
     /// the conditions that they make.
@@ -607,6 +615,7 @@ struct Task {
           says("Named spheres, 16 at most, where hands have to be and which can be shown."));
         v("perturbations", perturbations,
           says("Named changes of what is shown, felt or pushed, which blocks and inserts choose."));
+        v("sounds", sounds, says("Sounds, 32 at most, which states and exits name."));
         v("states", states,
           Field::text().required().says("States that each trial runs through, from the first on."));
         v("conditions", conditions,

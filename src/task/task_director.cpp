@@ -57,6 +57,7 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
       motions_(plan.bodies, plan.finger_radius.size(), plan.longest_delay, tick),
       began_(plan.task.perturbations.size(), kNever),
       displayer_(plan, seed, tick),
+      sounder_(plan),
       opening_(plan) {
     for (const ProcedureSpec& spec : plan.task.procedures)
         procedures_.push_back(make_procedure(spec, seed));
@@ -96,6 +97,8 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
     numbers_.quantities().update(last, handles);
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
+    sounder_.order(state_ < 0 ? nullptr : &plan_.stages[static_cast<size_t>(state_)],
+                   commands.task);
     say(now, commands.task);
 }
 
@@ -118,6 +121,7 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
     if (state_ < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
+        sounder_.take(*way);
         if (way->feedback >= 0) {
             (plan_.task.feedback_beside ? feedback_ : message_) = way->feedback;
             next_message_ = -1;
@@ -197,6 +201,7 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
         if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
     }
     displayer_.enter(plan_.stages[static_cast<size_t>(state)], cell, state_ < 0);
+    sounder_.enter(plan_.stages[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
     rating_.begin();

@@ -8,6 +8,7 @@
 #include "servo/servo.h"
 #include "task/displayer.h"
 #include "task/opening.h"
+#include "task/sounder.h"
 #include "task/trial_numbers.h"
 
 namespace dihaptic::task {
@@ -70,7 +71,7 @@ class TaskDirector {
     /// Takes what was typed, or where the hands are, as the answer that the state asks for.
     void ask(std::span<const haptics::Handle> handles, const Input& input) noexcept;
 
-    /// As operator(), but for how things look and what texts say.
+    /// As operator(), but for how things look and sound, and what texts say.
     void direct(const servo::Frame& last, std::span<const haptics::Handle> handles, double now,
                 servo::Commands& commands) noexcept;
     /// Orders the texts, once the message is ordered, or the page in their place.
@@ -125,6 +126,7 @@ class TaskDirector {
     std::vector<double> began_;
     Rating rating_;
     Displayer displayer_;
+    Sounder sounder_;
     Opening opening_;
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};

@@ -113,6 +113,7 @@ class Planner {
         plan_intervals();
         plan_formulas(plan_, diagnostics_);
         plan_.move_away = seen_.text(kMoveAway, plan_.task.place, "message");
+        plan_sounds();
         for (const State& state : plan_.task.states) plan_.stages.push_back(stage(state));
         plan_.skipped = static_cast<int>(plan_.outcomes.size());
         plan_.outcomes.push_back({kSkipped, false});
@@ -145,6 +146,7 @@ class Planner {
         check_names(task.hands, "hands", diagnostics_);
         check_names(task.regions, "regions", diagnostics_);
         check_names(task.perturbations, "perturbations", diagnostics_);
+        check_names(task.sounds, "sounds", diagnostics_);
         check_names(task.states, "states", diagnostics_);
         check_names(task.conditions, "conditions", diagnostics_);
         check_names(task.draws, "draws", diagnostics_);
@@ -158,6 +160,11 @@ class Planner {
                               servo::TaskFrame::kMostTargets),
                   "Let conditions move one region about.");
         }
+        if (task.sounds.size() > TaskPlan::kMostSounds)
+            error(task.sounds.back().place, "sounds",
+                  fmt::format("there are {}, where {} are the most", task.sounds.size(),
+                              TaskPlan::kMostSounds),
+                  "Leave out those that no state needs.");
         if (task.states.empty()) error(task.place, "states", "there are none", "Add one at least.");
         if (task.states.size() > TaskPlan::kMostStates)
             error(task.place, "states",
@@ -167,6 +174,42 @@ class Planner {
         for (const auto* list : {&task.conditions, &task.rounds}) {
             for (const Condition& condition : *list) check_condition(condition);
         }
+    }
+
+    void plan_sounds() {
+        const std::vector<SoundSpec>& sounds = plan_.task.sounds;
+        for (size_t i = 0; i < sounds.size() && i < TaskPlan::kMostSounds; ++i) {
+            check(sounds[i], diagnostics_);
+            if (sounds[i].lasts == Lasts::state) plan_.going_on |= 1u << i;
+            if (sounds[i].lasts == Lasts::session) plan_.throughout |= 1u << i;
+        }
+    }
+
+    /// The sounds of these names, which `where` begins.
+    uint32_t sounds(const std::vector<std::string>& names, const Place& where, const char* key) {
+        uint32_t out = 0;
+        for (const std::string& name : names) {
+            const int i = look_up(names_of(plan_.task.sounds), name, where, key,
+                                  "no sound of the task", diagnostics_);
+            if (i < 0 || i >= TaskPlan::kMostSounds) continue;
+            out |= 1u << i;
+            if ((plan_.throughout >> i & 1u) != 0)
+                error(where, key, fmt::format("'{}' lasts throughout the session", name),
+                      "Leave it out here, or let it last once or as long as a state.");
+        }
+        return out;
+    }
+
+    /// The sound that an exit begins.
+    uint32_t sound(const Exit& exit) {
+        if (exit.sound.empty()) return 0;
+        const uint32_t out = sounds({exit.sound}, exit.place, "sound");
+        if ((out & plan_.going_on) != 0)
+            error(
+                exit.place, "sound",
+                fmt::format("'{}' lasts as long as a state, and an exit has no length", exit.sound),
+                "Name it in the state that follows, or let it last once.");
+        return out;
     }
 
     void plan_intervals() {
@@ -220,6 +263,7 @@ class Planner {
         out.message = seen_.text(state.message, state.place, "message");
         seen_.plan_state(state, out);
         out.marker = state.marker;
+        out.sounds = sounds(state.sounds, state.place, "sounds");
         out.interval = state.interval;
         if (state.ask) out.question = question(*state.ask);
         check_answered(state);
@@ -398,6 +442,7 @@ class Planner {
         }
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
         out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
+        out.sounds = sound(exit);
         return out;
     }
 

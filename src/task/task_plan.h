@@ -39,6 +39,7 @@ struct TextNumber {
 
 struct TaskPlan {
     static constexpr size_t kMostStates = 64;  ///< sets of states are one bit each
+    static constexpr int kMostSounds = servo::TaskFrame::kMostSounds;  ///< and of sounds
 
     Task task;
     std::vector<Trial> trials;
@@ -58,6 +59,7 @@ struct TaskPlan {
         int state = -1;        ///< state that it leads to
         int outcome = -1;      ///< outcome that it ends the trial with; see outcome_of()
         int feedback = -1;
+        uint32_t sounds = 0;  ///< that it begins, one bit each
 
         /// Whether it comes whatever the hand does.
         bool comes() const {
@@ -105,6 +107,7 @@ struct TaskPlan {
         std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;
+        uint32_t sounds = 0;  ///< one bit each
         int interval = 0;
         std::optional<Question> question;
         std::vector<Put> puts;
@@ -156,6 +159,8 @@ struct TaskPlan {
     int countdown = -1;             ///< line that counts down
     std::vector<int> lines;         ///< messages that are shown throughout
     int object = -1;                ///< the scene's
+    uint32_t going_on = 0;          ///< sounds that last while states name them, one bit each
+    uint32_t throughout = 0;        ///< sounds that last throughout the session
 
     /// What formulas may name, and where its values go.
     struct Symbols {

@@ -17,6 +17,7 @@ FORCE_OFF, STOPPED, ABANDONED, PAUSED = 10, 21, 28, 29  # bits of a frame's stat
 
 class Force(Window):
     """On two fakes of real devices whose handles are pushed into the table, and what pushes back."""
+    real_rig = True
 
     def setUp(self):
         super().setUp()
@@ -113,7 +114,7 @@ class Force(Window):
         pathlib.Path(self.folder.name + "/mine.yaml").write_text(
             f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: 0}}]\n")
         self.open("calibration: mine.yaml\n")
-        self.key("F5")
+        self.ask_to_start()
         dialog = self.wait("the question", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration")).strip()
         time.sleep(0.5)
         self.xdotool("windowfocus", dialog)

@@ -56,6 +56,7 @@ class Rigs(Window):
 
     def on_fakes(self, together, more=""):
         """Two devices that nobody moves, and how far apart they are said to have been; `more`: of the rig."""
+        self.real_rig = True
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
         pathlib.Path(self.folder.name + "/mine.yaml").write_text(
             f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: {together}}}]\n")
@@ -82,7 +83,7 @@ class Rigs(Window):
         self.on_fakes(12)
         for answer, notes in [("Return", True), ("alt+s", False)]:
             before = len(glob.glob(self.out + "/*/raw.log"))
-            self.key("F5")
+            self.ask_to_start()
             self.dialog("^Does the calibration still hold")
             self.screenshot("together")
             self.key(answer)
@@ -99,7 +100,7 @@ class Rigs(Window):
 
     def test_that_cannot_start_ask_for_nothing_more(self):
         self.on_fakes(0, "outlets: [{ kind: serial, options: { port: /dev/no-such-line } }]\n")
-        self.key("F5")
+        self.ask_to_start()
         time.sleep(2)
         self.assertEqual(self.xdotool("search", "--onlyvisible", "--name", "^Does the calibration still hold"), "")
         self.assertEqual(glob.glob(self.out + "/*"), [])

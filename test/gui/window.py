@@ -39,6 +39,7 @@ def end_display(display):
 
 class Window(unittest.TestCase):
     """Each test has a display, a home and a window of its own."""
+    real_rig = False
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -139,9 +140,21 @@ class Window(unittest.TestCase):
 
     def start(self):
         before = len(glob.glob(self.out + "/*/raw.log"))
-        self.key("F5")
+        self.ask_to_start()
         self.wait("the start", lambda: len(glob.glob(self.out + "/*/raw.log")) > before)
         time.sleep(0.3)
+
+    def ask_to_start(self):
+        """With real devices the window shows its checklist first."""
+        self.key("F5")
+        if not self.real_rig:
+            return
+        list = self.wait("the checklist", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Before the session"))
+        self.xdotool("windowfocus", list.split()[-1])
+        time.sleep(0.3)
+        self.key("Return")
+        time.sleep(0.3)
+        self.xdotool("windowfocus", self.name)
 
     def ended(self, state):
         """The recording of the session that has just ended, in this state."""

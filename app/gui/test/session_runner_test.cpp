@@ -24,7 +24,8 @@ class SessionRunnerTest : public ::testing::Test {
         request.set = {"safety.max_pause_ms=1000"};  // long enough for a busy machine
         session::RunOptions options;
         options.out = folder_.path();
-        runner_.start(session::make_plan(request), options);
+        options.clock = session::Clock::real;
+        runner_.start(session::make_plan(request), options, 1);
     }
 
     /// Lets the window answer until `condition` holds; false when that takes over ten seconds.

@@ -86,6 +86,8 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
                   {"message", "value: what the participant was shown"},
                   {"line", "value: what the participant was shown below the message"},
                   {"page", "value: text or picture of the page that was shown"},
+                  {"sound", "value: the sound that began"},
+                  {"sound ends", "value: the sound that ended"},
                   {"marker", "value: the code that was sent"},
                   {"perturbation", "value: on or off"},
                   {"touch", "value: the finger, and what it touched"},

@@ -7,9 +7,10 @@
 
 namespace dihaptic::analysis {
 
-enum class Drawn { line, steps, points };
+/// faint: a thin line behind the others, which the legend leaves out.
+enum class Drawn { line, steps, points, faint };
 constexpr auto enum_names(Drawn) {
-    return std::array{"line", "steps", "points"};
+    return std::array{"line", "steps", "points", "faint"};
 }
 
 struct Series {

@@ -16,17 +16,6 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// Columns of the task's measures that are in the trials.
-std::vector<Table::Column> measured_columns(const SessionData& session) {
-    const CsvFile& trials = session.trials;
-    std::vector<Table::Column> out = measure_columns_of(session.task);
-    out.pop_back();  // what is not measured
-    std::erase_if(out, [&](const Table::Column& c) { return !trials.has(c.name); });
-    // of a session without the measures, a column of the same name is another
-    if (!trials.has(task::kNotMeasured)) out.clear();
-    return out;
-}
-
 /// How often a measure is missing, by why: "no movement (3), not over when its states ended (1)".
 std::string reasons(const CsvFile& trials, const std::string& measure) {
     std::vector<std::string> order;
@@ -162,6 +151,16 @@ Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Co
 }
 
 }  // namespace
+
+std::vector<Table::Column> measured_columns(const SessionData& session) {
+    const CsvFile& trials = session.trials;
+    std::vector<Table::Column> out = measure_columns_of(session.task);
+    out.pop_back();  // what is not measured
+    std::erase_if(out, [&](const Table::Column& c) { return !trials.has(c.name); });
+    // of a session without the measures, a column of the same name is another
+    if (!trials.has(task::kNotMeasured)) out.clear();
+    return out;
+}
 
 void add_measures(Page& page, const SessionData& session) {
     const std::vector<Table::Column> columns = measured_columns(session);

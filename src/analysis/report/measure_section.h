@@ -11,6 +11,8 @@
 
 namespace dihaptic::analysis {
 
+/// Columns of the task's measures that are in the trials.
+std::vector<Table::Column> measured_columns(const SessionData& session);
 /// Adds nothing for a task without measures.
 void add_measures(Page& page, const SessionData& session);
 /// Adds the means of each measure over a factor, where the experiment of these sessions has one.

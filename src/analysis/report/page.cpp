@@ -104,6 +104,12 @@ void Page::chart(Chart chart) {
     ++charts_;
 }
 
+void Page::picture(const std::string& svg, const std::string& caption) {
+    body_ += fmt::format(
+        "<figure class=\"picture\">{}<figcaption class=\"caption\">{}</figcaption></figure>\n", svg,
+        escaped_markup(caption));
+}
+
 std::string Page::html() const {
     const std::string hint =
         charts_ > 0 ? "<p class=\"hint caption\">Drag across a chart to zoom, Shift and drag to "

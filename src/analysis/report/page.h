@@ -24,6 +24,8 @@ class Page {
     /// Adds a chart. Series without a value are left out; a chart without series becomes a line
     /// that says so.
     void chart(Chart chart);
+    /// Adds a picture, which is SVG text.
+    void picture(const std::string& svg, const std::string& caption);
 
     std::string html() const;
 

@@ -25,10 +25,13 @@ for (const place of document.querySelectorAll(".chart")) {
   const series = {};
   chart.series.forEach((s, k) => {
     const points = s.drawn === "points";
+    const faint = s.drawn === "faint";
+    const colour = s.colour || colours[k % colours.length];
     series[s.name] = {
       stepPlot: s.drawn === "steps",
-      color: s.colour || colours[k % colours.length],
-      strokeWidth: points ? 0 : 2,
+      color: faint ? colour + "40" : colour,
+      strokeWidth: points ? 0 : faint ? 1 : 2,
+      highlightCircleSize: faint ? 0 : 3,
       drawPoints: points,
       pointSize: 2.5,
     };
@@ -42,6 +45,10 @@ for (const place of document.querySelectorAll(".chart")) {
     customBars: intervals,
     connectSeparatedPoints: true,
     legend: "always",
+    legendFormatter(data) {
+      const named = data.series.filter((s) => chart.series.some((c) => c.name === s.label && c.drawn !== "faint"));
+      return Dygraph.Plugins.Legend.defaultFormatter.call(this, { ...data, series: named });
+    },
     labelsDiv: place.nextElementSibling,
     digitsAfterDecimal: 3,
     axisLabelFontSize: 12,

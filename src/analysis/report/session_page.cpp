@@ -8,7 +8,11 @@
 #include <map>
 
 #include "analysis/lifts.h"
+#include "analysis/report/course.h"
+#include "analysis/report/lift_curves.h"
 #include "analysis/report/measure_section.h"
+#include "analysis/report/methods_text.h"
+#include "analysis/report/reach_paths.h"
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
 #include "base/palette.h"
@@ -18,8 +22,6 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLongest = 60;       // longest session that is drawn as a whole [s]
-constexpr size_t kMostPoints = 1500;  // most points of a curve over time
 constexpr const char* kPeak = "#000000";
 
 /// Facts about the session, for the head of the page.
@@ -79,15 +81,12 @@ Table outcomes(const SessionData& session) {
     return table;
 }
 
-/// Adds each curve's windows, with their intervals, and the models' parameters.
-void add_windows(Page& page, const SessionData& session,
-                 const std::vector<std::optional<AdaptationFits>>& all_fits) {
+/// Each curve's windows, with their intervals.
+Table windows_of(const SessionData& session) {
     Table table;
     table.columns = {
         {"round", ""}, {"figure", ""}, {"mean", ""}, {"95 %", "over these trials"}, {"of", ""}};
-    Table rates{{{"round", ""}, {"parameter", ""}, {"fitted", ""}, {"95 %", "profile"}}, {}};
-    for (size_t c = 0; c < session.curves.size(); ++c) {
-        const AdaptationCurve& curve = session.curves[c];
+    for (const AdaptationCurve& curve : session.curves) {
         FigureLister list;
         curve.list_landmarks(list);
         // after measure, unit and perturbation, each mean has a column, and its interval two
@@ -97,14 +96,21 @@ void add_windows(Page& page, const SessionData& session,
             table.rows.push_back({curve.round, list.columns[i].name, at(i),
                                   in_words({at(i + 1), at(i + 2)}), list.columns[i].description});
         }
+    }
+    return table;
+}
+
+/// The models' parameters, with their intervals.
+Table rates_of(const SessionData& session,
+               const std::vector<std::optional<AdaptationFits>>& all_fits) {
+    Table rates{{{"round", ""}, {"parameter", ""}, {"fitted", ""}, {"95 %", "profile"}}, {}};
+    for (size_t c = 0; c < session.curves.size(); ++c) {
         if (!all_fits[c]) continue;
         for (const FittedParameter& p : parameters(all_fits[c]))
-            rates.rows.push_back({curve.round, std::string(p.what), p.value, *p.interval});
+            rates.rows.push_back(
+                {session.curves[c].round, std::string(p.what), p.value, *p.interval});
     }
-    if (!table.rows.empty())
-        page.table(table, "Compensation in windows of one block each. " + origin_of(session));
-    if (!rates.rows.empty())
-        page.table(rates, "Models fitted to the curves. " + origin_of(session));
+    return rates;
 }
 
 /// Adds a curve trial by trial: a chart, and rows of the table.
@@ -180,7 +186,10 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         row("note", curve.note(), "", "what is not measured");
         add_row(out.fits, row);
     }
-    add_windows(out.page, session, all_fits);
+    if (const Table windows = windows_of(session); !windows.rows.empty())
+        out.page.table(windows, "Compensation in windows of one block each. " + origin_of(session));
+    if (const Table rates = rates_of(session, all_fits); !rates.rows.empty())
+        out.page.table(rates, "Models fitted to the curves. " + origin_of(session));
     out.blocks = block_table(session.curves);
     out.page.folded_table("Compensation by block", out.blocks);
 }
@@ -371,120 +380,41 @@ void add_lifts(SessionPage& out, const SessionData& session) {
     }
 }
 
-/// Thins a curve to the least and largest value of each stretch, in their order, so that it keeps
-/// every peak.
-void thin(Series& series) {
-    if (series.x.size() <= kMostPoints) return;
-    const size_t stretch = (2 * series.x.size() + kMostPoints - 1) / kMostPoints;
-    Series out{series.name, series.drawn, {}, {}, {}, {}, series.colour};
-    for (size_t first = 0; first < series.x.size(); first += stretch) {
-        const auto begin = series.y.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end = series.y.begin() +
-                         static_cast<std::ptrdiff_t>(std::min(first + stretch, series.y.size()));
-        auto [low, high] = std::minmax_element(begin, end);
-        if (high < low) std::swap(low, high);
-        for (const auto i : {low, high}) {
-            out.x.push_back(series.x[static_cast<size_t>(i - series.y.begin())]);
-            out.y.push_back(*i);
-        }
-    }
-    series = std::move(out);
-}
-
-/// The part of the session that is drawn over time.
-struct Excerpt {
-    double from = 0;  // [s]
-    double to = kLongest;
-    std::string what = "The session";
-};
-
-/// The whole of a short session, or the first complete lift of a long one; nullopt if it has none.
-std::optional<Excerpt> excerpt_of(const SessionData& session, const recording::LogHead& head) {
-    if (session.info.ticks * head.tick <= kLongest) return Excerpt{};
-    if (!session.lifts) return std::nullopt;
-    size_t i = 0;
-    while (i < session.lifts->rows() && session.lifts->text(i, "lift") != "complete") ++i;
-    if (i == session.lifts->rows()) return std::nullopt;
-    return Excerpt{session.lifts->number(i, "touch_s") - 0.3,
-                   session.lifts->number(i, "release_s") + 0.3,
-                   fmt::format("Trial {}", session.lifts->text(i, "trial_num"))};
-}
-
-/// Forces and height over time.
-struct Course {
-    Series grip{"grip force", Drawn::line, {}, {}, {}, {}, palette::kGrip};
-    Series load{"load force", Drawn::line, {}, {}, {}, {}, palette::kLoad};
-    Series height{"height", Drawn::line, {}, {}, {}, {}, {}};
-    std::vector<Series> sent;  // force sent, by finger
-    std::vector<Mark> marks;   // beginnings of phases
-};
-
-Course read_course(const SessionData& session, recording::RawLogReader& log, const Excerpt& excerpt,
-                   const std::function<void(double)>& progress) {
-    const auto& bodies = log.head().bodies;
-    const auto found = std::find(bodies.begin(), bodies.end(), session.info.object);
-    const auto object = static_cast<size_t>(found - bodies.begin());
-    Course out;
-    for (const std::string& finger : log.head().fingers)
-        out.sent.push_back({finger, Drawn::line, {}, {}, {}, {}, palette::finger(out.sent.size())});
-    int phase = -1;
-    while (const servo::Frame* frame = log.next()) {
-        const double t = seconds(frame->time);
-        if (progress) progress(log.share());
-        if (t > excerpt.to) break;
-        if (t < excerpt.from) continue;
-        if (frame->phase != phase) {
-            phase = frame->phase;
-            const auto k = static_cast<size_t>(phase);
-            if (phase >= 0 && k < session.info.phases.size())
-                out.marks.push_back({t, session.info.phases[k].name});
-        }
-        const auto add = [&](Series& series, double y) {
-            series.x.push_back(t);
-            series.y.push_back(y);
-        };
-        if (log.head().fingers.size() > 1) {
-            add(out.grip, frame->grip_force);
-            add(out.load, frame->load_force);
-        }
-        if (object < bodies.size()) add(out.height, 1e3 * frame->bodies[object].X_WB.p.z());
-        for (size_t f = 0; f < out.sent.size(); ++f)
-            add(out.sent[f], frame->fingers[f].f_sent_W.norm());
-    }
-    for (Series* series : {&out.grip, &out.load, &out.height}) thin(*series);
-    for (Series& series : out.sent) thin(series);
-    return out;
-}
-
-void add_course(SessionPage& out, const SessionData& session, recording::RawLogReader& log,
-                const std::function<void(double)>& progress) {
-    const std::optional<Excerpt> excerpt = excerpt_of(session, log.head());
-    if (!excerpt) return;
-    const Course course = read_course(session, log, *excerpt, progress);
-    out.page.heading(excerpt->what + " over time");
-    const auto chart = [&](std::string title, const char* unit, std::vector<Series> series) {
-        out.page.chart({std::move(title), "time [s]", unit, origin_of(session), std::move(series),
-                        course.marks});
-    };
-    if (!course.grip.x.empty()) chart("Grip and load", "N", {course.grip, course.load});
-    chart("Force sent to each device", "N", course.sent);
-    if (!course.height.x.empty())
-        chart("Height of the " + session.info.object, "mm", {course.height});
-}
-
 /// Adds what the log shows, and what is wrong with it: it may have been damaged since the tables
 /// were made.
 void add_log(SessionPage& out, const SessionData& session,
              const std::function<void(double)>& progress) {
     recording::RawLogReader log(session.folder.raw_log());
     session.folder.check_log(session.info, log.head());
-    add_course(out, session, log, progress);
+    LiftCurves lifts(session, log.head().tick);
+    ReachPaths reaches(session, log.head());
+    CourseCharts course(session, log.head());
+    while (const servo::Frame* frame = log.next()) {
+        if (progress) progress(log.share());
+        lifts.see(*frame);
+        reaches.see(*frame);
+        course.see(*frame);
+    }
+    lifts.add_to(out.page, origin_of(session));
+    reaches.add_to(out.page, origin_of(session));
+    course.add_to(out.page, origin_of(session));
     const recording::LogHealth& health = log.read_to_end();
     for (const std::string& what : recording::describe_version(health)) out.page.text(what + ".");
     if (!health.damaged(session.info.ticks)) return;
     out.log = recording::describe(health, session.info.ticks, log.head().planned());
     out.page.heading("The log is not whole");
     for (const std::string& what : out.log) out.page.text(what + ".");
+}
+
+/// Adds what was done and found in sentences.
+void add_text(SessionPage& out, const SessionData& session) {
+    const bool lifted = session.lifts && session.lifts->rows() > 0;
+    const MethodsText text =
+        methods_text(session, out, windows_of(session), lifted ? lift_summary(session) : Table{});
+    out.page.heading("In words");
+    out.page.text("A beginning for a paper's methods and results: the figures are those above.");
+    for (const std::string& paragraph : text.methods) out.page.text(paragraph);
+    for (const std::string& paragraph : text.results) out.page.text(paragraph);
 }
 
 }  // namespace
@@ -522,6 +452,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
     // a rehearsal has no log
     if (is_there(session.folder.raw_log())) add_log(out, session, progress);
+    add_text(out, session);
     out.page.heading("Settings");
     out.page.folded_table("All settings, with where each came from", read_settings(session.folder));
     return out;

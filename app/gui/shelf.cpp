@@ -1,0 +1,106 @@
+#include "shelf.h"
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QStandardPaths>
+
+#include "session/plan.h"
+
+namespace dihaptic::gui {
+namespace {
+
+/// How long what the file has takes; empty if nobody can tell.
+QString length_of(const session::Plan& plan) {
+    if (plan.task) {
+        const auto trials = plan.task->trials.size();
+        return QString("%1 trial%2").arg(trials).arg(trials == 1 ? "" : "s");
+    }
+    if (plan.open_ended()) return "";
+    return QString("%1 s").arg(plan.driver->duration(), 0, 'f', 0);
+}
+
+}  // namespace
+
+Shelf::~Shelf() {
+    stop();
+}
+
+QString Shelf::picture_of(const QString& file) {
+    QCryptographicHash hash(QCryptographicHash::Sha1);
+    QFile content(file);
+    // an experiment's picture is its scene's too, which may change: the program's version tells
+    // apart what it draws, and no more is needed of a small picture
+    if (content.open(QIODevice::ReadOnly)) hash.addData(content.readAll());
+    hash.addData(QFileInfo(file).absoluteFilePath().toUtf8());
+    hash.addData(QCoreApplication::applicationVersion().toUtf8());
+    const QString folder =
+        QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + "/pictures";
+    QDir().mkpath(folder);
+    return folder + "/" + QString::fromLatin1(hash.result().toHex()) + ".png";
+}
+
+void Shelf::read(const QStringList& files) {
+    stop();
+    to_draw_ = files;
+    thread_ = std::jthread([this, files](const std::stop_token& stop) {
+        for (const QString& file : files) {
+            if (stop.stop_requested()) return;
+            session::Request request;
+            request.file = file.toStdString();
+            request.participant = "S01";
+            request.simulate = true;
+            request.stop = stop;
+            QString title = QFileInfo(file).completeBaseName();
+            QString length;
+            try {
+                const session::Plan plan = session::make_plan(request);
+                if (!plan.title.empty()) title = QString::fromStdString(plan.title);
+                length = length_of(plan);
+            } catch (const std::exception&) {
+                // what is wrong with it is said when it is opened
+            }
+            QMetaObject::invokeMethod(
+                this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
+        }
+    });
+    draw_next();
+}
+
+void Shelf::draw_next() {
+    while (!to_draw_.isEmpty()) {
+        const QString file = to_draw_.takeFirst();
+        const QString picture = picture_of(file);
+        if (QFileInfo::exists(picture)) {
+            Q_EMIT drawn(file, picture);
+            continue;
+        }
+        drawing_ = new QProcess(this);
+        connect(drawing_, &QProcess::finished, this, [=, this](int code) {
+            drawing_->deleteLater();
+            drawing_ = nullptr;
+            if (code == 0) Q_EMIT drawn(file, picture);
+            draw_next();
+        });
+        drawing_->setStandardErrorFile(QProcess::nullDevice());
+        drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
+                        {"picture", file, "--size", "480x300", "-o", picture});
+        return;
+    }
+}
+
+void Shelf::stop() {
+    to_draw_.clear();
+    if (drawing_ != nullptr) {
+        drawing_->disconnect(this);
+        drawing_->kill();
+        drawing_->waitForFinished();
+        delete drawing_;
+        drawing_ = nullptr;
+    }
+    thread_ = {};  // asks it to stop, and waits
+}
+
+}  // namespace dihaptic::gui

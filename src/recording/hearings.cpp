@@ -1,0 +1,40 @@
+#include "recording/hearings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/regular_file.h"
+#include "base/table.h"
+
+namespace dihaptic::recording {
+
+void HearingsWriter::add(const Hearing& hearing) {
+    if (!out_.is_open()) {
+        out_.open(file_);
+        out_ << "tick,sound,asked_s,heard_s\n";
+    }
+    out_ << fmt::format("{},{},{:.6f},{:.6f}\n", hearing.tick, to_csv(Table::Cell(hearing.sound)),
+                        hearing.asked, hearing.heard);
+}
+
+std::vector<Hearing> read_hearings(const SessionFolder& folder) {
+    const std::string file = folder.file("heard.csv");
+    std::error_code unreadable;
+    // the program may have been killed before it wrote the first line
+    if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return {};
+    const CsvFile table(file);
+    std::vector<Hearing> out;
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const double tick = table.number(i, "tick");
+        const Hearing hearing{std::isfinite(tick) ? static_cast<int64_t>(tick) : -1,
+                              table.text(i, "sound"), table.number(i, "asked_s"),
+                              table.number(i, "heard_s")};
+        // the last line may be cut off, if the program was killed
+        if (hearing.tick >= 0 && std::isfinite(hearing.heard)) out.push_back(hearing);
+    }
+    return out;
+}
+
+}  // namespace dihaptic::recording

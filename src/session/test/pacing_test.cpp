@@ -1,0 +1,115 @@
+// Tests sessions on the virtual clock that a window watches: their pace, pauses and single ticks,
+// and that none of these changes what is computed.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "recording/raw_log.h"
+#include "session/live.h"
+#include "session/replay.h"
+#include "session/test/reaches.h"
+
+namespace dihaptic::session::pacing_test {
+namespace {
+
+using std::chrono::milliseconds;
+using Wall = std::chrono::steady_clock;
+
+/// A session of two trials in a thread of its own.
+struct Watched {
+    Files files;
+    Live live;
+    RunResult result;
+    std::atomic<bool> over{false};
+    std::thread thread;
+
+    Watched() { files.keep_first_block(); }
+    ~Watched() {
+        live.ended = true;
+        join();
+    }
+    void start() {
+        const Plan plan = make_plan(files.request());
+        RunOptions options;
+        options.out = files.folder.file("sessions");
+        options.live = &live;
+        thread = std::thread([this, plan, options] {
+            result = run_session(plan, options, kGoOn, {});
+            over = true;
+        });
+    }
+    void join() {
+        if (thread.joinable()) thread.join();
+    }
+    int64_t tick() { return live.frame.read().sequence; }
+    /// Waits until something holds, ten seconds at most.
+    template <class Condition>
+    bool until(const Condition& condition) {
+        for (int i = 0; i < 10000; ++i) {
+            if (condition()) return true;
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+        return false;
+    }
+};
+
+TEST(Pacing, KeepsThePaceThatIsAskedFor) {
+    Watched session;
+    session.live.pace = 5;
+    const auto begin = Wall::now();
+    session.start();
+    session.join();
+    const double took = std::chrono::duration<double>(Wall::now() - begin).count();
+    // no more can be said on a busy machine: it may be slower
+    EXPECT_GE(took, session.result.simulated / 5 - 0.05);
+    EXPECT_GT(session.result.simulated, 1);
+}
+
+TEST(Pacing, APauseAndSingleTicksChangeNothingOfWhatIsComputed) {
+    Watched session;
+    session.live.pace = 1;
+    session.start();
+    ASSERT_TRUE(session.until([&] { return session.tick() > 50; }));
+    session.live.paused = true;
+    std::this_thread::sleep_for(milliseconds(50));
+    const int64_t held = session.live.frame.read().sequence;
+    std::this_thread::sleep_for(milliseconds(100));
+    EXPECT_EQ(session.tick(), held);
+    session.live.steps = 8;
+    EXPECT_TRUE(session.until([&] { return session.tick() >= held + 8; }));
+    std::this_thread::sleep_for(milliseconds(20));
+    // before it paused, a frame was handed over each 4 ms of session time
+    EXPECT_LE(session.tick(), held + 12);
+    session.live.pace = 0;
+    session.live.paused = false;
+    session.join();
+    EXPECT_FALSE(session.result.interrupted);
+    EXPECT_TRUE(replay_session(session.result.folder, kGoOn, {}).good());
+
+    Files alone;
+    alone.keep_first_block();
+    const RunResult same = alone.run(make_plan(alone.request()));
+    EXPECT_EQ(session.result.ticks, same.ticks);
+    recording::RawLogReader one(session.result.folder + "/raw.log");
+    recording::RawLogReader other(same.folder + "/raw.log");
+    while (const servo::Frame* frame = one.next()) {
+        const servo::Frame* twin = other.next();
+        ASSERT_NE(twin, nullptr);
+        ASSERT_EQ(outcome_of(*frame), outcome_of(*twin)) << "tick " << frame->sequence;
+    }
+}
+
+TEST(Pacing, APausedSessionEndsWhenItIsAskedTo) {
+    Watched session;
+    session.live.paused = true;
+    session.start();
+    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_FALSE(session.over);
+    session.live.ended = true;
+    session.join();
+    EXPECT_TRUE(session.result.interrupted);
+}
+
+}  // namespace
+}  // namespace dihaptic::session::pacing_test

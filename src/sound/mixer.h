@@ -1,0 +1,74 @@
+// Mixes sounds into a stream of samples, each to begin a fixed time after it was ordered, to the
+// sample.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "base/ring.h"
+#include "sound/wave.h"
+
+namespace dihaptic::sound {
+
+/// A sound that is to begin, or to end.
+struct Order {
+    int64_t tick = 0;
+    int32_t sound = -1;
+    bool begins = true;
+    double asked = 0;  ///< session time [s]
+    int64_t at = 0;    ///< the same by the clock of the stream [ns]
+};
+
+/// When a sound began to be heard.
+struct Onset {
+    int64_t tick = 0;
+    int32_t sound = -1;
+    double asked = 0;  ///< session time [s]
+    double heard = 0;  ///< session time [s]
+};
+
+class Mixer {
+  public:
+    /// `delay`: from an order to the sound [s].
+    Mixer(std::vector<Wave> waves, double rate, double delay);
+
+    /// From one thread: hands over an order; neither waits nor allocates. False when too many wait.
+    bool order(const Order& order) noexcept { return orders_.push(order); }
+    /// From a second thread: the next samples of the stream. `first`: when the first of them is
+    /// heard, by the stream's clock [ns]. Neither waits nor allocates.
+    void render(std::span<float> out, int64_t first) noexcept;
+    /// From a third thread: the oldest onset not yet taken.
+    std::optional<Onset> take_onset() { return onsets_.pop(); }
+
+    double rate() const noexcept { return rate_; }
+    /// Sounds that were left out, because too many were heard at once.
+    int64_t left_out() const noexcept { return left_out_.load(std::memory_order_relaxed); }
+
+  private:
+    struct Voice {
+        int32_t sound = -1;  // -1: free
+        int64_t wait = 0;    // samples until it begins
+        size_t at = 0;       // next sample of the wave
+        int64_t age = 0;     // samples since it began
+        int64_t ends = -1;   // samples until it begins to fade; -1: not known
+        int64_t faded = 0;   // samples since then
+    };
+    int64_t samples_until(int64_t at, int64_t first) const noexcept;
+    void take(const Order& order, int64_t first) noexcept;
+    void begin(const Order& order, int64_t first) noexcept;
+    void mix(Voice& voice, std::span<float> out) noexcept;
+
+    static constexpr size_t kMostVoices = 32;
+    static constexpr size_t kMostOrders = 1024;
+
+    std::vector<Wave> waves_;
+    double rate_;
+    int64_t delay_;  // [ns]
+    std::array<Voice, kMostVoices> voices_;
+    ValueRing<Order> orders_{kMostOrders};
+    ValueRing<Onset> onsets_{kMostOrders};
+    std::atomic<int64_t> left_out_{0};
+};
+
+}  // namespace dihaptic::sound

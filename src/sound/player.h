@@ -1,0 +1,52 @@
+// Plays a task's sounds while its session runs: takes the ticks' orders from the servo, which never
+// waits for it, and writes heard.csv, which tells when each sound was heard.
+#pragma once
+
+#include <thread>
+
+#include "recording/hearings.h"
+#include "rig/sound.h"
+#include "servo/frame.h"
+#include "task/sound.h"
+
+namespace dihaptic::sound {
+
+class Sink;
+
+/// Sounds that cannot be made, with why, go to `diagnostics`.
+void check(const std::vector<task::SoundSpec>& sounds, const rig::SoundOutput& output,
+           Diagnostics& diagnostics);
+
+class Player {
+  public:
+    struct Plan {
+        const std::vector<task::SoundSpec>& sounds;
+        const rig::SoundOutput& output;
+        uint64_t seed;
+        bool real;  ///< on the real clock
+    };
+    /// Throws Error when the sounds cannot be played.
+    Player(const Plan& plan, const recording::SessionFolder& folder);
+    ~Player();
+    Player(const Player&) = delete;
+    Player& operator=(const Player&) = delete;
+
+    /// In the tick. On the real clock it neither waits nor allocates.
+    void hear(const servo::Frame& frame) noexcept;
+    /// After the last tick: returns what went wrong, in words.
+    std::vector<std::string> finish();
+
+  private:
+    void tend();
+    void run();
+
+    std::vector<std::string> names_;
+    std::unique_ptr<Sink> sink_;
+    recording::HearingsWriter hearings_;
+    bool real_;
+    std::atomic<int64_t> lost_{0};
+    std::atomic<bool> done_{false};
+    std::thread thread_;  // on the real clock
+};
+
+}  // namespace dihaptic::sound

@@ -1,0 +1,42 @@
+// Where a mixer's stream goes: to speakers, or to a file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "rig/sound.h"
+#include "sound/mixer.h"
+
+namespace dihaptic::sound {
+
+class Sink {
+  public:
+    virtual ~Sink() = default;
+
+    virtual Mixer& mixer() noexcept = 0;
+    /// In a tick of this session time: what time it is by the stream's clock [ns].
+    virtual int64_t clock(Time session) const noexcept = 0;
+    /// In the tick, once its orders are given. Neither waits nor allocates.
+    virtual void pass(Time) noexcept {}
+    /// Call every few milliseconds, from a thread that is not the servo's.
+    virtual void tend() {}
+    /// Call after the last tick: returns what went wrong, in words.
+    virtual std::vector<std::string> finish() = 0;
+};
+
+/// Opens the system's sound device, or the one that is named. Throws Error when it cannot.
+std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
+                                    const rig::SoundOutput& output);
+
+/// Writes a WAV file of one channel in which the session's time is counted from its beginning.
+/// Throws Error when it cannot be written.
+std::unique_ptr<Sink> open_file(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
+                                const rig::SoundOutput& output, const std::string& file);
+
+/// The samples of all sounds.
+std::vector<Wave> make_waves(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
+                             double rate);
+
+}  // namespace dihaptic::sound

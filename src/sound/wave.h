@@ -1,0 +1,25 @@
+// Makes the samples of a task's sounds, before a session begins.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "task/sound.h"
+
+namespace dihaptic::sound {
+
+struct Wave {
+    std::vector<float> samples;  ///< of one channel, from -1 to 1
+    bool goes_on = false;        ///< the first sample follows the last one
+    double ramp = 0;             ///< in which a wave that goes on swells and fades [s]
+};
+
+/// Largest error of the frequency of a tone that goes on: it is made to fit a whole number of times
+/// into its samples.
+constexpr double kDetuned = 1e-6;
+
+/// `rate`: samples in a second. `seed`: of noise. Throws Error when the sound's file cannot be
+/// read.
+Wave make_wave(const task::SoundSpec& sound, double rate, uint64_t seed);
+
+}  // namespace dihaptic::sound

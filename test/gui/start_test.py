@@ -1,0 +1,62 @@
+"""What the window shows when no file is named: pictures of what there is to begin with."""
+import glob
+import subprocess
+import time
+import unittest
+
+import window
+from window import PROGRAM, Window, patient
+
+
+class StartPage(Window):
+    def open_without_a_file(self):
+        self.log = open(self.folder.name + "/log", "w+")
+        self.addCleanup(self.log.close)
+        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out], env=self.environment, stdout=self.log,
+                                       stderr=self.log)
+        self.addCleanup(self.window.wait)
+        self.addCleanup(self.window.kill)
+        name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic$"))
+        self.name = name.split()[-1]
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *window.SIZE.split("x"), "windowfocus",
+                     self.name)
+        time.sleep(1)
+
+    def title(self):
+        return self.xdotool("getwindowname", self.name).strip()
+
+    def pictures(self):
+        return glob.glob(self.folder.name + "/.cache/**/*.png", recursive=True)
+
+    def test_shows_what_there_is_and_opens_what_is_chosen(self):
+        self.open_without_a_file()
+        self.wait("pictures", lambda: len(self.pictures()) >= 4)
+        time.sleep(1)
+        self.screenshot("start-page")
+        self.key("Return")  # the first one
+        self.wait("a scene", lambda: self.title().endswith(" - Dihaptic"))
+        self.settle()
+        self.screenshot("start-chosen")
+        # back, and to what was open
+        self.key("alt+f", "t")
+        time.sleep(1)
+        self.key("alt+n")
+        time.sleep(1)
+        self.screenshot("start-recent")
+        self.quit()
+
+    def test_leaves_the_computer_to_a_session(self):
+        self.open_without_a_file()
+        self.wait("a picture", self.pictures)
+        self.key("Return")
+        self.wait("a scene", lambda: self.title().endswith(" - Dihaptic"))
+        time.sleep(1)
+        before = len(self.pictures())
+        self.start()
+        time.sleep(2)
+        self.assertEqual(len(self.pictures()), before)
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()
