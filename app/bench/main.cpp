@@ -12,6 +12,7 @@
 #include "bench/jitter.h"
 #include "bench/mechanics.h"
 #include "bench/scale.h"
+#include "bench/scrub.h"
 #include "bench/solvers.h"
 #include "bench/task.h"
 #include "bench/view.h"
@@ -321,6 +322,22 @@ void add_chain(CLI::App& app) {
     });
 }
 
+void add_scrub(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("scrub", "How soon any moment of a recorded session is there");
+    auto session = std::make_shared<std::string>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("SESSION", *session, "folder of a session")->required();
+    add_json(*command, *json);
+    command->footer("\nExample:\n  dihaptic-bench scrub sessions/2026-11-20_101500_lift-block");
+    command->callback([session, json] {
+        const auto figures = with_progress("bench scrub", [&](const measure::Progress& progress) {
+            return bench::bench_scrub(*session, progress);
+        });
+        fmt::print("{}", *json ? json_of(figures) : figure_text(figures));
+    });
+}
+
 void add_view(CLI::App& app) {
     auto* command = app.add_subcommand(
         "view", "What a picture costs, beside the same one with a plain shadow map");
@@ -357,6 +374,7 @@ int main(int argc, char** argv) {
     cli::add_task(app);
     cli::add_mechanics(app);
     cli::add_chain(app);
+    cli::add_scrub(app);
     cli::add_view(app);
     return cli::run_program(app, argc, argv);
 }

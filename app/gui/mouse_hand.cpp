@@ -9,7 +9,11 @@ namespace {
 /// The box in which a hand at a desk can be [m].
 const Vec3 kLeast(-0.3, -0.25, 0.005);
 const Vec3 kMost(0.3, 0.25, 0.4);
-constexpr double kWidest = 0.16;  // largest aperture [m]
+constexpr double kBeyond = 0.5;    // how far the pointer may go beyond that box [m]
+constexpr double kWidest = 0.16;   // largest aperture [m]
+constexpr double kStrongest = 16;  // grip of a strong hand [N]
+constexpr double kQuickly = 3;     // lets go of what it holds, over how it opens
+constexpr double kHeld = 0.5;      // grip force of a hand that holds something [N]
 
 }  // namespace
 
@@ -20,16 +24,34 @@ void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int hei
     Vec3 away(sight.x(), sight.y(), 0);
     away = away.norm() > 1e-6 ? Vec3(away.normalized()) : Vec3(0, 1, 0);
     const Vec3 right = away.cross(Vec3::UnitZ());
-    const double distance = std::max(0.01, (goal_.centre - camera.position).dot(sight));
+    const double distance = std::max(0.01, (pointer_ - camera.position).dot(sight));
     const double scale = 2 * distance * std::tan(camera.field_of_view / 2) / std::max(1, height);
     const Vec3 up = in_depth ? away : Vec3::UnitZ();
-    goal_.centre += scale * (pixels.x() * right - pixels.y() * up);
-    goal_.centre = goal_.centre.cwiseMax(kLeast).cwiseMin(kMost);
+    pointer_ += scale * (pixels.x() * right - pixels.y() * up);
+    const Vec3 beyond = Vec3::Constant(kBeyond);
+    pointer_ = pointer_.cwiseMax(kLeast - beyond).cwiseMin(kMost + beyond);
+    goal_.centre = pointer_.cwiseMax(kLeast).cwiseMin(kMost);
 }
 
 void MouseHand::turn(const QPointF& pixels) {
     goal_.yaw += kTurn * pixels.x();
     goal_.roll = std::clamp(goal_.roll + kTurn * pixels.y(), -M_PI / 2, M_PI / 2);
+}
+
+void MouseHand::set_grip(double grip) {
+    grip_ = grip;
+    // what was held is gone: the fingers are not to cross
+    if (!(grip > kHeld)) goal_.aperture = std::max(0.0, goal_.aperture);
+}
+
+void MouseHand::go_back() {
+    pointer_ = goal_.centre = start_.centre;
+    goal_.yaw = start_.yaw;
+    goal_.roll = start_.roll;
+}
+
+double MouseHand::grip_of(double peak_force) {
+    return std::min(peak_force / 2, kStrongest);
 }
 
 void MouseHand::wheel(double notches) {
@@ -42,8 +64,11 @@ void MouseHand::squeeze(Squeeze keys, double h) {
 }
 
 void MouseHand::close(double way) {
-    if (way > 0 && grip_ > kMostGrip) return;  // so letting go takes effect at once
-    goal_.aperture = std::clamp(goal_.aperture - way, 0.0, kWidest);
+    if (way > 0 && grip_ > most_grip_) return;  // so letting go takes effect at once
+    const bool held = grip_ > kHeld;
+    if (way < 0 && held) way *= kQuickly;
+    goal_.aperture =
+        std::clamp(goal_.aperture - way, held ? hand::MouseDriver::kTightest : 0.0, kWidest);
 }
 
 }  // namespace dihaptic::gui

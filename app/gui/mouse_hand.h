@@ -18,19 +18,27 @@ class MouseHand {
   public:
     static constexpr double kNotch = 0.003;    ///< aperture per notch of the wheel [m]
     static constexpr double kKeySpeed = 0.08;  ///< speed of the aperture while a key is held [m/s]
-    static constexpr double kMostGrip = 4;     ///< grip force above which it closes no further [N]
+    static constexpr double kMostGrip = 4;     ///< usual value of `most_grip` [N]
     static constexpr double kTurn = 0.008;     ///< turn by a drag [rad/pixel]
 
     enum class Squeeze { none, close, open };
 
-    explicit MouseHand(const hand::Posture& start) : goal_(start) {}
+    /// `most_grip`: grip force above which it closes no further [N].
+    explicit MouseHand(const hand::Posture& start, double most_grip = kMostGrip)
+        : start_(start), goal_(start), pointer_(start.centre), most_grip_(most_grip) {}
+
+    /// Grip force up to which a mouse squeezes with devices of this peak force: half of it, so that
+    /// a hand can also lift with what is left [N].
+    static double grip_of(double peak_force);
 
     /// The pointer went `pixels` (x right, y down) in a picture of `height` pixels, seen by
     /// `camera`. `in_depth`: toward the person and away, in place of up and down.
     void move(const QPointF& pixels, const scene::Camera& camera, int height, bool in_depth);
     void turn(const QPointF& pixels);
+    /// To where it began, as far open as it is.
+    void go_back();
     /// Grip force now [N]; NaN with one finger.
-    void set_grip(double grip) { grip_ = grip; }
+    void set_grip(double grip);
     /// `notches`: positive closes the hand.
     void wheel(double notches);
     /// `keys` were held for `h` seconds.
@@ -41,7 +49,12 @@ class MouseHand {
   private:
     void close(double way);
 
+    hand::Posture start_;
     hand::Posture goal_;
+    /// Where the pointer would have the hand, if there were no end of the desk: the hand comes back
+    /// when the pointer does.
+    Vec3 pointer_;
+    double most_grip_;
     double grip_ = 0;
 };
 

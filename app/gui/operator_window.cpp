@@ -41,11 +41,11 @@ const QString kMouseHelp =
     "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
     "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
     "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.\n"
-    "H: the hand stays, or moves on.   Escape: force off.";
+    "H: the hand stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
 const QString kFingerHelp =
     "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
     "Right drag: look around.   Ctrl + wheel: zoom.\n"
-    "H: the finger stays, or moves on.   Escape: force off.";
+    "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
 
 /// A simulated person, unless the operator gives it another name.
 const std::string kSimulated = "sim-001";
@@ -80,6 +80,14 @@ session::Clock clock_of(const session::Plan& plan, double pace) {
     return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
                ? session::Clock::virtual_clock
                : session::Clock::real;
+}
+
+/// Peak force of the weakest device [N].
+double least_peak(const session::Plan& plan) {
+    double out = std::numeric_limits<double>::infinity();
+    for (const devices::DeviceInfo& device : plan.devices)
+        out = std::min(out, plan.settings.safety.largest_force(device.peak_force));
+    return out;
 }
 
 /// How the rig's patch is in a frame; nullopt: there is none.
@@ -262,6 +270,11 @@ void OperatorWindow::make_session_menu() {
     pause_action_ = add("&Pause, or go on", Qt::Key_F6, [this] { pause(!runner_.paused()); });
     stop_action_ = add("S&top", Qt::Key_F7, &OperatorWindow::stop);
     skip_action_ = add("S&kip the trial", Qt::Key_F8, &OperatorWindow::skip);
+    back_action_ = add("&Hand back to its start", Qt::Key_F4, [this] {
+        if (!mouse_) return;
+        mouse_->go_back();
+        move_hand(0);
+    });
     step_action_ = session->addAction("Do &one tick", QKeySequence("Ctrl+."), this,
                                       [this] { runner_.step(1); });
     // Application sees this key, whichever widget has the keyboard focus
@@ -600,7 +613,7 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     const session::Plan& plan = runner_.plan();
     trials_->set_plan(plan.task);
     if (plan.mouse) {
-        mouse_.emplace(plan.mouse->goal());
+        mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
         const bool squeezes = plan.scene.fingers.size() > 1;
         scene_->set_hand(&*mouse_, squeezes);
         scene_->set_help(squeezes ? kMouseHelp : kFingerHelp);
@@ -840,6 +853,7 @@ void OperatorWindow::update_state() {
     start_action_->setEnabled(now == State::ready || now == State::opening);
     pause_action_->setEnabled(runs);
     stop_action_->setEnabled(runs || now == State::opening);
+    back_action_->setEnabled(now == State::running && mouse_);
     step_action_->setEnabled(now == State::paused && runner_.on_virtual_clock());
     skip_action_->setEnabled(now == State::running && has_trials());
     force_off_action_->setEnabled(now == State::running);

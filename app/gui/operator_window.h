@@ -165,6 +165,7 @@ class OperatorWindow : public QMainWindow {
     QAction* stop_action_ = nullptr;
     QAction* skip_action_ = nullptr;
     QAction* step_action_ = nullptr;
+    QAction* back_action_ = nullptr;
     QAction* force_off_action_ = nullptr;
     QAction* calibrate_action_ = nullptr;
     QAction* register_action_ = nullptr;

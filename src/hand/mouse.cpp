@@ -24,7 +24,7 @@ MouseDriver::Coordinates MouseDriver::coordinates(const Posture& posture) {
 
 void MouseDriver::follow(const Posture& goal, double t) noexcept {
     goal_ = goal;
-    goal_.aperture = std::max(0.0, goal.aperture);
+    goal_.aperture = std::max(kTightest, goal.aperture);
     way_.from = way_.at(t);
     way_.start = t;
     way_.goal = coordinates(goal_);

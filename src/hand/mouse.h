@@ -24,6 +24,9 @@ struct Posture {
 class MouseDriver final : public Driver {
   public:
     static constexpr double kFollow = 0.04;  // [s]
+    /// Smallest aperture. Hands are soft: to squeeze hard, fingers aim at places behind each other
+    /// [m].
+    static constexpr double kTightest = -0.06;
 
     /// Starts as a script of `spec` would. Fingers with a centre or an aperture of their own keep
     /// its difference from the hand's. Throws Error as finger_places() does.

@@ -57,6 +57,51 @@ TEST_F(MouseHandTest, StaysAtTheDesk) {
     EXPECT_GT(mouse.goal().centre.z(), 0);
 }
 
+TEST_F(MouseHandTest, ComesBackWithThePointerFromTheEndOfTheDesk) {
+    for (int i = 0; i < 50; ++i) mouse.move({0, 10}, camera, 600, false);
+    EXPECT_NEAR(mouse.goal().centre.z(), 0.005, 1e-12);
+    for (int i = 0; i < 50; ++i) mouse.move({0, -10}, camera, 600, false);
+    EXPECT_NEAR(mouse.goal().centre.z(), start.centre.z(), 2e-3);
+}
+
+TEST_F(MouseHandTest, GoesBackToWhereItBeganAndHoldsWhatItHolds) {
+    moved({300, -200}, false);
+    mouse.turn({50, 50});
+    mouse.wheel(5);
+    const double aperture = mouse.goal().aperture;
+    mouse.go_back();
+    EXPECT_EQ(mouse.goal().centre, start.centre);
+    EXPECT_EQ(mouse.goal().yaw, start.yaw);
+    EXPECT_EQ(mouse.goal().aperture, aperture);
+    EXPECT_NEAR((moved({10, 0}, false)).norm(), 0.01, 0.01);
+}
+
+TEST_F(MouseHandTest, SqueezesAsHardAsItsDevicesLetIt) {
+    EXPECT_EQ(MouseHand::grip_of(8.5), 4.25);
+    EXPECT_EQ(MouseHand::grip_of(60), 16);  // 800 g of silk need 11
+    MouseHand strong(start, 12);
+    strong.set_grip(11);
+    strong.wheel(1);
+    EXPECT_LT(strong.goal().aperture, start.aperture);
+    strong.set_grip(12.5);
+    const double held = strong.goal().aperture;
+    strong.wheel(1);
+    EXPECT_EQ(strong.goal().aperture, held);
+}
+
+TEST_F(MouseHandTest, AimsBehindWhatItHoldsAndNeverCrossesItsFingersWithoutIt) {
+    mouse.wheel(100);
+    EXPECT_EQ(mouse.goal().aperture, 0);
+    mouse.set_grip(2);
+    mouse.wheel(5);
+    EXPECT_NEAR(mouse.goal().aperture, -5 * MouseHand::kNotch, 1e-12);
+    mouse.set_grip(0);
+    EXPECT_EQ(mouse.goal().aperture, 0);
+    mouse.set_grip(std::nan(""));  // of one finger
+    mouse.wheel(5);
+    EXPECT_EQ(mouse.goal().aperture, 0);
+}
+
 TEST_F(MouseHandTest, SqueezesByWheelAndKeys) {
     mouse.wheel(2);
     EXPECT_NEAR(mouse.goal().aperture, 0.08 - 2 * MouseHand::kNotch, 1e-12);

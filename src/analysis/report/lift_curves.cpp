@@ -7,6 +7,7 @@
 
 #include "analysis/report/statistics.h"
 #include "base/palette.h"
+#include "base/plural.h"
 #include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
@@ -117,7 +118,8 @@ Chart LiftCurves::chart_of(const std::string& condition, const std::string& orig
     out.series.push_back(mean_of("grip force", palette::kGrip, grip));
     out.series.push_back(mean_of("load force", palette::kLoad, load));
     out.caption =
-        fmt::format("{} complete lifts{}; mean and standard deviation of all. {}", own.size(),
+        fmt::format("{}{}; mean and standard deviation of all. {}",
+                    counted(static_cast<int64_t>(own.size()), "complete lift"),
                     stride > 1 ? fmt::format(", of which each {}th is drawn", stride) : "", origin);
     return out;
 }

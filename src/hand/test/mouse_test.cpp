@@ -97,12 +97,12 @@ TEST(MouseDriver, MovesTheFingersOfSeveralHandsTogether) {
     EXPECT_LT((driver.target(0, 5).p_WT - Vec3(-0.02, 0.02, 0.13)).norm(), 1e-9);
 }
 
-TEST(MouseDriver, NeverClosesBeyondItself) {
+TEST(MouseDriver, AimsBehindItselfNoFurtherThanItsBound) {
     MouseDriver driver(spec(), kPair);
     Posture goal = driver.goal();
     goal.aperture = -0.1;
     driver.follow(goal, 0);
-    EXPECT_EQ(driver.goal().aperture, 0);
+    EXPECT_EQ(driver.goal().aperture, MouseDriver::kTightest);
 }
 
 TEST(MouseDriver, RefusesFingersThatThereAreNot) {

@@ -63,7 +63,7 @@ TEST(LiftCurves, AreAlignedAtLiftOffByConditionAndPerturbation) {
     const std::string html = page.html();
     EXPECT_TRUE(has(html, "Lifts: light&quot;"));
     EXPECT_TRUE(has(html, "Lifts: light, load, catch&quot;"));
-    EXPECT_TRUE(has(html, "1 complete lifts; mean"));
+    EXPECT_TRUE(has(html, "1 complete lift; mean"));
     EXPECT_FALSE(has(html, "trial 3"));
     // from 0.6 s before lift-off on, in steps of 10 ms
     EXPECT_TRUE(has(html, "[9.4,9.41,9.42,"));
