@@ -15,6 +15,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScreen>
 #include <QScrollArea>
 #include <QSettings>
 #include <QShortcut>
@@ -115,6 +116,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
       trials_(new TrialsPanel),
       devices_(new DevicePanel),
       tuning_(new TuningPanel),
+      composer_(new Composer),
       log_(new LogView) {
     setWindowTitle("Dihaptic");
     centre_->addWidget(scene_);
@@ -202,6 +204,9 @@ void OperatorWindow::connect_reports() {
 }
 
 void OperatorWindow::connect_files() {
+    connect(composer_, &Composer::edited, this, &OperatorWindow::reload);
+    connect(composer_, &Composer::saved, this, &OperatorWindow::reload);
+    connect(composer_, &Composer::modified, save_action_, &QAction::setEnabled);
     connect(start_page_, &StartPage::chosen, this, &OperatorWindow::open);
     connect(start_page_, &StartPage::open_requested, this, &OperatorWindow::choose_file);
     connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
@@ -234,9 +239,12 @@ void OperatorWindow::make_docks() {
     plots->raise();
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
+    compose_dock_ = add("File", composer_, Qt::LeftDockWidgetArea);
+    compose_dock_->hide();
     resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
     resizeDocks({tuning_dock, plots}, {262, 250}, Qt::Vertical);  // shows all of the first
     resizeDocks({plots}, {380}, Qt::Horizontal);
+    resizeDocks({compose_dock_}, {480}, Qt::Horizontal);
 }
 
 void OperatorWindow::make_file_menu() {
@@ -246,6 +254,13 @@ void OperatorWindow::make_file_menu() {
     start_page_action_ = file->addAction("S&tart page", this, &OperatorWindow::show_start_page);
     recent_menu_ = file->addMenu("Open &recent");
     connect(recent_menu_, &QMenu::aboutToShow, this, &OperatorWindow::fill_recent);
+    edit_action_ = file->addAction("&Edit", QKeySequence("Ctrl+E"), this, [this] {
+        compose_dock_->show();
+        composer_->take_focus();
+    });
+    save_action_ =
+        file->addAction("Sa&ve", QKeySequence::Save, this, [this] { composer_->save(); });
+    save_action_->setEnabled(false);
     file->addAction("Recorded &sessions ...", QKeySequence("Ctrl+Shift+O"), this,
                     &OperatorWindow::choose_session);
     file->addAction("&Folder of sessions", this, [this] {
@@ -327,7 +342,8 @@ void OperatorWindow::make_view_menu() {
 
 void OperatorWindow::restore() {
     const QSettings settings;
-    if (!restoreGeometry(settings.value("geometry").toByteArray())) resize(1400, 900);
+    if (!restoreGeometry(settings.value("geometry").toByteArray()))
+        resize(QSize(1400, 900).boundedTo(screen()->availableSize()));
     restoreState(settings.value("docks").toByteArray());
 }
 
@@ -403,9 +419,9 @@ void OperatorWindow::play_session(const QString& folder) {
     }
 }
 
-session::Request OperatorWindow::request() const {
+session::Request OperatorWindow::request(const QString& file) const {
     session::Request request;
-    request.file = file_.toStdString();
+    request.file = file.toStdString();
     request.rig = session_->rig().toStdString();
     request.mouse = session_->hand() == SessionPanel::Hand::mouse;
     request.simulate = session_->hand() == SessionPanel::Hand::person;
@@ -422,7 +438,17 @@ void OperatorWindow::show_start_page() {
     centre_->setCurrentWidget(start_page_);
 }
 
+bool OperatorWindow::may_leave_text() {
+    if (!composer_->changed()) return true;
+    const auto answer = QMessageBox::question(
+        this, "Save?", QString("%1 has changes that were not saved.").arg(file_),
+        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && composer_->save());
+}
+
 void OperatorWindow::open(const QString& file) {
+    if (!may_leave_text()) return;
+    composer_->forget();
     start_page_->rest();
     centre_->setCurrentWidget(scene_);
     file_ = file;
@@ -445,7 +471,8 @@ void OperatorWindow::reload() {
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
     changed_ = runner_.running() || starts_;
     if (changed_) return;
-    loader_.load({request(), false, false, ""});
+    composer_->open(file_);
+    loader_.load({request(composer_->source()), false, false, ""});
     update_state();
 }
 
@@ -457,9 +484,12 @@ void OperatorWindow::opened(const Opened& opened) {
     frame_ = opened.frame;
     complaint_.clear();
     // of real devices that have been opened, more may be known than before
-    if (!starts_ || rig::is_real(plan_->rig)) {
-        for (const Problem& warning : plan_->warnings)
-            log(QString::fromStdString(warning.text()), true);
+    QStringList warnings;
+    for (const Problem& warning : plan_->warnings)
+        warnings += QString::fromStdString(warning.text());
+    composer_->show_problems(warnings);
+    if ((!starts_ || rig::is_real(plan_->rig)) && !composer_->changed()) {
+        for (const QString& warning : warnings) log(warning, true);
     }
     workspaces_ = opened.workspaces;
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
@@ -480,7 +510,7 @@ void OperatorWindow::opened(const Opened& opened) {
         const recording::Participant asked = *std::exchange(starts_, std::nullopt);
         return run(*plan_, opened.participant.value_or(asked), std::move(devices));
     }
-    log(QString("opened %1: %2").arg(file_, title));
+    if (!composer_->changed()) log(QString("opened %1: %2").arg(file_, title));
     update_state();
     if (start_when_opened_) start();
 }
@@ -488,9 +518,12 @@ void OperatorWindow::opened(const Opened& opened) {
 void OperatorWindow::refused(const QStringList& problems) {
     start_when_opened_ = false;
     starts_.reset();
-    complaint_ = problems.front();
-    for (const QString& problem : problems) log(problem, true);
-    if (plan_) log("What was open stays as it is.");
+    composer_->show_problems(problems);
+    if (!composer_->changed()) {  // who types sees what is wrong where it is
+        complaint_ = problems.front();
+        for (const QString& problem : problems) log(problem, true);
+        if (plan_) log("What was open stays as it is.");
+    }
     update_state();
     if (changed_) reload();
 }
@@ -586,7 +619,8 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
 
 void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
     if (!plan_ || runner_.running() || loader_.loading()) return;
-    session::Request asked = request();
+    if (resumes.empty() && !composer_->save()) return;
+    session::Request asked = request(file_);
     asked.participant = participant.id;
     starts_ = participant;
     loader_.load({asked, true, session_->hand() == SessionPanel::Hand::person, resumes});
@@ -885,6 +919,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
         event->ignore();
         return;
     }
+    if (!ended_ && !may_leave_text()) return event->ignore();
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());

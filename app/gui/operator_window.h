@@ -12,6 +12,7 @@
 
 #include "calibrator.h"
 #include "checklist.h"
+#include "composer.h"
 #include "device_panel.h"
 #include "loader.h"
 #include "log_view.h"
@@ -125,7 +126,9 @@ class OperatorWindow : public QMainWindow {
     QString banner() const;
     void update_state();
     void log(const QString& text, bool problem = false);
-    session::Request request() const;
+    session::Request request(const QString& file) const;
+    /// Asks what becomes of changes of the text that were not saved; false: nothing is to be done.
+    bool may_leave_text();
 
     QString out_;
     double sync_;
@@ -157,8 +160,12 @@ class OperatorWindow : public QMainWindow {
     TrialsPanel* trials_;
     DevicePanel* devices_;
     TuningPanel* tuning_;
+    Composer* composer_;
     LogView* log_;
+    QDockWidget* compose_dock_ = nullptr;
     QAction* open_action_ = nullptr;
+    QAction* edit_action_ = nullptr;
+    QAction* save_action_ = nullptr;
     QAction* start_page_action_ = nullptr;
     QAction* start_action_ = nullptr;
     QAction* pause_action_ = nullptr;

@@ -1,0 +1,129 @@
+#include "composer.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QRegularExpression>
+#include <QSaveFile>
+#include <QVBoxLayout>
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr int kPause = 400;  // [ms]
+
+QString content_of(const QString& file) {
+    QFile in(file);
+    return in.open(QIODevice::ReadOnly) ? QString::fromUtf8(in.readAll()) : QString();
+}
+
+/// Writes a file as a whole; returns why it could not.
+QString write(const QString& file, const QString& text) {
+    QSaveFile out(file);
+    if (!out.open(QIODevice::WriteOnly) || out.write(text.toUtf8()) < 0 || !out.commit())
+        return out.errorString();
+    return "";
+}
+
+}  // namespace
+
+Composer::Composer(QWidget* parent)
+    : QWidget(parent), edit_(new CodeEdit), state_(new QLabel), save_(new QPushButton("Sa&ve")) {
+    edit_->setAccessibleName("File's text");
+    state_->setWordWrap(true);
+    state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    save_->setToolTip("Ctrl+S");
+    save_->setEnabled(false);
+    auto* below = new QHBoxLayout;
+    below->addWidget(state_, 1);
+    below->addWidget(save_);
+    auto* layout = new QVBoxLayout(this);
+    layout->addWidget(edit_, 1);
+    layout->addLayout(below);
+    pause_.setSingleShot(true);
+    pause_.setInterval(kPause);
+    connect(edit_, &QPlainTextEdit::textChanged, this, [this] {
+        if (changed()) pause_.start();
+    });
+    connect(edit_->document(), &QTextDocument::modificationChanged, this, [this](bool changed) {
+        save_->setEnabled(changed);
+        Q_EMIT modified(changed);
+    });
+    connect(&pause_, &QTimer::timeout, this, &Composer::edited);
+    connect(save_, &QPushButton::clicked, this, &Composer::save);
+}
+
+Composer::~Composer() {
+    remove_draft();
+}
+
+void Composer::forget() {
+    remove_draft();
+    file_.clear();
+    edit_->document()->setModified(false);
+}
+
+QString Composer::draft() const {
+    const QFileInfo file(file_);
+    return file.dir().filePath("." + file.completeBaseName() + ".draft.yaml");
+}
+
+void Composer::remove_draft() {
+    if (!file_.isEmpty()) QFile::remove(draft());
+}
+
+void Composer::open(const QString& file) {
+    const QString text = content_of(file);
+    if (file == file_ && (changed() || text == read_)) return;
+    remove_draft();
+    file_ = file;
+    read_ = text;
+    edit_->setPlainText(text);
+    edit_->document()->setModified(false);
+    pause_.stop();  // nobody typed this
+    edit_->setReadOnly(!QFileInfo(file).isWritable());
+    state_->setText(edit_->isReadOnly() ? "This file may not be written: copy it to a folder of "
+                                          "your own, and open the copy."
+                                        : "");
+}
+
+QString Composer::source() {
+    if (!changed()) return file_;
+    const QString why = write(draft(), edit_->toPlainText());
+    if (why.isEmpty()) return draft();
+    state_->setText(QString("The text cannot be checked as you type: %1: %2").arg(draft(), why));
+    return file_;
+}
+
+bool Composer::save() {
+    if (!changed()) return true;
+    const QString text = edit_->toPlainText();
+    if (const QString why = write(file_, text); !why.isEmpty()) {
+        state_->setText(QString("%1 cannot be written: %2").arg(file_, why));
+        return false;
+    }
+    read_ = text;
+    pause_.stop();
+    edit_->document()->setModified(false);
+    remove_draft();
+    Q_EMIT saved();
+    return true;
+}
+
+void Composer::show_problems(const QStringList& problems) {
+    static const QRegularExpression place(R"(^(.*?):(\d+): (.*)$)",
+                                          QRegularExpression::DotMatchesEverythingOption);
+    std::map<int, QString> marks;
+    QStringList all;
+    for (const QString& problem : problems) {
+        const auto match = place.match(problem);
+        const bool here =
+            match.hasMatch() && (match.captured(1) == file_ || match.captured(1) == draft());
+        if (here) marks[match.captured(2).toInt()] = match.captured(3);
+        all += here ? QString("line %1: %2").arg(match.captured(2), match.captured(3)) : problem;
+    }
+    edit_->mark(marks);
+    if (!edit_->isReadOnly()) state_->setText(all.join("\n"));
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,55 @@
+// The panel in which the open file is edited: its text, checked and shown as one types, and saved.
+// The file stays the truth: a session reads what was saved.
+#pragma once
+
+#include <QLabel>
+#include <QPushButton>
+#include <QTimer>
+#include <QWidget>
+
+#include "code_edit.h"
+
+namespace dihaptic::gui {
+
+class Composer : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit Composer(QWidget* parent = nullptr);
+    ~Composer() override;
+
+    /// Shows a file; what was not saved of another one is lost. Reads it again if it is the same
+    /// one, was changed by another program, and has no changes here.
+    void open(const QString& file);
+    bool changed() const { return edit_->document()->isModified(); }
+    /// What was not saved is lost.
+    void forget();
+    void take_focus() { edit_->setFocus(); }
+    /// Writes the file; false, and says why, if it cannot.
+    bool save();
+    /// The file to be read: the open one or, while it has changes that were not saved, a draft of
+    /// it beside it.
+    QString source();
+    /// What is wrong with what source() named: texts with "FILE:LINE: " before them.
+    void show_problems(const QStringList& problems);
+
+  Q_SIGNALS:
+    /// The text has changed, and is to be checked and shown.
+    void edited();
+    void saved();
+    /// Whether there is something to save.
+    void modified(bool changed);
+
+  private:
+    QString draft() const;
+    void remove_draft();
+
+    QString file_;
+    QString read_;  // text of the file as it was read or saved last
+    CodeEdit* edit_;
+    QLabel* state_;
+    QPushButton* save_;
+    QTimer pause_;  // until who types pauses
+};
+
+}  // namespace dihaptic::gui
