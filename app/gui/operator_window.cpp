@@ -770,7 +770,7 @@ void OperatorWindow::refresh() {
     }
     while (const auto sample = runner_.take_sample()) plots_->add(*sample);
     while (const auto end = runner_.take_trial_end()) trials_->add(*end);
-    const servo::Frame& frame = runner_.frame();
+    const servo::Frame& frame = runner_.read_frame();
     if (frame.sequence >= 0) {
         if (mouse_) move_hand(h);
         show_frame(frame);
@@ -838,8 +838,8 @@ void OperatorWindow::show_subject_window(bool shown) {
     if (!shown) return;
     const auto displays = plan_ ? plan_->rig.displays : std::vector<rig::Display>{};
     subjects_.open(displays);
-    if (plan_)
-        subjects_.set_scene(plan_->scene, runner_.running() ? runner_.frame() : frame_, displays);
+    const bool has_frame = runner_.running() && runner_.frame().sequence >= 0;
+    if (plan_) subjects_.set_scene(plan_->scene, has_frame ? runner_.frame() : frame_, displays);
     turn_workspaces();
     update_state();
 }

@@ -45,7 +45,14 @@ class SessionRunner : public QObject {
 
     // what follows, up to end(), only while running
     const session::Plan& plan() const { return session_->plan; }
-    const servo::Frame& frame() { return session_->live.frame.read(); }
+    /// The newest frame, which stays as it is until the next call: the servo then writes over what
+    /// was returned before, so that nothing may be kept of it.
+    const servo::Frame& read_frame() {
+        session_->read = &session_->live.frame.read();
+        return *session_->read;
+    }
+    /// What read_frame() returned last.
+    const servo::Frame& frame() const { return *session_->read; }
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
@@ -104,6 +111,7 @@ class SessionRunner : public QObject {
         session::Plan plan;
         std::unique_ptr<devices::DeviceGroup> devices;
         session::Live live;
+        const servo::Frame* read = &live.frame.read();
         session::Clock clock = session::Clock::real;
         servo::Knobs knobs;  ///< to be reached
         std::atomic<char> key{0};

@@ -46,7 +46,7 @@ class SessionRunnerTest : public ::testing::Test {
         EXPECT_TRUE(answer_until([&] { return timer.elapsed() >= ms; }));
     }
     double now() {
-        const servo::Frame& frame = runner_.frame();
+        const servo::Frame& frame = runner_.read_frame();
         return frame.sequence < 0 ? -1 : seconds(frame.time);
     }
     void grip() {
@@ -55,7 +55,7 @@ class SessionRunnerTest : public ::testing::Test {
         goal.aperture = 0.034;
         runner_.plan().mouse->follow(goal, now());
         answer_for(700);
-        ASSERT_GT(runner_.frame().grip_force, 0.3);
+        ASSERT_GT(runner_.read_frame().grip_force, 0.3);
     }
     /// Waits for the session's end; returns its frames.
     std::vector<servo::Frame> end() {
@@ -79,7 +79,7 @@ class SessionRunnerTest : public ::testing::Test {
 TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
     grip();
     QThread::msleep(6500);  // force goes off after 5 s for the picture and 1 s more
-    EXPECT_NE(runner_.frame().status & servo::kForceOff, 0u);
+    EXPECT_NE(runner_.read_frame().status & servo::kForceOff, 0u);
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
     EXPECT_TRUE(told.contains("the window has not answered for 1.")) << told.toStdString();
@@ -92,7 +92,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     grip();
     const double before = now();
     QThread::msleep(2500);  // the window's thread hangs
-    const servo::Frame& frame = runner_.frame();
+    const servo::Frame& frame = runner_.read_frame();
     EXPECT_NE(frame.status & servo::kForceOff, 0u);
     EXPECT_EQ(frame.fingers[0].f_sent_W, Vec3::Zero());
     QString told;
@@ -104,7 +104,7 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     EXPECT_EQ(now(), waits);
     runner_.set_paused(false);
     ASSERT_TRUE(answer_until([&] { return now() > waits + 0.5; }));
-    EXPECT_EQ(runner_.frame().status & servo::kForceOff, 0u);
+    EXPECT_EQ(runner_.read_frame().status & servo::kForceOff, 0u);
     runner_.end();
     for (const servo::Frame& f : end()) {
         if ((f.status & servo::kAbandoned) == 0) continue;
