@@ -160,8 +160,16 @@ void OperatorWindow::connect_subjects() {
     connect(&subjects_, &SubjectWindows::clicked, this, &OperatorWindow::click);
     connect(&subjects_, &SubjectWindows::closed, this,
             [this] { subject_action_->setChecked(false); });
-    connect(&subjects_, &SubjectWindows::complained, this,
-            [this](const QString& what) { log(what, true); });
+    connect(&subjects_, &SubjectWindows::told, this, &OperatorWindow::log);
+    connect(&subjects_, &SubjectWindows::headset_ended, this, [this] {
+        subject_action_->setChecked(false);
+        if (!runner_.running() || runner_.paused()) return;
+        pause(true);
+        complaint_ = "The headset shows nothing more.";
+        update_state();
+    });
+    connect(&subjects_, &SubjectWindows::shown_in_headset, this,
+            [this](const headset::Showing& showing) { runner_.note_shown(showing); });
     // pictures of what the first one shows count as seen
     connect(&subjects_, &SubjectWindows::presented, this,
             [this](qint64 tick) { runner_.note_shown(tick); });
@@ -493,7 +501,7 @@ void OperatorWindow::opened(const Opened& opened) {
     }
     workspaces_ = opened.workspaces;
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
-    subjects_.set_scene(plan_->scene, frame_, plan_->rig.displays);
+    subjects_.set_scene(plan_->scene, frame_, plan_->rig);
     plots_->set_scene(plan_->scene);
     tuning_->set_knobs(servo::Knobs::of(plan_->settings));
     devices_->set_devices(opened.devices);
@@ -643,8 +651,10 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     options.clock = clock_of(made, session_->pace());
     start_page_->rest();
     centre_->setCurrentWidget(scene_);
-    runner_.start(made, options, session_->pace(), std::move(devices));
+    runner_.start(made, options, session_->pace(), std::move(devices),
+                  made.rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
     const session::Plan& plan = runner_.plan();
+    follow_in_headset();
     trials_->set_plan(plan.task);
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
@@ -780,7 +790,7 @@ void OperatorWindow::refresh() {
 
 /// What the person looks at, first of all.
 SceneWidget& OperatorWindow::first_scene() {
-    return subjects_.empty() ? *scene_ : subjects_.first();
+    return subjects_.first() == nullptr ? *scene_ : *subjects_.first();
 }
 
 void OperatorWindow::show_frame(const servo::Frame& frame) {
@@ -836,12 +846,18 @@ void OperatorWindow::move_hand(double h) {
 void OperatorWindow::show_subject_window(bool shown) {
     subjects_.close();
     if (!shown) return;
-    const auto displays = plan_ ? plan_->rig.displays : std::vector<rig::Display>{};
-    subjects_.open(displays);
+    subjects_.open(plan_ ? plan_->rig : rig::Rig{});
     const bool has_frame = runner_.running() && runner_.frame().sequence >= 0;
-    if (plan_) subjects_.set_scene(plan_->scene, has_frame ? runner_.frame() : frame_, displays);
+    if (plan_) subjects_.set_scene(plan_->scene, has_frame ? runner_.frame() : frame_, plan_->rig);
+    follow_in_headset();
     turn_workspaces();
     update_state();
+}
+
+/// Lets the headset, if there is one, read the running session's frames.
+void OperatorWindow::follow_in_headset() {
+    if (HeadsetView* const headset = subjects_.headset(); headset && runner_.running())
+        headset->follow(runner_.plan().scene, runner_.second());
 }
 
 SessionPanel::State OperatorWindow::state() const {
@@ -871,10 +887,14 @@ QString OperatorWindow::message() const {
     return runner_.running() && page_ < 0 ? said_ : "";
 }
 
-void OperatorWindow::show_page(SceneWidget& scene) const {
-    if (!runner_.running() || page_ < 0) return scene.set_page("", "");
+QString OperatorWindow::page_text() const {
+    return runner_.running() && page_ >= 0 ? said_ : "";
+}
+
+QString OperatorWindow::page_picture() const {
+    if (!runner_.running() || page_ < 0) return "";
     const task::TaskPlan::Page& page = runner_.plan().task->pages[static_cast<size_t>(page_)];
-    scene.set_page(said_, QString::fromStdString(page.spec.picture));
+    return QString::fromStdString(page.spec.picture);
 }
 
 void OperatorWindow::update_state() {
@@ -898,12 +918,14 @@ void OperatorWindow::update_state() {
     session_->set_state(now, has_trials());
     tuning_->setEnabled(plan_.has_value());
     scene_->set_banner(banner());
-    show_page(*scene_);
+    scene_->set_page(page_text(), page_picture());
     show_question();
-    subjects_.each([&](SceneWidget& scene) {
-        scene.set_banner(message());
-        show_page(scene);
-    });
+    const auto show_words = [this](auto& to) {
+        to.set_banner(message());
+        to.set_page(page_text(), page_picture());
+    };
+    subjects_.each(show_words);
+    if (HeadsetView* const headset = subjects_.headset()) show_words(*headset);
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {

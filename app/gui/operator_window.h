@@ -115,13 +115,15 @@ class OperatorWindow : public QMainWindow {
     void show_frame(const servo::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
+    void follow_in_headset();
     void show_progress(const servo::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
     /// What the task says to the person over the scene; empty: nothing.
     QString message() const;
-    /// Shows the task's page, or that there is none.
-    void show_page(SceneWidget& scene) const;
+    /// Text and picture of the task's page that is shown; both empty: none.
+    QString page_text() const;
+    QString page_picture() const;
     /// The text over the scene: what to do next, or what is wrong.
     QString banner() const;
     void update_state();

@@ -22,8 +22,8 @@ PageView::PageView(QWidget* parent)
     hide();
 }
 
-void PageView::set_page(const QString& text, const QString& picture) {
-    if (text == text_ && picture == file_) return;
+bool PageView::set_page(const QString& text, const QString& picture) {
+    if (text == text_ && picture == file_) return false;
     text_ = text;
     if (picture != file_) whole_ = picture.isEmpty() ? QPixmap() : QPixmap(picture);
     file_ = picture;
@@ -31,6 +31,7 @@ void PageView::set_page(const QString& text, const QString& picture) {
     words_->setVisible(!text_.isEmpty());
     setVisible(!text_.isEmpty() || !file_.isEmpty());
     fit();
+    return true;
 }
 
 void PageView::resizeEvent(QResizeEvent* event) {

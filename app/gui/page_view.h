@@ -10,8 +10,9 @@ class PageView : public QWidget {
   public:
     explicit PageView(QWidget* parent);
 
-    /// `picture`: a file, or empty. Without text and picture there is no page.
-    void set_page(const QString& text, const QString& picture);
+    /// `picture`: a file, or empty. Without text and picture there is no page. Whether it was
+    /// another one before.
+    bool set_page(const QString& text, const QString& picture);
 
   protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -58,8 +58,10 @@ void SessionRunner::watch() {
 }
 
 void SessionRunner::start(session::Plan plan, session::RunOptions options, double pace,
-                          std::unique_ptr<devices::DeviceGroup> devices) {
+                          std::unique_ptr<devices::DeviceGroup> devices,
+                          std::shared_ptr<Latest<servo::Frame>> second) {
     session_ = std::make_unique<Session>();
+    session_->live.second = std::move(second);
     no_suspension_.emplace();
     session_->plan = std::move(plan);
     session_->devices = std::move(devices);

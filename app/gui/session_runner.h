@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/stop_signals.h"
+#include "headset/headset.h"
 #include "session/record.h"
 
 namespace dihaptic::gui {
@@ -33,8 +34,10 @@ class SessionRunner : public QObject {
 
     /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
     /// `options.live` itself. `pace`: of a session on the virtual clock, as for set_pace().
+    /// `second`: gets frames too, unless it is null.
     void start(session::Plan plan, session::RunOptions options, double pace,
-               std::unique_ptr<devices::DeviceGroup> devices = nullptr);
+               std::unique_ptr<devices::DeviceGroup> devices = nullptr,
+               std::shared_ptr<Latest<servo::Frame>> second = nullptr);
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
@@ -45,6 +48,8 @@ class SessionRunner : public QObject {
 
     // what follows, up to end(), only while running
     const session::Plan& plan() const { return session_->plan; }
+    /// The frames that start() was given to fill.
+    std::shared_ptr<Latest<servo::Frame>> second() const { return session_->live.second; }
     /// The newest frame, which stays as it is until the next call: the servo then writes over what
     /// was returned before, so that nothing may be kept of it.
     const servo::Frame& read_frame() {
@@ -83,6 +88,11 @@ class SessionRunner : public QObject {
     /// called at any time.
     void note_shown(int64_t tick) {
         if (running()) session_->live.note_shown(tick, session::Live::Clock::now());
+    }
+    /// The same of a headset. May be called at any time.
+    void note_shown(const headset::Showing& showing) {
+        if (running())
+            session_->live.note_shown(showing.tick, showing.at, showing.X_WV, showing.tracked);
     }
     /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }

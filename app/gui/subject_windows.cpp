@@ -2,11 +2,35 @@
 
 namespace dihaptic::gui {
 
-void SubjectWindows::open(const std::vector<rig::Display>& displays) {
+namespace {
+
+/// How many windows a rig has.
+size_t windows_of(const rig::Rig& rig) {
+    return rig.displays.empty() && !rig.headset ? 1 : rig.displays.size();
+}
+
+}  // namespace
+
+void SubjectWindows::open(const rig::Rig& rig) {
+    close();
+    for (const rig::Display& display : rig.displays) add(display);
+    if (rig.headset) return add(*rig.headset);
+    if (windows_.empty()) add(std::optional<rig::Display>());
+    connect(first(), &SceneWidget::presented, this, &SubjectWindows::presented);
+}
+
+void SubjectWindows::close() {
     windows_.clear();
-    for (const rig::Display& display : displays) add(display);
-    if (displays.empty()) add({});
-    connect(&first(), &SceneWidget::presented, this, &SubjectWindows::presented);
+    headset_.reset();
+}
+
+void SubjectWindows::add(const rig::Headset& headset) {
+    headset_ = std::make_unique<HeadsetView>(headset);
+    connect(headset_.get(), &HeadsetView::told, this, &SubjectWindows::told);
+    connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_in_headset);
+    // queued: who hears it deletes the headset
+    connect(headset_.get(), &HeadsetView::ended, this, &SubjectWindows::headset_ended,
+            Qt::QueuedConnection);
 }
 
 void SubjectWindows::add(const std::optional<rig::Display>& display) {
@@ -18,16 +42,18 @@ void SubjectWindows::add(const std::optional<rig::Display>& display) {
     connect(&window, &SubjectWindow::closed, this, &SubjectWindows::closed, Qt::QueuedConnection);
     const QString monitor = display ? QString::fromStdString(display->monitor) : "";
     if (const QString wrong = show_on(window, monitor, beside_); !wrong.isEmpty())
-        Q_EMIT complained(wrong);
+        Q_EMIT told(wrong, true);
 }
 
 void SubjectWindows::set_scene(const scene::Scene& scene, const servo::Frame& frame,
-                               const std::vector<rig::Display>& displays) {
-    if (windows_.empty()) return;
-    if (windows_.size() != std::max<size_t>(1, displays.size())) open(displays);
+                               const rig::Rig& rig) {
+    if (empty()) return;
+    if (windows_.size() != windows_of(rig) || (headset_ != nullptr) != rig.headset.has_value())
+        open(rig);
+    if (headset_) headset_->set_scene(scene, frame);
     for (size_t i = 0; i < windows_.size(); ++i) {
         SceneWidget& widget = windows_[i]->scene();
-        widget.set_display(displays.empty() ? std::nullopt : std::optional(displays[i]));
+        widget.set_display(rig.displays.empty() ? std::nullopt : std::optional(rig.displays[i]));
         widget.set_scene(scene, frame);
     }
 }

@@ -1,11 +1,12 @@
-// The windows that the subject looks at: one for each display of the rig, or one without a display.
+// What the subject looks at: a window for each display of the rig and its headset, or one window
+// without a display.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "rig/display.h"
-#include "scene/scene.h"
+#include "headset_view.h"
+#include "rig/rig.h"
 #include "subject_window.h"
 
 namespace dihaptic::gui {
@@ -17,15 +18,16 @@ class SubjectWindows : public QObject {
     /// `beside`: the operator's window, on whose monitor none is opened if there is another.
     explicit SubjectWindows(QWidget& beside) : beside_(beside) {}
 
-    /// Opens one for each display; without any, one all the same.
-    void open(const std::vector<rig::Display>& displays);
-    void close() { windows_.clear(); }
-    bool empty() const { return windows_.empty(); }
-    /// The scene that the subject looks at first of all; only unless it is empty.
-    SceneWidget& first() { return windows_.front()->scene(); }
-    /// Gives them a scene, and the displays of a rig that may be another one.
-    void set_scene(const scene::Scene& scene, const servo::Frame& frame,
-                   const std::vector<rig::Display>& displays);
+    /// Opens those of a rig.
+    void open(const rig::Rig& rig);
+    void close();
+    /// Whether the subject looks at the operator's window.
+    bool empty() const { return windows_.empty() && !headset_; }
+    /// The window that the subject looks at first of all; null: none.
+    SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
+    HeadsetView* headset() { return headset_.get(); }
+    /// Gives them a scene, and a rig that may be another one.
+    void set_scene(const scene::Scene& scene, const servo::Frame& frame, const rig::Rig& rig);
     /// Calls f(SceneWidget&) for each.
     template <class F>
     void each(const F& f) {
@@ -39,14 +41,20 @@ class SubjectWindows : public QObject {
     void clicked(double share);
     /// The picture of a tick was handed to the screen that the subject looks at first of all.
     void presented(qint64 tick);
-    /// A monitor is not there.
-    void complained(const QString& what);
+    /// The same of a headset.
+    void shown_in_headset(const dihaptic::headset::Showing& showing);
+    /// The headset shows nothing more.
+    void headset_ended();
+    /// A monitor is not there, or what a headset has to tell.
+    void told(const QString& what, bool problem);
 
   private:
     void add(const std::optional<rig::Display>& display);
+    void add(const rig::Headset& headset);
 
     QWidget& beside_;
     std::vector<std::unique_ptr<SubjectWindow>> windows_;
+    std::unique_ptr<HeadsetView> headset_;
 };
 
 }  // namespace dihaptic::gui

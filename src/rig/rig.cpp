@@ -133,6 +133,7 @@ void place_world(Rig& rig) {
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
     if (rig.wall) rig.wall->centre -= rig.origin;
     for (Display& display : rig.displays) display.move(-rig.origin);
+    if (rig.headset) rig.headset->position -= rig.origin;
     rig.moved_by = rig.origin;
     rig.origin = Vec3::Zero();
 }

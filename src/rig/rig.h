@@ -6,6 +6,7 @@
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
 #include "rig/display.h"
+#include "rig/headset.h"
 #include "rig/sound.h"
 
 namespace dihaptic::rig {
@@ -86,6 +87,7 @@ struct Rig {
     std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     std::vector<Display> displays;
+    std::optional<Headset> headset;
     std::optional<Patch> patch;
     std::optional<SoundOutput> sound;  ///< unset: the system's default
     Node settings;                     ///< settings that this rig asks for (servo::Settings)
@@ -108,6 +110,9 @@ struct Rig {
         v("displays", displays,
           says("Where the person sees screens, and with which eyes; left out, the scene's camera "
                "says what is seen."));
+        v("headset", headset,
+          says(
+              "Headset that the person wears: where it is in the world; left out, there is none."));
         v("patch", patch,
           says("Square for a photodiode, in a corner of what the person sees first."));
         v("sound", sound,

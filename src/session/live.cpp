@@ -7,6 +7,9 @@ namespace dihaptic::session {
 
 void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
     for (servo::Frame& value : frame.values()) servo.reserve(value);
+    if (second) {
+        for (servo::Frame& value : second->values()) servo.reserve(value);
+    }
     object_ = scene.object_index();
     clearance_ = task::Clearance(scene);
     changeable_ = servo.settings().proxy.changeable;
@@ -21,10 +24,21 @@ void Live::note_zero(Time now) noexcept {
     if (zero < before || zero - before > kPause) zero_.store(zero, std::memory_order_relaxed);
 }
 
+double Live::session_time(Clock::time_point at) const noexcept {
+    return seconds(at.time_since_epoch() - Clock::duration(zero_.load(std::memory_order_relaxed)));
+}
+
 void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
-    const Clock::rep zero = zero_.load(std::memory_order_relaxed);
-    const Time since = at.time_since_epoch() - Clock::duration(zero);
-    showings_.push({tick, seconds(since)});
+    showings_.push({tick, session_time(at)});
+}
+
+void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept {
+    if (tick != shown_tick_) note_shown(tick, at);  // a picture more of the same tick, of a pause
+    shown_tick_ = tick;
+    const Vec3& p = X_WV.p;
+    const Quat& R = X_WV.R;
+    heads_.push(
+        {tick, session_time(at), {p.x(), p.y(), p.z()}, {R.w(), R.x(), R.y(), R.z()}, tracked});
 }
 
 /// Hands over an attempt in its last tick, the only one that has its outcome.
@@ -55,6 +69,7 @@ void Live::show(const servo::Frame& now) noexcept {
     if (now.sequence == 0 || now.time - shown_ >= kInterval || paused) {
         shown_ = now.time;
         frame.publish(now);
+        if (second) second->publish(now);
     }
     if (now.sequence > 0 && now.time - sampled_ < kCurveInterval) return;
     sampled_ = now.time;

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "base/latest.h"
 #include "base/ring.h"
+#include "recording/heads.h"
 #include "recording/showings.h"
 #include "servo/servo.h"
 #include "task/clearance.h"
@@ -51,6 +53,8 @@ struct Live {
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
     Latest<servo::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
+    /// If set before the session starts: the same for a second thread, such as a headset's.
+    std::shared_ptr<Latest<servo::Frame>> second;
     /// While set, time stands still. On the real clock no force acts, from the next tick on, and a
     /// trial that a pause interrupts begins anew.
     std::atomic<bool> paused{false};
@@ -104,11 +108,16 @@ struct Live {
 
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
+    /// The same in a headset. `X_WV`: of the head then; V is between the eyes, with x right, y up
+    /// and z backward. `tracked`: it was measured, not guessed.
+    void note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept;
     /// From one other thread: the oldest showing not yet taken.
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }
+    std::optional<recording::HeadSeen> take_head() { return heads_.pop(); }
 
   private:
     void note_zero(Time now) noexcept;
+    double session_time(Clock::time_point at) const noexcept;
     void note_trial(const servo::Frame& now) noexcept;
 
     static constexpr Clock::rep kNever = 0;
@@ -120,6 +129,8 @@ struct Live {
     std::atomic<Clock::rep> zero_{
         std::numeric_limits<Clock::rep>::max()};    // of the session's clock
     ValueRing<recording::Showing> showings_{4000};  // a minute's worth
+    ValueRing<recording::HeadSeen> heads_{4000};
+    int64_t shown_tick_ = -1;              // window's thread: last in a headset
     ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
     ValueRing<TrialEnd> trial_ends_{400};
     TrialEnd trial_;  // that runs

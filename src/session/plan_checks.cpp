@@ -201,6 +201,17 @@ void check_patch(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
+/// Warns of what a person in a headset cannot do or see.
+void check_headset(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task || !plan.rig.headset) return;
+    for (const task::State& state : plan.task->task.states) {
+        if (!state.ask || state.ask->by != task::AnswerBy::mouse) continue;
+        diagnostics.warning(state.place, "ask", "is not shown in a headset, which has no mouse",
+                            "Use by: key, or by: cursor.");
+        return;
+    }
+}
+
 /// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
@@ -494,6 +505,7 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_proxy(plan, diagnostics);
     check_textures(plan, diagnostics);
     check_patch(plan, diagnostics);
+    check_headset(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
     check_columns(plan, diagnostics);

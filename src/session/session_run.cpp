@@ -320,13 +320,18 @@ void Run::run_ticks() {
         commands.stop = commands.stop || (recorder_ && recorder_->failed());
     };
     recording::ShowingsWriter showings(folder_);
+    recording::HeadsWriter heads(folder_);
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
         if (live_ == nullptr) return;
         while (const auto showing = live_->take_showing()) {
             if (real_) showings.add(*showing);  // nobody saw a rehearsal in its own time
         }
+        while (const auto head = live_->take_head()) {
+            if (real_) heads.add(*head);
+        }
         showings.flush();
+        heads.flush();
     });
     if (real_) {
         run_real_ticks(director, sink);

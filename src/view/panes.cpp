@@ -55,4 +55,20 @@ std::vector<Pane> panes(const rig::Display& display, double beyond) {
     return {left, right};
 }
 
+Viewpoint viewpoint(const Pose& X_WE, const FieldOfView& sees, double nearest, double furthest) {
+    const double left = std::tan(sees.left), right = std::tan(sees.right);
+    const double up = std::tan(sees.up), down = std::tan(sees.down);
+    Eigen::Matrix4d clip_from_eye;
+    clip_from_eye << 2 / (right - left), 0, (right + left) / (right - left), 0,  //
+        0, 2 / (up - down), (up + down) / (up - down), 0,                        //
+        0, 0, -(furthest + nearest) / (furthest - nearest),
+        -2 * furthest * nearest / (furthest - nearest),  //
+        0, 0, -1, 0;
+    const Pose X_EW = X_WE.inverse();
+    Eigen::Matrix4d eye_from_world = Eigen::Matrix4d::Identity();
+    eye_from_world.topLeftCorner<3, 3>() = X_EW.R.toRotationMatrix();
+    eye_from_world.topRightCorner<3, 1>() = X_EW.p;
+    return {X_WE.p, clip_from_eye * eye_from_world};
+}
+
 }  // namespace dihaptic::view

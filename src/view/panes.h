@@ -35,4 +35,13 @@ struct Pane {
 /// the left eye and one for the right. `beyond`: how far behind the screen things are drawn [m].
 std::vector<Pane> panes(const rig::Display& display, double beyond);
 
+/// How far to each side an eye of a headset sees, from straight ahead; left and down are negative,
+/// and all within a quarter turn [rad].
+struct FieldOfView {
+    double left = 0, right = 0, up = 0, down = 0;
+};
+/// What such an eye sees at X_WE: E has x right, y up, and z backward, as in OpenXR. Things are
+/// drawn between these distances before it [m].
+Viewpoint viewpoint(const Pose& X_WE, const FieldOfView& sees, double nearest, double furthest);
+
 }  // namespace dihaptic::view

@@ -317,6 +317,11 @@ Shown SceneView::draw(const servo::Frame& frame, const rig::Display& display, in
     return parts_->draw(frame, panes(display, kPlaneSize), width, height, overlays);
 }
 
+Shown SceneView::draw(const servo::Frame& frame, std::span<const Pane> panes, int width, int height,
+                      const Overlays& overlays) {
+    return parts_->draw(frame, panes, width, height, overlays);
+}
+
 Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> all, int new_width,
                              int new_height, const Overlays& overlays) {
     const KeepTarget target;

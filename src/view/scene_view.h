@@ -77,6 +77,9 @@ class SceneView {
     /// The same as the eyes see it on a display.
     Shown draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
                const Overlays& overlays = {});
+    /// The same in parts, each from its own viewpoint.
+    Shown draw(const servo::Frame& frame, std::span<const Pane> panes, int width, int height,
+               const Overlays& overlays = {});
 
     /// Pictures are drawn with so many pixels as a share of their width and height, and enlarged:
     /// for machines that draw in software. 1 at the beginning.

@@ -53,6 +53,26 @@ TEST(RigFile, OriginPutsTheWorldIntoItsFrame) {
     EXPECT_EQ(wall_box(again)->sizes(), Vec3(0.2, 0.16, 0.12));
 }
 
+TEST(RigFile, PlacesAHeadset) {
+    Diagnostics diagnostics;
+    testing::TemporaryFolder folder;
+    const std::string devices = "devices: [{finger: index, backend: simulated}]\n";
+    const Rig rig =
+        read_rig(folder.write("rig.yaml",
+                              devices + "origin_mm: [0, 20, 0]\nheadset: {space: local, "
+                                        "position_mm: [10, 20, 30], rotation_deg: [0, 0, 90]}\n"),
+                 diagnostics);
+    diagnostics.throw_if_errors();
+    ASSERT_TRUE(rig.headset);
+    EXPECT_EQ(rig.headset->space, HeadsetSpace::local);
+    const Pose X_WS = rig.headset->X_WS();
+    EXPECT_EQ(X_WS.p, Vec3(0.01, 0, 0.03));
+    // turned to the left by a quarter, its forward is -x; its up is up
+    EXPECT_LT((X_WS.R * Vec3(0, 0, -1) - Vec3(-1, 0, 0)).norm(), 1e-15);
+    EXPECT_LT((X_WS.R * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm(), 1e-15);
+    EXPECT_FALSE(read_rig(folder.write("none.yaml", devices), diagnostics).headset);
+}
+
 struct Bad {
     const char* yaml;
     const char* says;

@@ -422,6 +422,44 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     EXPECT_EQ(now.damping, 3);
 }
 
+TEST(Live, GivesASecondWatcherTheSameFrames) {
+    Live live;
+    live.second = std::make_shared<Latest<servo::Frame>>();
+    servo::Frame frame;
+    for (int i = 0; i < 10; ++i) {
+        frame.sequence = i;
+        frame.time = i * milliseconds(1);
+        live.show(frame);
+    }
+    EXPECT_EQ(live.second->read().sequence, live.frame.read().sequence);
+    EXPECT_GT(live.second->read().sequence, 4);
+}
+
+TEST(Live, TellsOfEachPictureInAHeadsetWhereTheHeadWasAndOfEachTickOnceThatItWasShown) {
+    Live live;
+    servo::Frame frame;
+    frame.time = milliseconds(500);
+    live.show(frame);
+    const Pose X_WV{rotation_xyz({0.1, 0, 0}), {0.1, -0.4, 0.3}};
+    const auto now = Live::Clock::now();
+    live.note_shown(500, now, X_WV, true);
+    live.note_shown(500, now + milliseconds(11), X_WV, false);  // a pause
+    live.note_shown(530, now + milliseconds(22), X_WV, true);
+    std::vector<recording::HeadSeen> heads;
+    while (const auto head = live.take_head()) heads.push_back(*head);
+    ASSERT_EQ(heads.size(), 3);
+    EXPECT_EQ(heads[1].tick, 500);
+    EXPECT_FALSE(heads[1].tracked);
+    EXPECT_NEAR(heads[1].time - heads[0].time, 0.011, 1e-9);
+    EXPECT_NEAR(heads[0].time, 0.5, 0.1);
+    EXPECT_EQ(heads[0].p[1], -0.4);
+    EXPECT_EQ(heads[0].R[0], X_WV.R.w());
+    EXPECT_EQ(heads[0].R[1], X_WV.R.x());
+    EXPECT_EQ(live.take_showing()->tick, 500);
+    EXPECT_EQ(live.take_showing()->tick, 530);
+    EXPECT_FALSE(live.take_showing());
+}
+
 TEST(Live, EndsInAPause) {
     Desk desk(block(true));
     desk.at(0.1);

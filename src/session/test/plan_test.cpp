@@ -549,6 +549,19 @@ TEST(CheckFile, TellsOfAMovementThatIsMostlyBridged) {
     EXPECT_EQ(said.find("nan mm"), std::string::npos) << said;
 }
 
+TEST(Plan, WarnsOfAQuestionThatAPersonInAHeadsetDoesNotSee) {
+    Files files;
+    files.experiment +=
+        "task:\n  states:\n    - {name: ask, ask: {name: rated, scale: vas, labels: [soft, hard], "
+        "by: mouse}, exits: [{when: answered, outcome: told}]}\n"
+        "  blocks: [{name: all, repeats: 1}]\n";
+    EXPECT_EQ(files.messages().find("headset"), std::string::npos) << files.messages();
+    files.rig += "headset: {space: local}\n";
+    EXPECT_NE(files.messages().find("experiment.yaml:5: warning: ask: is not shown in a headset"),
+              std::string::npos)
+        << files.messages();
+}
+
 TEST(Plan, AMovementNeedsAnExperimentThatKnowsWhatToDoWithIt) {
     Files files;
     Request request = files.request();

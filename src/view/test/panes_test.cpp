@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "drawn_points.h"
 #include "software_renderer.h"
 #include "view/scene_view.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kDisplays = 20;
 constexpr int kWidth = 960, kHeight = 720;
-constexpr double kBall = 0.0025;  // radius of what is drawn [m]
 
 /// A display somewhere before the person, tilted and off to a side, in any way that a rig may be.
 rig::Display random_display(Random& random, int i) {
@@ -103,12 +103,7 @@ TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
     }
 }
 
-/// Black balls at points that are drawn apart from each other, whichever eye sees them.
-struct Balls {
-    scene::Scene scene;
-    servo::Frame frame;
-};
-
+/// Balls at points that are drawn apart from each other, whichever eye sees them.
 Balls balls_before(Random& random, const rig::Display& display) {
     Balls out;
     std::vector<Eigen::Vector2d> taken;
@@ -121,35 +116,9 @@ Balls balls_before(Random& random, const rig::Display& display) {
         if (!is_free) continue;
         taken.push_back(pinhole(display, false, p_W));
         taken.push_back(pinhole(display, true, p_W));
-        scene::Body ball;
-        ball.name = "ball " + std::to_string(out.scene.bodies.size());
-        ball.shape = scene::Shape::sphere(kBall);
-        ball.mass = 0.01;
-        ball.position = p_W;
-        ball.colour = "#000000";
-        out.scene.bodies.push_back(ball);
-        out.frame.bodies.push_back({ball.pose()});
+        out.add(p_W);
     }
     return out;
-}
-
-/// The middle of what a picture has within 12 pixels of a place that the empty one has not, in the
-/// colours of a pane.
-Eigen::Vector2d middle_of(const Image& picture, const Image& empty, const Pane& pane,
-                          const Eigen::Vector2d& around) {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    int count = 0;
-    const int channel = pane.red ? 0 : 1;
-    for (int y = static_cast<int>(around.y()) - 12; y <= around.y() + 12; ++y) {
-        for (int x = static_cast<int>(around.x()) - 12; x <= around.x() + 12; ++x) {
-            const Eigen::Vector2d here(x + 0.5, y + 0.5);
-            if ((here - around).norm() > 12) continue;
-            if (std::abs(picture.at(x, y)[channel] - empty.at(x, y)[channel]) < 40) continue;
-            sum += here;
-            ++count;
-        }
-    }
-    return count > 0 ? Eigen::Vector2d(sum / count) : Eigen::Vector2d::Constant(-1e6);
 }
 
 TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
@@ -161,9 +130,7 @@ TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
         const rig::Display display = random_display(random, i);
         const Balls balls = balls_before(random, display);
         SceneView view(balls.scene);
-        servo::Frame nothing = balls.frame;
-        for (servo::BodyFrame& body : nothing.bodies) body.X_WB.p = {0, 0, -50};
-        view.draw(nothing, display, kWidth, kHeight);
+        view.draw(balls.away(), display, kWidth, kHeight);
         const Image empty = offscreen.read();
         view.draw(balls.frame, display, kWidth, kHeight);
         const Image picture = offscreen.read();
@@ -171,7 +138,8 @@ TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
         for (const scene::Body& ball : balls.scene.bodies) {
             for (size_t eye = 0; eye < all.size(); ++eye) {
                 const Eigen::Vector2d exact = pinhole(display, eye == 1, ball.position);
-                const double off = (middle_of(picture, empty, all[eye], exact) - exact).norm();
+                const double off =
+                    (middle_of(picture, empty, all[eye].red ? 0 : 1, exact) - exact).norm();
                 EXPECT_LT(off, 0.5) << display.name << i << " " << ball.name;
                 worst = std::max(worst, off);
                 ++points;

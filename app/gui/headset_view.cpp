@@ -1,0 +1,89 @@
+#include "headset_view.h"
+
+#include <QImage>
+#include <cstring>
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr int kRefresh = 16;  // between looks at what the headset did [ms]
+using headset::Words;
+
+}  // namespace
+
+HeadsetView::HeadsetView(const rig::Headset& place)
+    : page_(new PageView(&words_)), banner_(new QLabel(&words_)), headset_(place) {
+    words_.setAttribute(Qt::WA_TranslucentBackground);
+    words_.resize(Words::kWidth, Words::kHeight);
+    page_->setGeometry(words_.rect());
+    banner_->setStyleSheet(
+        "background: rgba(20, 24, 30, 200); color: white; padding: 16px 28px; font-size: 44px; "
+        "border-radius: 12px;");
+    banner_->setAlignment(Qt::AlignCenter);
+    banner_->hide();
+    connect(&timer_, &QTimer::timeout, this, &HeadsetView::tend);
+    timer_.start(kRefresh);
+}
+
+void HeadsetView::set_scene(const scene::Scene& scene, const servo::Frame& frame) {
+    headset_.show(scene, frames_from(frame));
+}
+
+void HeadsetView::follow(const scene::Scene& scene,
+                         std::shared_ptr<headset::Headset::Frames> frames) {
+    headset_.show(scene, std::move(frames));
+}
+
+std::shared_ptr<headset::Headset::Frames> HeadsetView::frames_from(const servo::Frame& frame) {
+    servo::Frame of_no_tick = frame;
+    of_no_tick.sequence = -1;
+    return std::make_shared<headset::Headset::Frames>(of_no_tick);
+}
+
+void HeadsetView::set_banner(const QString& text) {
+    if (banner_->text() == text) return;
+    banner_->setText(text);
+    banner_->setVisible(!text.isEmpty());
+    constexpr int kMargin = 40;
+    banner_->setWordWrap(false);
+    banner_->setMinimumWidth(0);
+    banner_->setMaximumWidth(QWIDGETSIZE_MAX);
+    banner_->ensurePolished();
+    banner_->adjustSize();
+    if (banner_->width() > Words::kWidth - kMargin) {
+        banner_->setWordWrap(true);
+        banner_->setFixedWidth(Words::kWidth - kMargin);
+        banner_->adjustSize();
+    }
+    // over what the hands do, which is in the middle of what the head looks at
+    banner_->move((Words::kWidth - banner_->width()) / 2, kMargin);
+    draw_words();
+}
+
+void HeadsetView::set_page(const QString& text, const QString& picture) {
+    if (page_->set_page(text, picture)) draw_words();
+}
+
+void HeadsetView::draw_words() {
+    Words words;
+    if (!page_->isHidden() || !banner_->isHidden()) {
+        QImage picture(words_.size(), QImage::Format_ARGB32_Premultiplied);
+        picture.fill(Qt::transparent);
+        words_.render(&picture, {}, {}, QWidget::DrawChildren);
+        const QImage plain = picture.convertToFormat(QImage::Format_RGBA8888);
+        words.rgba.assign(plain.constBits(), plain.constBits() + plain.sizeInBytes());
+    }
+    headset_.set_words(std::move(words));
+}
+
+void HeadsetView::tend() {
+    for (const headset::Showing& showing : headset_.take_showings()) Q_EMIT shown(showing);
+    const bool over = headset_.ended();  // before its last notes are taken
+    for (const headset::Note& note : headset_.take_notes())
+        Q_EMIT told(QString::fromStdString(note.text), note.problem);
+    if (!over) return;
+    timer_.stop();
+    Q_EMIT ended();
+}
+
+}  // namespace dihaptic::gui

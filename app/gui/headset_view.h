@@ -1,0 +1,47 @@
+// What a person sees in a headset: the scene, and over it what the task says.
+#pragma once
+
+#include <QLabel>
+#include <QTimer>
+
+#include "headset/headset.h"
+#include "page_view.h"
+
+namespace dihaptic::gui {
+
+class HeadsetView : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit HeadsetView(const rig::Headset& place);
+
+    /// Shows a frame that stays, of that scene.
+    void set_scene(const scene::Scene& scene, const servo::Frame& frame);
+    /// Shows the newest of these frames of that scene, of a session that runs. Nothing else may
+    /// read them.
+    void follow(const scene::Scene& scene, std::shared_ptr<headset::Headset::Frames> frames);
+    /// Frames for a session; until its first, the one given.
+    static std::shared_ptr<headset::Headset::Frames> frames_from(const servo::Frame& frame);
+    void set_banner(const QString& text);
+    /// Sets the page in place of the scene (page_view.h); empty: none.
+    void set_page(const QString& text, const QString& picture);
+
+  Q_SIGNALS:
+    /// What the headset, or its runtime, has to tell.
+    void told(const QString& what, bool problem);
+    void shown(const dihaptic::headset::Showing& showing);
+    /// It shows nothing more; told() said why.
+    void ended();
+
+  private:
+    void tend();
+    void draw_words();
+
+    QWidget words_;
+    PageView* page_;
+    QLabel* banner_;
+    headset::Headset headset_;
+    QTimer timer_;
+};
+
+}  // namespace dihaptic::gui

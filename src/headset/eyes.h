@@ -1,0 +1,91 @@
+// The headset's session with OpenXR: from connecting to the runtime to handing over a picture for
+// each eye.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <optional>
+#include <vector>
+
+#include "headset/glx_context.h"
+#include "headset/headset.h"
+#include "headset/xr.h"
+#include "view/panes.h"
+
+namespace dihaptic::headset {
+
+/// A swapchain: pictures in OpenGL's memory that the runtime shows.
+struct Pictures {
+    xr::Swapchain swapchain;
+    std::vector<GLuint> textures;
+    int width = 0, height = 0;  // [pixels]
+};
+
+class Eyes {
+  public:
+    static constexpr size_t kCount = 2;  // left, right
+
+    /// Throws Error when there is no runtime, no headset, or not that space. `gl` is current, and
+    /// outlives this.
+    Eyes(const rig::Headset& place, const GlxContext& gl);
+    Eyes(const Eyes&) = delete;
+    Eyes& operator=(const Eyes&) = delete;
+
+    /// The runtime and the headset, in words.
+    std::string describe() const;
+    /// Pixels of an eye's picture.
+    int width() const { return pictures_[0].width; }
+    int height() const { return pictures_[0].height; }
+
+    /// Takes note of what the runtime says. Whether it wants pictures; throws Error when it is
+    /// over.
+    bool wants_pictures();
+
+    /// What a picture is to be of.
+    struct Look {
+        XrTime time = 0;
+        bool drawn = false;  ///< whether anybody sees it
+        std::array<view::Viewpoint, kCount> eyes;
+        Pose X_WV;             ///< of the head
+        bool tracked = false;  ///< whether it was measured
+    };
+    /// Waits until it is time for the next picture, and says of what.
+    Look begin_picture();
+    /// Copies into an eye's picture from `left` on in the framebuffer that is bound for reading.
+    void copy_from(size_t eye, int left);
+    /// Draws words anew, which hang before the head of the look.
+    void set_words(const Words& words, const Look& look);
+    /// Hands the picture over; returns when its light comes.
+    std::chrono::steady_clock::time_point end_picture(const Look& look);
+
+  private:
+    void connect();
+    void check_graphics() const;
+    void make_session(const GlxContext& gl);
+    void make_space(rig::HeadsetSpace kind);
+    void make_pictures();
+    Pictures make_pictures(int64_t format, int width, int height) const;
+    void take_note_of(XrSessionState state);
+    void check(XrResult result, const char* what) const { xr::check(instance_, result, what); }
+    template <class Function>
+    Function function(const char* name) const;
+    Pose located(XrSpace space, XrTime time) const;
+    std::chrono::steady_clock::time_point steady(XrTime time) const;
+
+    rig::Headset place_;
+    Pose X_WS_;
+    xr::Instance instance_;
+    XrSystemId system_ = XR_NULL_SYSTEM_ID;
+    std::string runtime_, model_;
+    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;  // null: it does not say
+    xr::Session session_;
+    xr::Space space_, head_;
+    XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+    std::array<Pictures, kCount> pictures_;
+    Pictures words_;
+    std::optional<Pose> X_SP_;  // of the words' panel; unset: there are none
+    std::array<XrView, kCount> views_{};
+    bool running_ = false;
+};
+
+}  // namespace dihaptic::headset

@@ -1,0 +1,70 @@
+#include "headset/glx_context.h"
+
+#include <array>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::headset {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+    throw Error("there is no OpenGL 3.3 to draw for a headset with: " + what,
+                "Start the program in a desktop of X11, or of Wayland with XWayland.");
+}
+
+}  // namespace
+
+GlxContext::GlxContext() {
+    display_ = XOpenDisplay(nullptr);
+    if (display_ == nullptr) fail("no X11 display can be opened");
+    constexpr int kNone = 0;
+    const std::array<int, 9> wanted{GLX_DRAWABLE_TYPE,
+                                    GLX_PBUFFER_BIT,
+                                    GLX_RENDER_TYPE,
+                                    GLX_RGBA_BIT,
+                                    GLX_RED_SIZE,
+                                    8,
+                                    GLX_DOUBLEBUFFER,
+                                    0,
+                                    kNone};
+    int count = 0;
+    GLXFBConfig* const found =
+        glXChooseFBConfig(display_, DefaultScreen(display_), wanted.data(), &count);
+    if (found != nullptr && count > 0) config_ = found[0];
+    if (found != nullptr) XFree(found);
+    if (config_ == nullptr) fail("the display has no pictures in memory");
+    const std::array<int, 7> version{GLX_CONTEXT_MAJOR_VERSION_ARB,
+                                     3,
+                                     GLX_CONTEXT_MINOR_VERSION_ARB,
+                                     3,
+                                     GLX_CONTEXT_PROFILE_MASK_ARB,
+                                     GLX_CONTEXT_CORE_PROFILE_BIT_ARB,
+                                     kNone};
+    context_ = glXCreateContextAttribsARB(display_, config_, nullptr, 1, version.data());
+    if (context_ == nullptr) fail("the driver offers only older ones");
+    const std::array<int, 5> size{GLX_PBUFFER_WIDTH, 16, GLX_PBUFFER_HEIGHT, 16, kNone};
+    surface_ = glXCreatePbuffer(display_, config_, size.data());
+    if (glXMakeContextCurrent(display_, surface_, surface_, context_) == 0)
+        fail("the driver refuses to draw without a window");
+}
+
+GlxContext::~GlxContext() {
+    glXMakeContextCurrent(display_, 0, 0, nullptr);
+    glXDestroyPbuffer(display_, surface_);
+    glXDestroyContext(display_, context_);
+    XCloseDisplay(display_);
+}
+
+XrGraphicsBindingOpenGLXlibKHR GlxContext::binding() const {
+    auto out = xr::made<XrGraphicsBindingOpenGLXlibKHR>(XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR);
+    int visual = 0;
+    glXGetFBConfigAttrib(display_, config_, GLX_VISUAL_ID, &visual);
+    out.xDisplay = display_;
+    out.visualid = static_cast<uint32_t>(visual);
+    out.glxFBConfig = config_;
+    out.glxDrawable = surface_;
+    out.glxContext = context_;
+    return out;
+}
+
+}  // namespace dihaptic::headset

@@ -1,0 +1,27 @@
+// An OpenGL context of X11 without a window, for a thread that draws for a headset: OpenXR's
+// runtimes on Linux take pictures from such a one.
+#pragma once
+
+#include "headset/xr_platform.h"
+
+namespace dihaptic::headset {
+
+/// An OpenGL 3.3 core context, current in the thread that made it, on a connection of its own.
+class GlxContext {
+  public:
+    /// Throws Error when there is no X11, or no such OpenGL.
+    GlxContext();
+    ~GlxContext();
+    GlxContext(const GlxContext&) = delete;
+    GlxContext& operator=(const GlxContext&) = delete;
+
+    XrGraphicsBindingOpenGLXlibKHR binding() const;
+
+  private:
+    Display* display_ = nullptr;
+    GLXFBConfig config_ = nullptr;
+    GLXContext context_ = nullptr;
+    GLXPbuffer surface_ = 0;
+};
+
+}  // namespace dihaptic::headset

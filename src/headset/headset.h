@@ -1,0 +1,88 @@
+// Shows the scene in a headset, through whichever OpenXR runtime the system has, by a thread of its
+// own at the headset's own rate. README.md says what of it was tried on which headset.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/latest.h"
+#include "rig/headset.h"
+#include "scene/scene.h"
+#include "servo/frame.h"
+
+namespace dihaptic::headset {
+
+/// A picture that was handed to the headset.
+struct Showing {
+    int64_t tick = 0;  ///< of the frame that it shows
+    /// When its light comes, as the runtime foresees it; of one that does not say, when it was
+    /// handed over.
+    std::chrono::steady_clock::time_point at;
+    Pose X_WV;             ///< of the head then: V is between the eyes, x right, y up, z backward
+    bool tracked = false;  ///< whether X_WV was measured, not guessed
+};
+
+/// Texts to be read, drawn: they hang before where the head looked when they came.
+struct Words {
+    static constexpr int kWidth = 1200, kHeight = 900;  // [pixels]
+    /// Red, green, blue and opacity of each pixel, rows from top to bottom; empty: no words.
+    std::vector<uint8_t> rgba;
+};
+
+/// What happened, in words.
+struct Note {
+    std::string text;
+    bool problem = false;
+};
+
+class Headset {
+  public:
+    using Frames = Latest<servo::Frame>;
+
+    /// Begins to show; that it cannot is a Note.
+    explicit Headset(const rig::Headset& place);
+    ~Headset();
+    Headset(const Headset&) = delete;
+    Headset& operator=(const Headset&) = delete;
+
+    /// Shows from now on the newest of these frames, which are of that scene. The headset's thread
+    /// is their reader. A frame whose `sequence` is negative is of no tick, and leaves no Showing.
+    void show(const scene::Scene& scene, std::shared_ptr<Frames> frames);
+    void set_words(Words words);
+
+    /// The pictures since the last call. Those of a minute are kept.
+    std::vector<Showing> take_showings();
+    /// What has happened since the last call.
+    std::vector<Note> take_notes();
+    /// Whether the headset shows nothing more; a Note says why.
+    bool ended() const { return ended_; }
+
+  private:
+    /// What is to be shown.
+    struct Content {
+        std::shared_ptr<const scene::Scene> scene;  // null: nothing yet
+        std::shared_ptr<Frames> frames;
+        std::shared_ptr<const Words> words;
+    };
+    void run();
+    void show_until_done();
+    void note(const std::string& text, bool problem);
+    Content content();
+
+    rig::Headset place_;
+    std::mutex guard_;  // of what follows
+    Content content_;
+    std::vector<Showing> showings_;
+    std::vector<Note> notes_;
+
+    std::atomic<bool> done_{false};
+    std::atomic<bool> ended_{false};
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::headset

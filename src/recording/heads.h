@@ -1,0 +1,34 @@
+// Writes head.csv, which tells where the head was in each picture that a headset showed; it is
+// written while the session runs.
+#pragma once
+
+#include <array>
+#include <fstream>
+#include <string>
+
+#include "recording/session.h"
+
+namespace dihaptic::recording {
+
+/// The head in a picture of a headset.
+struct HeadSeen {
+    int64_t tick = 0;           ///< that the picture is of
+    double time = 0;            ///< session time when its light came, as foreseen [s]
+    std::array<double, 3> p{};  ///< between the eyes, in the world [m]
+    std::array<double, 4> R{};  ///< quaternion, w first: x is right, y up, z backward of the head
+    bool tracked = false;       ///< it was measured; otherwise the headset guessed it
+};
+
+class HeadsWriter {
+  public:
+    explicit HeadsWriter(const SessionFolder& folder) : file_(folder.file("head.csv")) {}
+    void add(const HeadSeen& head);
+    /// Hands what was added to the system, so that it survives the end of this program.
+    void flush() { out_.flush(); }
+
+  private:
+    std::string file_;
+    std::ofstream out_;  // opened with the first: most sessions have no headset
+};
+
+}  // namespace dihaptic::recording
