@@ -1,8 +1,11 @@
 #include "code_edit.h"
 
+#include <QAbstractItemView>
 #include <QHelpEvent>
 #include <QPainter>
 #include <QRegularExpression>
+#include <QScrollBar>
+#include <QStandardItemModel>
 #include <QSyntaxHighlighter>
 #include <QTextBlock>
 #include <QToolTip>
@@ -58,12 +61,20 @@ class CodeEdit::Margin final : public QWidget {
     CodeEdit& edit_;
 };
 
-CodeEdit::CodeEdit(QWidget* parent) : QPlainTextEdit(parent), margin_(new Margin(*this)) {
+CodeEdit::CodeEdit(QWidget* parent)
+    : QPlainTextEdit(parent), words_(new QCompleter(this)), margin_(new Margin(*this)) {
     QFont font("monospace");
     font.setStyleHint(QFont::Monospace);
     setFont(font);
     setLineWrapMode(NoWrap);
     new Colours(document());
+    words_->setWidget(this);
+    words_->setModel(new QStandardItemModel(words_));
+    words_->setCompletionRole(Qt::UserRole);  // the word alone
+    words_->setMaxVisibleItems(12);
+    words_->popup()->setFont(font);
+    connect(words_, qOverload<const QModelIndex&>(&QCompleter::activated), this,
+            &CodeEdit::take_word);
     connect(this, &QPlainTextEdit::blockCountChanged, this, &CodeEdit::lay_out);
     connect(this, &QPlainTextEdit::updateRequest, this, [this](const QRect& area, int dy) {
         if (dy != 0) {
@@ -143,20 +154,80 @@ bool CodeEdit::viewportEvent(QEvent* event) {
     return QPlainTextEdit::viewportEvent(event);
 }
 
-/// YAML takes no tabs, and a new line mostly goes on where the last one began.
+/// `anyhow`: also where no word has begun.
+void CodeEdit::ask_for_words(bool anyhow) {
+    if (isReadOnly()) return;
+    const WordPlace place = word_place(toPlainText(), textCursor().position());
+    if (anyhow || (place.is_key && !place.has_colon && !place.typed.isEmpty()))
+        Q_EMIT words_wanted(place);
+}
+
+void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
+    const WordPlace now = word_place(toPlainText(), textCursor().position());
+    if (now.asking != place.asking || !hasFocus()) return;  // another place by now
+    auto& model = static_cast<QStandardItemModel&>(*words_->model());
+    model.clear();
+    size_t longest = 0;
+    for (const Choice& word : words) longest = std::max(longest, word.word.size());
+    for (const Choice& word : words) {
+        const QString name = QString::fromStdString(word.word);
+        auto* item = new QStandardItem(name.leftJustified(static_cast<int>(longest) + 2) +
+                                       QString::fromStdString(word.what));
+        item->setData(name, Qt::UserRole);
+        model.appendRow(item);
+    }
+    show_words(now);
+}
+
+void CodeEdit::show_words(const WordPlace& place) {
+    offered_ = place;
+    words_->setCompletionPrefix(place.typed);
+    const bool is_whole =
+        words_->completionCount() == 1 && words_->currentCompletion() == place.typed;
+    if (words_->completionCount() == 0 || is_whole) return words_->popup()->hide();
+    words_->popup()->setCurrentIndex(words_->completionModel()->index(0, 0));
+    QRect at = cursorRect();
+    at.translate(margin_width(), 0);
+    at.setWidth(words_->popup()->sizeHintForColumn(0) +
+                words_->popup()->verticalScrollBar()->sizeHint().width());
+    words_->complete(at);
+}
+
+void CodeEdit::take_word(const QModelIndex& word) {
+    QTextCursor cursor = textCursor();
+    cursor.movePosition(QTextCursor::Left, QTextCursor::KeepAnchor,
+                        static_cast<int>(offered_.typed.size()));
+    QString text = word.data(Qt::UserRole).toString();
+    if (offered_.is_key && !offered_.has_colon) text += ": ";
+    cursor.insertText(text);
+    setTextCursor(cursor);
+}
+
+/// YAML takes no tabs, and a new line mostly goes on where the last one's keys began.
 void CodeEdit::keyPressEvent(QKeyEvent* event) {
+    const bool choosing = words_->popup()->isVisible();
+    if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(
+                        event->key()))
+        return event->ignore();  // the list takes it
+    if (event->key() == Qt::Key_Space && event->modifiers().testFlag(Qt::ControlModifier))
+        return ask_for_words(true);
     if (event->key() == Qt::Key_Tab) {
         insertPlainText("  ");
         return;
     }
     if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+        static const QRegularExpression leading(R"(^ *(- +)*)");
         const QString line = textCursor().block().text();
-        const auto leading =
-            std::find_if(line.begin(), line.end(), [](QChar c) { return c != ' '; });
-        insertPlainText("\n" + QString(leading - line.begin(), ' '));
+        const auto length = static_cast<int>(leading.match(line).capturedLength());
+        insertPlainText("\n" + QString(length, ' '));
         return;
     }
     QPlainTextEdit::keyPressEvent(event);
+    if (event->text().isEmpty()) return;
+    const WordPlace now = word_place(toPlainText(), textCursor().position());
+    if (choosing && now.asking == offered_.asking) return show_words(now);
+    words_->popup()->hide();
+    ask_for_words(false);
 }
 
 }  // namespace dihaptic::gui

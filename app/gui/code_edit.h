@@ -1,9 +1,12 @@
-// A field for the text of a scene or an experiment: line numbers, colours, and marks at the lines
-// that have problems.
+// A field for the text of a scene or an experiment: line numbers, colours, marks at the lines that
+// have problems, and a list of the words that may be typed.
 #pragma once
 
+#include <QCompleter>
 #include <QPlainTextEdit>
 #include <map>
+
+#include "word_finder.h"
 
 namespace dihaptic::gui {
 
@@ -17,6 +20,12 @@ class CodeEdit : public QPlainTextEdit {
     void mark(const std::map<int, QString>& problems);
     /// Puts the cursor into a line, counted from 1, and shows it.
     void go_to(int line);
+    /// Offers words for the place where the cursor still is, if there are any that fit.
+    void offer(const WordPlace& place, const std::vector<Choice>& words);
+
+  Q_SIGNALS:
+    /// Who types wants to know which words may stand at the cursor, or began one.
+    void words_wanted(const dihaptic::gui::WordPlace& place);
 
   protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -29,7 +38,12 @@ class CodeEdit : public QPlainTextEdit {
     void draw_margin(QPaintEvent& event);
     void lay_out();
     void show_marks();
+    void ask_for_words(bool anyhow);
+    void show_words(const WordPlace& place);
+    void take_word(const QModelIndex& word);
 
+    QCompleter* words_;
+    WordPlace offered_;  // for which words are shown
     Margin* margin_;
     std::map<int, QString> problems_;
 };

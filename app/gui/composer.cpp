@@ -50,6 +50,9 @@ Composer::Composer(QWidget* parent)
         Q_EMIT modified(changed);
     });
     connect(&pause_, &QTimer::timeout, this, &Composer::edited);
+    connect(edit_, &CodeEdit::words_wanted, this,
+            [this](const WordPlace& place) { finder_.find(file_, place); });
+    connect(&finder_, &WordFinder::found, edit_, &CodeEdit::offer);
     connect(save_, &QPushButton::clicked, this, &Composer::save);
 }
 
@@ -93,6 +96,13 @@ QString Composer::source() {
     if (why.isEmpty()) return draft();
     state_->setText(QString("The text cannot be checked as you type: %1: %2").arg(draft(), why));
     return file_;
+}
+
+bool Composer::go_to(const Place& place) {
+    const QString file = QString::fromStdString(place.file);
+    if (place.line < 1 || (file != file_ && file != draft())) return false;
+    edit_->go_to(place.line);
+    return true;
 }
 
 bool Composer::save() {

@@ -25,6 +25,8 @@ class Composer : public QWidget {
     /// What was not saved is lost.
     void forget();
     void take_focus() { edit_->setFocus(); }
+    /// Puts the cursor where that was written; false: it was written in another file.
+    bool go_to(const Place& place);
     /// Writes the file; false, and says why, if it cannot.
     bool save();
     /// The file to be read: the open one or, while it has changes that were not saved, a draft of
@@ -49,6 +51,7 @@ class Composer : public QWidget {
     CodeEdit* edit_;
     QLabel* state_;
     QPushButton* save_;
+    WordFinder finder_;
     QTimer pause_;  // until who types pauses
 };
 

@@ -147,6 +147,14 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::draws_in_software, this,
             [this](const QString& what) { log(what); });
+    connect(scene_, &SceneWidget::picked, this, [this](size_t body) {
+        if (!plan_ || !compose_dock_->isVisible()) return;
+        const scene::Body& picked = plan_->scene.bodies[body];
+        if (!composer_->go_to(picked.place))
+            log(QString("%1 is in %2: open that to change it.")
+                    .arg(QString::fromStdString(picked.name),
+                         QString::fromStdString(picked.place.file)));
+    });
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {

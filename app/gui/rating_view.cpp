@@ -11,8 +11,8 @@ namespace {
 const QColor kGround(20, 24, 30, 200);
 const QColor kInk(255, 255, 255);
 const QColor kPointer(255, 180, 60);
-constexpr double kCorner = 8;     // [pixels]
-constexpr double kBeyond = 0.08;  // of the width, on each side of the line
+constexpr double kCorner = 8;         // [pixels]
+constexpr double kBeyondLine = 0.08;  // of the width, on each side of the line
 constexpr double kMostTicks = 21;
 
 /// Texts below the line, by their shares of it.
@@ -51,7 +51,7 @@ void RatingView::set_question(const task::AskSpec* question) {
 }
 
 QRectF RatingView::line() const {
-    return {kBeyond * width(), 0.4 * height(), (1 - 2 * kBeyond) * width(), 0};
+    return {kBeyondLine * width(), 0.4 * height(), (1 - 2 * kBeyondLine) * width(), 0};
 }
 
 double RatingView::share_at(const QPointF& pixels) const {

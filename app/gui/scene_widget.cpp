@@ -9,6 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "servo/displayed.h"
+#include "view/pick.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -290,7 +291,20 @@ void SceneWidget::enterEvent(QEnterEvent* event) {
 }
 
 void SceneWidget::mousePressEvent(QMouseEvent* event) {
-    pointer_ = event->position();
+    pointer_ = pressed_ = event->position();
+}
+
+/// A click that moved neither the camera nor a hand picks what is there.
+void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
+    constexpr double kStill = 3;  // [px]
+    const QPointF way = event->position() - pressed_;
+    if (event->button() != Qt::LeftButton || hand_ != nullptr || display_ || cameras_.empty() ||
+        way.manhattanLength() > kStill)
+        return;
+    const double half = height() / 2.0;
+    const view::Ray ray = view::ray_through(camera_, (event->position().x() - width() / 2.0) / half,
+                                            1 - event->position().y() / half);
+    if (const auto body = view::seen_first(scene_, frame_, ray)) Q_EMIT picked(*body);
 }
 
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {

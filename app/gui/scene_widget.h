@@ -78,6 +78,8 @@ class SceneWidget : public QOpenGLWidget {
     /// The hand has a new goal.
     void hand_moved();
     void camera_moved();
+    /// A body of the scene was clicked.
+    void picked(size_t body);
     /// OpenGL draws in software, and so in less detail; in words. Sent once.
     void draws_in_software(const QString& what);
     /// OpenGL cannot draw: why, and what to do.
@@ -88,6 +90,7 @@ class SceneWidget : public QOpenGLWidget {
     void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
@@ -126,6 +129,7 @@ class SceneWidget : public QOpenGLWidget {
     bool stays_ = false;     // the hand stays while the pointer moves
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
+    QPointF pressed_;  // where a button was
     PageView* page_;
     RatingView* rating_;
     QLabel* banner_;

@@ -12,7 +12,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr QSize kPicture{224, 140};
+constexpr QSize kTileSize{224, 140};
 constexpr QSize kItem{240, 200};  // with its title and length below
 constexpr int kFile = Qt::UserRole;
 
@@ -78,7 +78,7 @@ QListWidget* StartPage::add_list(const QString& title) {
     auto* list = new QListWidget;
     list->setAccessibleName(QString(title).remove('&'));
     list->setViewMode(QListView::IconMode);
-    list->setIconSize(kPicture);
+    list->setIconSize(kTileSize);
     list->setGridSize(kItem);
     list->setResizeMode(QListView::Adjust);
     list->setMovement(QListView::Static);
@@ -93,7 +93,7 @@ QListWidget* StartPage::add_list(const QString& title) {
 }
 
 void StartPage::add(QListWidget* list, const QStringList& files) {
-    QPixmap blank(kPicture);
+    QPixmap blank(kTileSize);
     blank.fill(palette().color(QPalette::Mid));
     for (const QString& file : files) {
         auto* item = new QListWidgetItem(QIcon(blank), QFileInfo(file).completeBaseName(), list);

@@ -77,9 +77,11 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
     : Error({problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy))}) {
 }
 
-void Diagnostics::error(const Place& place, std::string key, std::string what, std::string remedy) {
+void Diagnostics::error(const Place& place, std::string key, std::string what, std::string remedy,
+                        std::vector<Choice> choices) {
     problems_.push_back(
         problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy)));
+    problems_.back().choices = std::move(choices);
 }
 
 void Diagnostics::warning(const Place& place, std::string key, std::string what,
@@ -88,9 +90,10 @@ void Diagnostics::warning(const Place& place, std::string key, std::string what,
         problem(Severity::warning, place, std::move(key), std::move(what), std::move(remedy)));
 }
 
-void Diagnostics::unknown_key(const Place& place, std::string key, std::string remedy) {
+void Diagnostics::unknown_key(const Place& place, std::string key, std::string remedy,
+                              std::vector<Choice> choices) {
     if (unknown_ == UnknownKeys::are_errors) {
-        error(place, std::move(key), "is not known here", std::move(remedy));
+        error(place, std::move(key), "is not known here", std::move(remedy), std::move(choices));
     } else {
         warning(place, std::move(key), "is not known to this version of Dihaptic, and is left out",
                 "");

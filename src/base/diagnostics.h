@@ -20,12 +20,20 @@ struct Place {
     std::shared_ptr<const std::map<std::string, int>> keys = nullptr;
 };
 
+/// A word that may stand somewhere in a file.
+struct Choice {
+    std::string word;
+    std::string what;  ///< a sentence about it; may be empty
+};
+
 struct Problem {
     Severity severity = Severity::error;
     Place place;
     std::string key;     ///< the key or column that the problem is about; may be empty
     std::string what;    ///< what is wrong
     std::string remedy;  ///< what would be right
+    /// Of a key or a word that is not known: those that are known there and not yet given.
+    std::vector<Choice> choices = {};
 
     /// "file:line: error: key: what. remedy", without the parts that are empty.
     std::string text() const;
@@ -54,10 +62,12 @@ class Diagnostics {
   public:
     explicit Diagnostics(UnknownKeys unknown = UnknownKeys::are_errors) : unknown_(unknown) {}
 
-    void error(const Place& place, std::string key, std::string what, std::string remedy);
+    void error(const Place& place, std::string key, std::string what, std::string remedy,
+               std::vector<Choice> choices = {});
     void warning(const Place& place, std::string key, std::string what, std::string remedy);
     UnknownKeys unknown_keys() const { return unknown_; }
-    void unknown_key(const Place& place, std::string key, std::string remedy);
+    void unknown_key(const Place& place, std::string key, std::string remedy,
+                     std::vector<Choice> choices = {});
     void add(const std::vector<Problem>& problems);
 
     const std::vector<Problem>& problems() const { return problems_; }

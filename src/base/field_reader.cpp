@@ -24,6 +24,12 @@ std::string alternatives(const std::vector<std::string>& words) {
     return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
+std::vector<Choice> choices_of(const std::vector<std::string_view>& words) {
+    std::vector<Choice> out;
+    for (const std::string_view word : words) out.push_back({std::string(word), ""});
+    return out;
+}
+
 std::string origin_of(const Place& place) {
     return place.line > 0 ? fmt::format("{}:{}", place.file, place.line) : place.file;
 }
@@ -89,7 +95,7 @@ bool FieldReader::has(std::string_view name, Quantity quantity) const {
 }
 
 FieldReader::Given FieldReader::take(std::string_view name, const Field& field) {
-    fields_.push_back({std::string(name), field.quantity});
+    fields_.push_back({std::string(name), field.quantity, field.what});
     Given given;
     const auto all = units(field.quantity);
     const std::vector<std::string> keys = keys_of(std::string(name), field.quantity);
@@ -432,8 +438,21 @@ int FieldReader::read_choice(std::string_view name, const std::vector<std::strin
     diagnostics_.error(given.node->place, given.key,
                        fmt::format("'{}' is {}", given.node->scalar, gone ? "gone" : "not known"),
                        gone ? std::string(old.remedy)
-                            : fmt::format("Use {}.", alternatives({names.begin(), names.end()})));
+                            : fmt::format("Use {}.", alternatives({names.begin(), names.end()})),
+                       choices_of(names));
     return -1;
+}
+
+std::vector<Choice> FieldReader::choices() const {
+    std::vector<Choice> out;
+    for (const Known& field : fields_) {
+        const std::vector<std::string> keys = keys_of(field.name, field.quantity);
+        const bool given = std::any_of(keys.begin(), keys.end(),
+                                       [&](const std::string& key) { return used_.contains(key); });
+        if (given) continue;
+        for (const std::string& key : keys) out.push_back({key, std::string(field.what)});
+    }
+    return out;
 }
 
 void FieldReader::finish() {
@@ -466,7 +485,8 @@ void FieldReader::finish() {
         const std::string guess = nearest(key, known);
         diagnostics_.unknown_key(node.place, key,
                                  guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
-                                               : fmt::format("Did you mean {}?", guess));
+                                               : fmt::format("Did you mean {}?", guess),
+                                 choices());
     }
 }
 

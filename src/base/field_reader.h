@@ -113,6 +113,7 @@ class FieldReader {
     struct Known {
         std::string name;
         Quantity quantity;
+        std::string_view what;
     };
     struct Given {
         const Node* node = nullptr;
@@ -121,6 +122,8 @@ class FieldReader {
     };
 
     Given take(std::string_view name, const Field& field);
+    /// Keys that may still be given.
+    std::vector<Choice> choices() const;
     /// `given`, or what stands under the field's old name.
     Given take_old(std::string_view name, const Field& field, Given given);
     const Node* take_mapping(std::string_view name, const Field& field);

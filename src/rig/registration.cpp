@@ -13,7 +13,7 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr int kColumns = 5, kRows = 4;
-constexpr double kMargin = 0.08;       // of crosses from the screen's edges, in shares of these
+constexpr double kCrossMargin = 0.08;  // of crosses from the screen's edges, in shares of these
 constexpr double kMostRms = 3e-3;      // of touches that one screen can have [m]
 constexpr double kMostStretch = 0.03;  // of a size that was measured by a ruler
 
@@ -23,8 +23,8 @@ std::vector<Cross> crosses() {
     std::vector<Cross> out;
     for (int row = 0; row < kRows; ++row) {
         for (int column = 0; column < kColumns; ++column)
-            out.push_back({kMargin + (1 - 2 * kMargin) * column / (kColumns - 1),
-                           1 - kMargin - (1 - 2 * kMargin) * row / (kRows - 1)});
+            out.push_back({kCrossMargin + (1 - 2 * kCrossMargin) * column / (kColumns - 1),
+                           1 - kCrossMargin - (1 - 2 * kCrossMargin) * row / (kRows - 1)});
     }
     return out;
 }

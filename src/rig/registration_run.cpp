@@ -11,10 +11,10 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr int kTouches = 25;         // samples of a cross: half a second
-constexpr double kMostMoved = 2e-3;  // of a finger that rests on one [m]
-constexpr double kMove = 0.8;        // of a simulated finger, from cross to cross [s]
-constexpr double kRest = 0.7;        // on each [s]
+constexpr int kCrossSamples = 25;           // samples of a cross: half a second
+constexpr double kMostMovedOnCross = 2e-3;  // of a finger that rests on one [m]
+constexpr double kMoveToCross = 0.8;        // of a simulated finger, from cross to cross [s]
+constexpr double kRest = 0.7;               // on each [s]
 
 /// A finger that goes from place to place, and rests on each.
 class TouchingHand final : public hand::Driver {
@@ -22,16 +22,16 @@ class TouchingHand final : public hand::Driver {
     explicit TouchingHand(std::vector<Vec3> places) : places_(std::move(places)) {}
 
     double duration() const override {
-        return static_cast<double>(places_.size()) * (kMove + kRest);
+        return static_cast<double>(places_.size()) * (kMoveToCross + kRest);
     }
     const std::vector<Phase>& phases() const override { return phases_; }
 
   private:
     hand::FingerTarget do_target(int, double t) const noexcept override {
-        const double each = kMove + kRest;
+        const double each = kMoveToCross + kRest;
         const auto i = std::min(static_cast<size_t>(std::max(0.0, t) / each), places_.size() - 1);
         const Vec3& from = places_[i == 0 ? 0 : i - 1];
-        const auto way = model::minimum_jerk((t - static_cast<double>(i) * each) / kMove);
+        const auto way = model::minimum_jerk((t - static_cast<double>(i) * each) / kMoveToCross);
         hand::FingerTarget out;
         out.p_WT = from + way.share * (places_[i] - from);
         return out;
@@ -109,9 +109,9 @@ std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const G
             Rested rested;
             way.sample([&](bool) {
                 rested.add(endpoint.p_W());
-                return rested.count < kTouches;
+                return rested.count < kCrossSamples;
             });
-            if (rested.moved() <= kMostMoved) {
+            if (rested.moved() <= kMostMovedOnCross) {
                 out.push_back(rested.mean());
                 break;
             }
@@ -140,9 +140,9 @@ std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const Disp
         told.share = seconds(now) / hand.duration();
         guide.show(told);
         guide.done();  // throws if the person gives up
-        const double each = kMove + kRest;
+        const double each = kMoveToCross + kRest;
         const auto i = static_cast<size_t>(seconds(now) / each);
-        if (seconds(now) - static_cast<double>(i) * each > kMove + kRest / 2)
+        if (seconds(now) - static_cast<double>(i) * each > kMoveToCross + kRest / 2)
             rested[i].add(endpoint.p_W());
     }
     for (const Rested& rest : rested) out.push_back(rest.mean());

@@ -6,7 +6,7 @@
 namespace dihaptic::view {
 namespace {
 
-constexpr double kNearest = 0.05;  // distance at which things begin, over that of the screen
+constexpr double kNearestShare = 0.05;  // distance at which things begin, over that of the screen
 
 Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyond) {
     Mat3 edges;
@@ -15,8 +15,8 @@ Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyon
     // the depth from -1, at the nearest, to 1
     const Vec3 normal = display.right().cross(display.up()).normalized();
     const double furthest = 1 + beyond / std::abs(normal.dot(display.lower_left - eye_W));
-    const double depth = (furthest + kNearest) / (furthest - kNearest);
-    const double depth_0 = -2 * furthest * kNearest / (furthest - kNearest);
+    const double depth = (furthest + kNearestShare) / (furthest - kNearestShare);
+    const double depth_0 = -2 * furthest * kNearestShare / (furthest - kNearestShare);
     const double x = display.mirrored == rig::Mirrored::left_right ? -1 : 1;
     const double y = display.mirrored == rig::Mirrored::up_down ? -1 : 1;
     Eigen::Matrix<double, 4, 3> clip;

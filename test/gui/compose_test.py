@@ -59,6 +59,31 @@ class Compose(Window):
         self.assertIn("# mine", self.text())
         self.quit()
 
+    def test_offers_words_and_shows_where_what_is_clicked_was_written(self):
+        self.open()
+        self.key("ctrl+e", "ctrl+Home")
+        # behind the line that names the block
+        lines = SCENE.splitlines()
+        line = next(i for i, text in enumerate(lines) if "name: block" in text)
+        self.key(*["Down"] * line, "End", "Return")
+        self.type("rota")
+        time.sleep(2)
+        self.screenshot("compose-words")
+        self.key("Down", "Return")  # rotation_rad, then rotation_deg
+        self.type("[0, 0, 5]")
+        time.sleep(0.5)
+        self.key("ctrl+s")
+        self.wait("the word", lambda: "    rotation_deg: [0, 0, 5]\n" in self.text())
+        self.xdotool("mousemove", "715", "490", "click", "1")
+        time.sleep(1)
+        self.screenshot("compose-picked")
+        self.key("End")
+        self.type(" # picked")
+        self.key("ctrl+s")
+        self.wait("the line", lambda: " # picked" in self.text())
+        self.assertIn(" # picked", next(text for text in self.text().splitlines() if "name: block" in text))
+        self.quit()
+
 
 if __name__ == "__main__":
     unittest.main()

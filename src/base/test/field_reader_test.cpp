@@ -169,6 +169,21 @@ TEST(FieldReader, ReportsAllProblemsOfAFile) {
     EXPECT_THROW(in.diagnostics.throw_if_errors(), Error);
 }
 
+TEST(FieldReader, SaysWhichWordsAreKnownWhereOneIsNot) {
+    const Read in("cuont: 3\nsize_mm: 3\nfruit: plum\nname: x\n");
+    const auto words_of = [&](const std::string& key) {
+        std::string words;
+        for (const Problem& problem : in.diagnostics.problems()) {
+            if (problem.key != key) continue;
+            for (const Choice& choice : problem.choices) words += choice.word + " ";
+        }
+        return words;
+    };
+    EXPECT_NE(words_of("cuont").find("count "), std::string::npos);
+    EXPECT_EQ(words_of("cuont").find("size"), std::string::npos) << "that is given";
+    EXPECT_NE(words_of("fruit"), "") << "its names";
+}
+
 TEST(FieldReader, RemembersWhereEachSettingCameFromAndLetsLaterFilesOverride) {
     Inner inner;
     Diagnostics diagnostics;

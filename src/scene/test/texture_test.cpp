@@ -61,7 +61,7 @@ std::string write(const std::string& name, int width, int height) {
         for (int x = 0; x < width; ++x)
             image.rgb.insert(image.rgb.end(), 3, x + 1 == width ? 255 : 0);
     }
-    std::string file = testing::TempDir() + name;
+    std::string file = ::testing::TempDir() + name;
     write_png(image, file);
     return file;
 }

@@ -1,0 +1,75 @@
+// Tests what a person points at: the body that is seen first along the line of sight.
+#include "view/pick.h"
+
+#include <gtest/gtest.h>
+
+#include "drawn_points.h"
+
+namespace dihaptic::view::pick_test {
+namespace {
+
+Camera from_the_front() {
+    Camera out;
+    out.position = {0, -0.5, 0};
+    out.look_at = {0, 0, 0};
+    return out;
+}
+
+TEST(Pick, ARayIsThePinholesLine) {
+    const Camera camera = from_the_front();
+    const double aspect = 1.6;
+    const Eigen::Matrix4d clip = projection(camera, aspect, 0.01, 10);
+    for (const auto& [right, up] : {std::pair{0.0, 0.0}, {0.7, -0.3}, {-1.5, 0.9}}) {
+        const Ray ray = ray_through(camera, right, up);
+        const Eigen::Vector4d at = clip * Vec3(ray.from_W + 0.4 * ray.along_W).homogeneous();
+        EXPECT_NEAR(at.x() / at.w(), right / aspect, 1e-12);
+        EXPECT_NEAR(at.y() / at.w(), up, 1e-12);
+    }
+}
+
+TEST(Pick, FindsTheNearestAndNothingBesideIt) {
+    Balls balls;
+    balls.add({0, 0.1, 0}, 0.05);
+    balls.add({0, -0.1, 0}, 0.01);
+    const Ray ahead = ray_through(from_the_front(), 0, 0);
+    EXPECT_EQ(seen_first(balls.scene, balls.frame, ahead), 1);
+    // 20 mm above the small one's middle, the large one behind it
+    const Ray above{{0, -0.5, 0.02}, Vec3::UnitY()};
+    EXPECT_EQ(seen_first(balls.scene, balls.frame, above), 0);
+    EXPECT_FALSE(seen_first(balls.scene, balls.frame, {{0, -0.5, 0.0505}, Vec3::UnitY()}));
+    EXPECT_FALSE(seen_first(balls.scene, balls.frame, {{0, -0.5, 0}, -Vec3::UnitY()}));
+    // it is where the frame has it
+    balls.frame.bodies[1].X_WB.p = {0, 0.3, 0};
+    EXPECT_EQ(seen_first(balls.scene, balls.frame, ahead), 0);
+}
+
+TEST(Pick, FindsTheBlockOnItsTable) {
+    Balls scene;
+    scene::Body table;
+    table.name = "table";
+    table.shape = scene::Shape::box({0.6, 0.4, 0.05});
+    table.position = {0, 0, -0.025};
+    scene::Body block = table;
+    block.name = "block";
+    block.shape = scene::Shape::box({0.04, 0.04, 0.04});
+    block.position = {0, 0, 0.02};
+    for (const scene::Body& body : {table, block}) {
+        scene.scene.bodies.push_back(body);
+        scene.frame.bodies.push_back({body.pose()});
+    }
+    Camera camera = from_the_front();
+    camera.position = {-0.25, -0.4, 0.29};
+    camera.look_at = {0.02, 0, 0.065};
+    const Eigen::Matrix4d clip = projection(camera, 1, 0.01, 10);
+    const auto at = [&](const Vec3& p_W) {
+        const Eigen::Vector4d place = clip * p_W.homogeneous();
+        return seen_first(scene.scene, scene.frame,
+                          ray_through(camera, place.x() / place.w(), place.y() / place.w()));
+    };
+    EXPECT_EQ(at({0, 0, 0.04}), 1);
+    EXPECT_EQ(at({0, -0.02, 0.02}), 1);
+    EXPECT_EQ(at({0, -0.1, 0}), 0);
+}
+
+}  // namespace
+}  // namespace dihaptic::view::pick_test
