@@ -1,6 +1,9 @@
 #include "trials_panel.h"
 
+#include <QHeaderView>
 #include <QScrollBar>
+#include <QSplitter>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +17,8 @@ struct Number {
     QString name;  ///< ends in its unit
     double si;     ///< that unit
 };
+
+constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns of numbers
 
 /// The numbers that a task has of its own, in the order in which frames have them.
 std::vector<Number> numbers_of(const task::TaskPlan& plan) {
@@ -30,15 +35,26 @@ std::vector<Number> numbers_of(const task::TaskPlan& plan) {
 
 }  // namespace
 
-TrialsPanel::TrialsPanel(QWidget* parent) : QTreeWidget(parent) {
-    setAccessibleName("Trials");
-    setRootIsDecorated(false);
-    setUniformRowHeights(true);
+TrialsPanel::TrialsPanel(QWidget* parent)
+    : QWidget(parent), chart_(new TrialChart), table_(new QTreeWidget) {
+    table_->setAccessibleName("Trials");
+    table_->setRootIsDecorated(false);
+    table_->setUniformRowHeights(true);
+    table_->header()->setSectionsClickable(true);
+    table_->header()->setToolTip("A click on a column of numbers shows it in the chart.");
+    auto* parts = new QSplitter(Qt::Vertical);
+    parts->addWidget(chart_);
+    parts->addWidget(table_);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(parts);
+    connect(table_->header(), &QHeaderView::sectionClicked, this, &TrialsPanel::chart);
     set_plan(nullptr);
 }
 
 void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
-    clear();
+    table_->clear();
+    ends_.clear();
     plan_ = std::move(plan);
     QStringList names{"trial",   "block", "condition", "attempt",
                       "outcome", "s",     "grip N",    "force N"};
@@ -49,9 +65,39 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
             units_.push_back(number.si);
         }
     }
-    setColumnCount(static_cast<int>(names.size()));
-    setHeaderLabels(names);
-    for (int column = 0; column < columnCount(); ++column) resizeColumnToContents(column);
+    table_->setColumnCount(static_cast<int>(names.size()));
+    table_->setHeaderLabels(names);
+    for (int column = 0; column < table_->columnCount(); ++column)
+        table_->resizeColumnToContents(column);
+    // what the task itself counts or chooses, if it does
+    chart(units_.empty() ? kSeconds : kOwn);
+}
+
+double TrialsPanel::value(const session::TrialEnd& end, int column) const {
+    if (column == kSeconds) return end.stop - end.start;
+    if (column == kGrip) return end.peak_grip;
+    if (column == kForce) return end.peak_force;
+    const auto own = static_cast<size_t>(column - kOwn);
+    return end.numbers[own] / units_[own];
+}
+
+void TrialsPanel::chart(int column) {
+    if (column < kSeconds) return;
+    charted_ = column;
+    QStringList outcomes;
+    if (plan_) {
+        for (const auto& outcome : plan_->outcomes)
+            outcomes += QString::fromStdString(outcome.name);
+    }
+    const auto block_of = [&](const session::TrialEnd& end) {
+        return plan_->trials[static_cast<size_t>(end.trial) - 1].block;
+    };
+    std::vector<TrialChart::Point> points;
+    for (const session::TrialEnd& end : ends_) {
+        const bool begins = !points.empty() && block_of(end) != block_of(ends_[points.size() - 1]);
+        points.push_back({value(end, column), end.outcome, begins});
+    }
+    chart_->set_points(table_->headerItem()->text(column), outcomes, std::move(points));
 }
 
 void TrialsPanel::add(const session::TrialEnd& end) {
@@ -77,12 +123,15 @@ void TrialsPanel::add(const session::TrialEnd& end) {
         const double value = end.numbers[i] / units_[i];
         row += std::isfinite(value) ? QString::number(value, 'g', 4) : QString();
     }
-    auto* item = new QTreeWidgetItem(this, row);
+    auto* item = new QTreeWidgetItem(table_, row);
+    ends_.push_back(end);
+    chart(charted_);
     // who has scrolled back goes on looking there
-    const QScrollBar* const bar = verticalScrollBar();
-    if (bar->value() >= bar->maximum() - 1) scrollToItem(item);
-    if (topLevelItemCount() == 1) {
-        for (int column = 0; column < columnCount(); ++column) resizeColumnToContents(column);
+    const QScrollBar* const bar = table_->verticalScrollBar();
+    if (bar->value() >= bar->maximum() - 1) table_->scrollToItem(item);
+    if (table_->topLevelItemCount() == 1) {
+        for (int column = 0; column < table_->columnCount(); ++column)
+            table_->resizeColumnToContents(column);
     }
 }
 

@@ -1,0 +1,40 @@
+// A number of each trial, one after the other: a staircase, or how a person learns.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "chart_scale.h"
+
+namespace dihaptic::gui {
+
+class TrialChart : public QWidget {
+  public:
+    explicit TrialChart(QWidget* parent = nullptr);
+
+    struct Point {
+        double value = 0;  ///< NaN: the trial has none
+        int outcome = 0;
+        bool begins_block = false;
+    };
+    /// `name`: of the number, with its unit. `outcomes`: their names, for the legend.
+    void set_points(const QString& name, const QStringList& outcomes, std::vector<Point> points);
+
+    QSize sizeHint() const override { return {320, 150}; }
+    QSize minimumSizeHint() const override { return {160, 90}; }
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
+  private:
+    struct Axes;
+    void draw_axes(QPainter& painter, const Axes& axes) const;
+    void draw_legend(QPainter& painter, const QRectF& in) const;
+    void draw_points(QPainter& painter, const Axes& axes) const;
+
+    QString name_;
+    QStringList outcomes_;
+    std::vector<Point> points_;
+};
+
+}  // namespace dihaptic::gui
