@@ -6,7 +6,8 @@ namespace {
 
 class GraspBars : public ::testing::TestWithParam<dynamics::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Soak, GraspBars,
-                         ::testing::Values(dynamics::Solver::stewart_trinkle,
+                         ::testing::Values(dynamics::Solver::sequential_impulse,
+                                           dynamics::Solver::stewart_trinkle,
                                            dynamics::Solver::staggered_projections),
                          solver_name);
 TEST_P(GraspBars, AreReached) {
