@@ -14,7 +14,7 @@ function(dihaptic_precompile target by)
         <thread> <variant> <vector>)
 endfunction()
 
-# Sources are compiled ten at a time, which saves half of their time: most of a compiler's work is
+# Sources are compiled ten at a time, which saves more than a third of their time: most of a compiler's work is
 # to read the same headers. What one source keeps for itself (in its unnamed namespace) has a name that no other
 # source of the target gives to something else; NAME_test.cpp has a namespace NAME_test, and so may use any name.
 function(dihaptic_together target)

@@ -1,7 +1,8 @@
 #include "headset_view.h"
 
 #include <QImage>
-#include <cstring>
+
+#include "label_fit.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -12,7 +13,7 @@ using headset::Words;
 }  // namespace
 
 HeadsetView::HeadsetView(const rig::Headset& place)
-    : page_(new PageView(&words_)), banner_(new QLabel(&words_)), headset_(place) {
+    : place_(place), page_(new PageView(&words_)), banner_(new QLabel(&words_)), headset_(place) {
     words_.setAttribute(Qt::WA_TranslucentBackground);
     words_.resize(Words::kWidth, Words::kHeight);
     page_->setGeometry(words_.rect());
@@ -23,6 +24,11 @@ HeadsetView::HeadsetView(const rig::Headset& place)
     banner_->hide();
     connect(&timer_, &QTimer::timeout, this, &HeadsetView::tend);
     timer_.start(kRefresh);
+}
+
+bool HeadsetView::is_at(const rig::Headset& place) const {
+    return place_.space == place.space && place_.position == place.position &&
+           place_.rotation == place.rotation;
 }
 
 void HeadsetView::set_scene(const scene::Scene& scene, const servo::Frame& frame) {
@@ -45,16 +51,7 @@ void HeadsetView::set_banner(const QString& text) {
     banner_->setText(text);
     banner_->setVisible(!text.isEmpty());
     constexpr int kMargin = 40;
-    banner_->setWordWrap(false);
-    banner_->setMinimumWidth(0);
-    banner_->setMaximumWidth(QWIDGETSIZE_MAX);
-    banner_->ensurePolished();
-    banner_->adjustSize();
-    if (banner_->width() > Words::kWidth - kMargin) {
-        banner_->setWordWrap(true);
-        banner_->setFixedWidth(Words::kWidth - kMargin);
-        banner_->adjustSize();
-    }
+    fit_label(*banner_, Words::kWidth - kMargin);
     // over what the hands do, which is in the middle of what the head looks at
     banner_->move((Words::kWidth - banner_->width()) / 2, kMargin);
     draw_words();

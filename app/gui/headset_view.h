@@ -15,6 +15,8 @@ class HeadsetView : public QObject {
   public:
     explicit HeadsetView(const rig::Headset& place);
 
+    /// Whether its space stands there.
+    bool is_at(const rig::Headset& place) const;
     /// Shows a frame that stays, of that scene.
     void set_scene(const scene::Scene& scene, const servo::Frame& frame);
     /// Shows the newest of these frames of that scene, of a session that runs. Nothing else may
@@ -37,6 +39,7 @@ class HeadsetView : public QObject {
     void tend();
     void draw_words();
 
+    rig::Headset place_;
     QWidget words_;
     PageView* page_;
     QLabel* banner_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "label_fit.h"
 #include "servo/displayed.h"
 #include "view/pick.h"
 
@@ -181,17 +182,7 @@ void SceneWidget::place_labels() {
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
                 "font-size: %1px; border-radius: 8px;")
             .arg(std::max(20, height / 30)));
-    banner_->setWordWrap(false);
-    banner_->ensurePolished();  // a widget that is never shown has no style before
-    banner_->adjustSize();
-    if (banner_->width() > width - 40) {
-        banner_->setWordWrap(true);
-        banner_->setFixedWidth(width - 40);
-        banner_->adjustSize();
-    } else {
-        banner_->setMinimumWidth(0);
-        banner_->setMaximumWidth(QWIDGETSIZE_MAX);
-    }
+    fit_label(*banner_, width - 40);
     help_->adjustSize();
     banner_->move((width - banner_->width()) / 2, 24);
     help_->move(12, height - help_->height() - 12);

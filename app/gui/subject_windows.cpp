@@ -48,8 +48,9 @@ void SubjectWindows::add(const std::optional<rig::Display>& display) {
 void SubjectWindows::set_scene(const scene::Scene& scene, const servo::Frame& frame,
                                const rig::Rig& rig) {
     if (empty()) return;
-    if (windows_.size() != windows_of(rig) || (headset_ != nullptr) != rig.headset.has_value())
-        open(rig);
+    const bool same_headset =
+        headset_ ? rig.headset && headset_->is_at(*rig.headset) : !rig.headset;
+    if (windows_.size() != windows_of(rig) || !same_headset) open(rig);
     if (headset_) headset_->set_scene(scene, frame);
     for (size_t i = 0; i < windows_.size(); ++i) {
         SceneWidget& widget = windows_[i]->scene();

@@ -41,7 +41,7 @@ view::FieldOfView from_xr(const XrFovf& fov) {
     return {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
 }
 
-/// Makes everything that an eye or a panel shows of pictures.
+/// All of what an eye or a panel shows.
 XrSwapchainSubImage whole(const Pictures& pictures) {
     XrSwapchainSubImage out{};
     out.swapchain = pictures.swapchain;

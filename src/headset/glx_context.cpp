@@ -15,8 +15,9 @@ namespace {
 }  // namespace
 
 GlxContext::GlxContext() {
-    display_ = XOpenDisplay(nullptr);
-    if (display_ == nullptr) fail("no X11 display can be opened");
+    display_.reset(XOpenDisplay(nullptr));
+    Display* const display = display_.get();
+    if (display == nullptr) fail("no X11 display can be opened");
     constexpr int kNone = 0;
     const std::array<int, 9> wanted{GLX_DRAWABLE_TYPE,
                                     GLX_PBUFFER_BIT,
@@ -29,7 +30,7 @@ GlxContext::GlxContext() {
                                     kNone};
     int count = 0;
     GLXFBConfig* const found =
-        glXChooseFBConfig(display_, DefaultScreen(display_), wanted.data(), &count);
+        glXChooseFBConfig(display, DefaultScreen(display), wanted.data(), &count);
     if (found != nullptr && count > 0) config_ = found[0];
     if (found != nullptr) XFree(found);
     if (config_ == nullptr) fail("the display has no pictures in memory");
@@ -40,26 +41,25 @@ GlxContext::GlxContext() {
                                      GLX_CONTEXT_PROFILE_MASK_ARB,
                                      GLX_CONTEXT_CORE_PROFILE_BIT_ARB,
                                      kNone};
-    context_ = glXCreateContextAttribsARB(display_, config_, nullptr, 1, version.data());
+    context_ = glXCreateContextAttribsARB(display, config_, nullptr, 1, version.data());
     if (context_ == nullptr) fail("the driver offers only older ones");
     const std::array<int, 5> size{GLX_PBUFFER_WIDTH, 16, GLX_PBUFFER_HEIGHT, 16, kNone};
-    surface_ = glXCreatePbuffer(display_, config_, size.data());
-    if (glXMakeContextCurrent(display_, surface_, surface_, context_) == 0)
+    surface_ = glXCreatePbuffer(display, config_, size.data());
+    if (glXMakeContextCurrent(display, surface_, surface_, context_) == 0)
         fail("the driver refuses to draw without a window");
 }
 
 GlxContext::~GlxContext() {
-    glXMakeContextCurrent(display_, 0, 0, nullptr);
-    glXDestroyPbuffer(display_, surface_);
-    glXDestroyContext(display_, context_);
-    XCloseDisplay(display_);
+    glXMakeContextCurrent(display_.get(), 0, 0, nullptr);
+    glXDestroyPbuffer(display_.get(), surface_);
+    glXDestroyContext(display_.get(), context_);
 }
 
 XrGraphicsBindingOpenGLXlibKHR GlxContext::binding() const {
     auto out = xr::made<XrGraphicsBindingOpenGLXlibKHR>(XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR);
     int visual = 0;
-    glXGetFBConfigAttrib(display_, config_, GLX_VISUAL_ID, &visual);
-    out.xDisplay = display_;
+    glXGetFBConfigAttrib(display_.get(), config_, GLX_VISUAL_ID, &visual);
+    out.xDisplay = display_.get();
     out.visualid = static_cast<uint32_t>(visual);
     out.glxFBConfig = config_;
     out.glxDrawable = surface_;

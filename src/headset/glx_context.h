@@ -2,6 +2,8 @@
 // runtimes on Linux take pictures from such a one.
 #pragma once
 
+#include <memory>
+
 #include "headset/xr_platform.h"
 
 namespace dihaptic::headset {
@@ -18,7 +20,10 @@ class GlxContext {
     XrGraphicsBindingOpenGLXlibKHR binding() const;
 
   private:
-    Display* display_ = nullptr;
+    struct Close {
+        void operator()(Display* display) const { XCloseDisplay(display); }
+    };
+    std::unique_ptr<Display, Close> display_;  // closed too if the rest cannot be made
     GLXFBConfig config_ = nullptr;
     GLXContext context_ = nullptr;
     GLXPbuffer surface_ = 0;

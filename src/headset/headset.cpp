@@ -100,7 +100,7 @@ Headset::Content Headset::content() {
 void Headset::run() {
     try {
         show_until_done();
-    } catch (const Error& e) {
+    } catch (const std::exception& e) {
         note(e.what(), true);
     }
     ended_ = true;

@@ -1,7 +1,6 @@
 """The subject's window as a headset, on the tests' OpenXR runtime, with OpenXR's validation layer between."""
 import csv
 import math
-import os
 import pathlib
 import re
 import subprocess

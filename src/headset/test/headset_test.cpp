@@ -170,6 +170,19 @@ Eigen::Vector2d pinhole(const RuntimeEye& eye, const Pose& X_WE, const Vec3& p_W
     return {(x - left) / (right - left) * width, (up - y) / (up - down) * height};
 }
 
+/// A head at its space's origin.
+Pretence looks_ahead() {
+    Pretence out;
+    for (RuntimeEye& eye : out.eyes) eye = {{}, -0.7f, 0.7f, 0.7f, -0.7f};
+    return out;
+}
+
+std::vector<Showing> next_showings(Headset& headset) {
+    std::vector<Showing> out;
+    while (out.empty()) out = headset.take_showings();
+    return out;
+}
+
 /// Frames of which the newest stays the same.
 std::shared_ptr<Headset::Frames> still(const servo::Frame& frame) {
     return std::make_shared<Headset::Frames>(frame);
@@ -301,8 +314,7 @@ TEST_F(HeadsetTest, TellsWhichTickWasSeenWhenAndFromWhere) {
     frames->publish(frame_of(scene, 700));
     pretend(seen.pretence);
     const Handed handed = next_picture();
-    std::vector<Showing> showings;
-    while (showings.empty()) showings = headset.take_showings();
+    const std::vector<Showing> showings = next_showings(headset);
     EXPECT_EQ(showings[0].tick, 700);
     EXPECT_TRUE(showings[0].tracked);
     EXPECT_LT((showings[0].X_WV.p - seen.X_WV.p).norm(), 1e-6);
@@ -313,16 +325,14 @@ TEST_F(HeadsetTest, TellsWhichTickWasSeenWhenAndFromWhere) {
 }
 
 TEST_F(HeadsetTest, TellsThatThePlaceOfTheHeadWasGuessed) {
-    Pretence pretence;
-    for (RuntimeEye& eye : pretence.eyes) eye = {{}, -0.7f, 0.7f, 0.7f, -0.7f};
+    Pretence pretence = looks_ahead();
     pretence.tracked = false;
     pretend(pretence);
     const scene::Scene scene = block_scene();
     Headset headset({});
     headset.show(scene, still(frame_of(scene, 4)));
     next_picture();
-    std::vector<Showing> showings;
-    while (showings.empty()) showings = headset.take_showings();
+    const std::vector<Showing> showings = next_showings(headset);
     EXPECT_FALSE(showings[0].tracked);
 }
 
@@ -330,8 +340,7 @@ TEST_F(HeadsetTest, DrawsNothingThatNobodySeesAndNothingFromNowhere) {
     const scene::Scene scene = block_scene();
     Headset headset({});
     headset.show(scene, still(frame_of(scene, 4)));
-    Pretence pretence;
-    for (RuntimeEye& eye : pretence.eyes) eye = {{}, -0.7f, 0.7f, 0.7f, -0.7f};
+    Pretence pretence = looks_ahead();
     pretence.visible = false;
     pretend(pretence);
     EXPECT_EQ(next_picture().layers, 0);
@@ -434,8 +443,7 @@ TEST_F(HeadsetTest, SaysThatThereIsNoDisplay) {
 }
 
 TEST_F(HeadsetTest, EndsWithItsRuntime) {
-    Pretence pretence;
-    for (RuntimeEye& eye : pretence.eyes) eye = {{}, -0.7f, 0.7f, 0.7f, -0.7f};
+    Pretence pretence = looks_ahead();
     pretend(pretence);
     const scene::Scene scene = block_scene();
     Headset headset({});
