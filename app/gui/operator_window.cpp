@@ -117,6 +117,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
       devices_(new DevicePanel),
       tuning_(new TuningPanel),
       composer_(new Composer),
+      mirror_(new SubjectMirror),
       log_(new LogView) {
     setWindowTitle("Dihaptic");
     centre_->addWidget(scene_);
@@ -164,6 +165,14 @@ void OperatorWindow::connect_scene() {
 }
 
 void OperatorWindow::connect_subjects() {
+    const auto mirror = [this] {
+        mirror_->follow(subjects_.first(),
+                        subjects_.headset() != nullptr
+                            ? "The pictures in a headset are not shown here."
+                            : "The subject has no window of its own: View > Subject's window.");
+    };
+    mirror();
+    connect(&subjects_, &SubjectWindows::changed, this, mirror);
     connect(&subjects_, &SubjectWindows::key_pressed, this, &OperatorWindow::press);
     connect(&subjects_, &SubjectWindows::clicked, this, &OperatorWindow::click);
     connect(&subjects_, &SubjectWindows::closed, this,
@@ -244,21 +253,28 @@ void OperatorWindow::make_docks() {
         return dock;
     };
     add("Session", session_, Qt::RightDockWidgetArea);
-    auto* tuning = new QScrollArea;  // a laptop's screen is too low for all of the panel
-    tuning->setWidget(tuning_);
-    tuning->setWidgetResizable(true);
-    tuning->setFrameShape(QFrame::NoFrame);
-    QDockWidget* tuning_dock = add("Tuning", tuning, Qt::RightDockWidgetArea);
-    QDockWidget* plots = add("Plots", plots_, Qt::RightDockWidgetArea);
+    // a laptop's screen is too low for all of a panel
+    const auto scrolled = [](QWidget* widget) {
+        auto* area = new QScrollArea;
+        area->setWidget(widget);
+        area->setWidgetResizable(true);
+        area->setFrameShape(QFrame::NoFrame);
+        return area;
+    };
+    QDockWidget* tuning_dock = add("Tuning", scrolled(tuning_), Qt::RightDockWidgetArea);
+    QDockWidget* plots = add("Plots", scrolled(plots_), Qt::RightDockWidgetArea);
     QDockWidget* trials = add("Trials", trials_, Qt::RightDockWidgetArea);
+    QDockWidget* seen = add("What the subject sees", mirror_, Qt::RightDockWidgetArea);
+    seen->hide();
     tabifyDockWidget(plots, trials);
+    tabifyDockWidget(trials, seen);
     plots->raise();
     QDockWidget* devices = add("Devices", devices_, Qt::BottomDockWidgetArea);
     QDockWidget* log = add("Log", log_, Qt::BottomDockWidgetArea);
     compose_dock_ = add("File", composer_, Qt::LeftDockWidgetArea);
     compose_dock_->hide();
-    resizeDocks({devices, log}, {150, 150}, Qt::Vertical);
-    resizeDocks({tuning_dock, plots}, {262, 250}, Qt::Vertical);  // shows all of the first
+    resizeDocks({devices, log}, {148, 148}, Qt::Vertical);
+    resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows all of the first
     resizeDocks({plots}, {380}, Qt::Horizontal);
     resizeDocks({compose_dock_}, {480}, Qt::Horizontal);
 }
@@ -352,8 +368,11 @@ void OperatorWindow::make_view_menu() {
         QSettings().setValue("dark", on);
     });
     QMenu* panels = view_menu_->addMenu("Pa&nels");
-    for (const QDockWidget* dock : findChildren<QDockWidget*>())
+    for (QDockWidget* dock : findChildren<QDockWidget*>()) {
         panels->addAction(dock->toggleViewAction());
+        // one that shares its place with others is shown behind them
+        connect(dock->toggleViewAction(), &QAction::triggered, dock, &QWidget::raise);
+    }
 }
 
 void OperatorWindow::restore() {
@@ -955,6 +974,8 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("docks", saveState());
     subjects_.close();
     event->accept();
+    // sessions that are looked at do not keep the program
+    QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);
     if (ended_) QCoreApplication::exit(1);  // even if a dialog is open
 }
 

@@ -22,6 +22,7 @@
 #include "session_panel.h"
 #include "session_runner.h"
 #include "start_page.h"
+#include "subject_mirror.h"
 #include "subject_windows.h"
 #include "trials_panel.h"
 #include "tuning_panel.h"
@@ -163,6 +164,7 @@ class OperatorWindow : public QMainWindow {
     DevicePanel* devices_;
     TuningPanel* tuning_;
     Composer* composer_;
+    SubjectMirror* mirror_;
     LogView* log_;
     QDockWidget* compose_dock_ = nullptr;
     QAction* open_action_ = nullptr;

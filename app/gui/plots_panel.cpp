@@ -41,7 +41,10 @@ servo::Term term_of(T Item::*member) {
 
 }  // namespace
 
-PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {}
+PlotsPanel::PlotsPanel(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {
+    layout_->setContentsMargins(9, 2, 9, 2);
+    layout_->setSpacing(0);
+}
 
 void PlotsPanel::set_scene(const scene::Scene& scene) {
     for (StripChart* chart : {grasp_, fingers_, heights_}) delete chart;

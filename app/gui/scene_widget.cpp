@@ -183,7 +183,7 @@ void SceneWidget::place_labels() {
                 "font-size: %1px; border-radius: 8px;")
             .arg(std::max(20, height / 30)));
     fit_label(*banner_, width - 40);
-    help_->adjustSize();
+    fit_label(*help_, width - 24);
     banner_->move((width - banner_->width()) / 2, 24);
     help_->move(12, height - help_->height() - 12);
 }

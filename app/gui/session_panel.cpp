@@ -125,7 +125,8 @@ void SessionPanel::set_state(State state, bool trials) {
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
-        // not Qt's bar without an end: its Fusion style draws on, 60 times a second, once that has an end again
+        // not Qt's bar without an end: its Fusion style draws on, 60 times a second, once that has
+        // an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
         progress_->setFormat(opening ? "opening" : state == State::ready ? "ready" : "");

@@ -10,11 +10,13 @@
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QSlider>
 #include <QSplitter>
 #include <QStatusBar>
 #include <QTreeWidget>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/table.h"
@@ -71,7 +73,7 @@ SessionPlayer::SessionPlayer(const std::string& folder, QWidget* parent)
     connect(chart_, &TimeChart::stretch_changed, this, [this] { read_.start(120); });
     connect(&read_, &QTimer::timeout, this, &SessionPlayer::read_curves);
     connect(&timer_, &QTimer::timeout, this, &SessionPlayer::go_on);
-    resize(1200, 860);
+    resize(QSize(1200, 860).boundedTo(screen()->availableSize()));
     choose_curves();
     go_to(log_.begin());
     view_->setFocus();
@@ -111,20 +113,20 @@ QWidget* SessionPlayer::make_controls() {
     slider_ = new QSlider(Qt::Horizontal);
     slider_->setAccessibleName("Time");
     slider_->setRange(0, kSliderSteps);
+    slider_->setMinimumWidth(120);
     slider_->setFocusPolicy(Qt::NoFocus);
     connect(slider_, &QSlider::sliderMoved, this, [this](int at) {
         go_to(log_.begin() + (log_.end() - log_.begin()) * at / kSliderSteps);
     });
     layout->addWidget(slider_, 1);
     where_ = new QLabel;
-    where_->setMinimumWidth(330);
-    layout->addWidget(where_);
+    statusBar()->addPermanentWidget(where_);
     curves_ = new QLineEdit(expressions_.join("; "));
     curves_->setAccessibleName("Curves");
     curves_->setToolTip(
         "What is drawn below: names of docs/quantities.md, or expressions of them, separated by "
         "semicolons: grip_force; block.z - 20 mm; distance(thumb, index)");
-    curves_->setMinimumWidth(220);
+    curves_->setMinimumWidth(160);
     connect(curves_, &QLineEdit::returnPressed, this, [this] {
         expressions_.clear();
         for (const QString& text : curves_->text().split(';', Qt::SkipEmptyParts))
@@ -240,7 +242,10 @@ void SessionPlayer::go_to(double time) {
     const servo::Frame& frame = log_.at(time_);
     view_->show_frame(frame);
     QStringList words;
-    for (task::RecordedValue& value : values_) words += QString::number(value(frame), 'g', 4);
+    for (task::RecordedValue& value : values_) {
+        const double now = value(frame);
+        words += std::isnan(now) ? QString() : QString::number(now, 'g', 4);
+    }
     chart_->set_values(words);
     chart_->set_cursor(time_);
     slider_->setValue(static_cast<int>(kSliderSteps * (time_ - log_.begin()) /

@@ -29,7 +29,7 @@ class StripChart : public QWidget {
     void clear();
 
     QSize sizeHint() const override { return {320, 150}; }
-    QSize minimumSizeHint() const override { return {160, 80}; }
+    QSize minimumSizeHint() const override { return {160, 70}; }
 
   protected:
     void paintEvent(QPaintEvent* event) override;

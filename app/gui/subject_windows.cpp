@@ -14,14 +14,19 @@ size_t windows_of(const rig::Rig& rig) {
 void SubjectWindows::open(const rig::Rig& rig) {
     close();
     for (const rig::Display& display : rig.displays) add(display);
-    if (rig.headset) return add(*rig.headset);
-    if (windows_.empty()) add(std::optional<rig::Display>());
-    connect(first(), &SceneWidget::presented, this, &SubjectWindows::presented);
+    if (rig.headset) {
+        add(*rig.headset);
+    } else {
+        if (windows_.empty()) add(std::optional<rig::Display>());
+        connect(first(), &SceneWidget::presented, this, &SubjectWindows::presented);
+    }
+    Q_EMIT changed();
 }
 
 void SubjectWindows::close() {
     windows_.clear();
     headset_.reset();
+    Q_EMIT changed();
 }
 
 void SubjectWindows::add(const rig::Headset& headset) {

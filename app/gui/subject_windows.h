@@ -35,6 +35,8 @@ class SubjectWindows : public QObject {
     }
 
   Q_SIGNALS:
+    /// Other windows are open now, or none.
+    void changed();
     void closed();
     void key_pressed(char key);
     /// A question's line was clicked at a share of its length.

@@ -156,7 +156,8 @@ void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t r
                               : QString();
     painter.setPen(colour_of(row));
     painter.drawText(in.adjusted(6, 0, 0, 0), Qt::AlignLeft | Qt::AlignTop,
-                     QString("%1   %2 %3").arg(curve.name, value, curve.unit));
+                     value.isEmpty() ? curve.name + "   has no value here"
+                                     : QString("%1   %2 %3").arg(curve.name, value, curve.unit));
 }
 
 void TimeChart::draw_times(QPainter& painter) const {

@@ -20,7 +20,7 @@ class TimeChart : public QWidget {
     double end() const { return end_; }
     /// `begin` and `end`: of the stretch that they are of. `share`: of it that has been read.
     void set_curves(std::vector<RecordedCurve> curves, double begin, double end, double share);
-    /// Values of the curves at the cursor, in words.
+    /// Values of the curves at the cursor, in words; empty: there is none.
     void set_values(const QStringList& values);
     void set_moments(std::vector<double> times);
     /// The moment that is shown [s]. One out of sight is brought into it.

@@ -4,6 +4,8 @@ import pathlib
 import time
 import unittest
 
+import numpy as np
+
 from window import Window
 
 
@@ -35,6 +37,33 @@ class Looks(Window):
         self.key("F5")
         time.sleep(4)
         self.screenshot("layers")
+
+
+    def test_shows_the_operator_what_the_subject_sees(self):
+        self.open()
+        self.key("alt+v", "n", "Down", "Down", "Down", "Return")
+        self.screenshot("no-subject")
+        self.key("alt+v", "s")
+        subject = self.wait("the subject's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        self.key("F5")
+        time.sleep(1)
+        seen = self.pixels(0, 0, 800, 600)
+        self.xdotool("windowmove", subject, "1390", "890")
+        time.sleep(2)
+        self.screenshot("mirror")
+        panel = self.pixels(1020, 520, 370, 190)
+        drawn = np.flatnonzero((panel != panel[0, 0]).any(axis=0))  # the picture has the panel's height, and not its width
+        mirrored = panel[:, drawn[0]:drawn[-1] + 1]
+        self.assertLess(mirrored.shape[1], 300)
+        alike = np.corrcoef(coarse(seen[30:-30]), coarse(mirrored))[0, 1]
+        self.assertGreater(alike, 0.95)
+
+
+def coarse(pixels):
+    """Means of 8 by 8 parts of a picture, in a row."""
+    rows = np.array_split(pixels, 8)
+    return np.array([part.mean() for row in rows for part in np.array_split(row, 8, axis=1)])
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ class StartPage(Window):
         self.addCleanup(self.window.kill)
         name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic$"))
         self.name = name.split()[-1]
-        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *window.SIZE.split("x"), "windowfocus",
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"), "windowfocus",
                      self.name)
         time.sleep(1)
 

@@ -17,13 +17,13 @@ import time
 import unittest
 
 import h5py
+import numpy as np
 
 sys.path.append("test")  # felt.py, patience.py
 from patience import SLOWNESS, patient
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
-SIZE = "1400x900"
 SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
 
 
@@ -40,12 +40,13 @@ def end_display(display):
 class Window(unittest.TestCase):
     """Each test has a display, a home and a window of its own."""
     real_rig = False
+    size = "1400x900"  # of the display
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         read, write = os.pipe()
-        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", SIZE + "x24"],
+        self.display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset", "-screen", "0", self.size + "x24"],
                                         pass_fds=[write], stderr=subprocess.DEVNULL)
         self.addCleanup(end_display, self.display)
         os.close(write)
@@ -83,7 +84,7 @@ class Window(unittest.TestCase):
         name = self.wait("the window", lambda: self.xdotool("search", "--onlyvisible", "--name", " - Dihaptic$"))
         self.name = name.split()[-1]
         # there is no window manager that would
-        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *SIZE.split("x"),
+        self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"),
                      "windowfocus", self.name, "mousemove", "450", "450")
         self.settle()
 
@@ -132,9 +133,16 @@ class Window(unittest.TestCase):
 
     def screenshot(self, name):
         pathlib.Path(SCREENSHOTS).mkdir(parents=True, exist_ok=True)
-        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i",
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", self.size, "-i",
                         self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True,
                        timeout=patient(60))
+
+    def pixels(self, left, top, width, height):
+        """Grey levels of a part of the display, by row."""
+        raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "x11grab", "-video_size", f"{width}x{height}", "-i",
+                              f"{self.environment['DISPLAY']}+{left},{top}", "-frames:v", "1", "-f", "rawvideo", "-pix_fmt",
+                              "gray", "-"], check=True, capture_output=True, timeout=patient(60)).stdout
+        return np.frombuffer(raw, np.uint8).reshape(height, width)
 
     def recording(self):
         """Folder of the session that runs, or the last one."""

@@ -1,0 +1,60 @@
+#include "subject_mirror.h"
+
+#include <QPainter>
+
+namespace dihaptic::gui {
+namespace {
+
+/// A picture is drawn once more for the mirror, which a scene drawn in software would be slower for
+/// [ms].
+constexpr int kBetween = 250;
+
+}  // namespace
+
+SubjectMirror::SubjectMirror() {
+    setAccessibleName("What the subject sees");
+    setMinimumSize(160, 100);
+    wait_.setSingleShot(true);
+    wait_.setInterval(kBetween);
+    connect(&wait_, &QTimer::timeout, this, &SubjectMirror::look);
+}
+
+void SubjectMirror::follow(SceneWidget* scene, const QString& why) {
+    why_ = why;
+    if (scene != scene_) {
+        if (scene_) scene_->disconnect(this);
+        scene_ = scene;
+        picture_ = {};
+        // what is not drawn anew needs no new picture
+        if (scene != nullptr)
+            connect(scene, &QOpenGLWidget::frameSwapped, this, [this] {
+                if (isVisible() && !wait_.isActive()) wait_.start();
+            });
+    }
+    look();
+    update();
+}
+
+void SubjectMirror::look() {
+    if (!scene_ || !scene_->isVisible() || !isVisible()) return;
+    picture_ = scene_->grab();
+    update();
+}
+
+void SubjectMirror::showEvent(QShowEvent*) {
+    wait_.start();
+}
+
+void SubjectMirror::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    if (picture_.isNull()) {
+        painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, why_);
+        return;
+    }
+    QRect target({}, picture_.size().scaled(size(), Qt::KeepAspectRatio));
+    target.moveCenter(rect().center());
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    painter.drawPixmap(target, picture_);
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,38 @@
+// What the subject sees, in small, for the operator: the picture of the subject's first window,
+// texts and all.
+#pragma once
+
+#include <QPixmap>
+#include <QPointer>
+#include <QTimer>
+
+#include "scene_widget.h"
+
+namespace dihaptic::gui {
+
+class SubjectMirror : public QWidget {
+    Q_OBJECT
+
+  public:
+    SubjectMirror();
+
+    /// `scene`: of the subject's first window. Null: there is none, and `why` is shown instead.
+    void follow(SceneWidget* scene, const QString& why);
+
+    QSize sizeHint() const override { return {320, 200}; }
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+    void showEvent(QShowEvent* event) override;
+
+  private:
+    /// Takes a picture, if anybody sees it.
+    void look();
+
+    QPointer<SceneWidget> scene_;
+    QString why_;
+    QTimer wait_;  // runs between two pictures
+    QPixmap picture_;
+};
+
+}  // namespace dihaptic::gui
