@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kProgram = "dihaptic-gui";
 
 /// Replaces this process by the window's program, which lies beside this one.
-void run(const std::string& file, const std::string& out, double sync) {
+void run(const std::vector<std::string>& files, const std::string& out, double sync) {
     const auto is_set = [](const char* name) {
         const char* value = std::getenv(name);
         return value != nullptr && *value != '\0';
@@ -26,7 +26,7 @@ void run(const std::string& file, const std::string& out, double sync) {
     const std::string program =
         (std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram).string();
     std::vector<std::string> words{kProgram, "--out", out, "--sync", fmt::format("{}", sync)};
-    if (!file.empty()) words.push_back(file);
+    words.insert(words.end(), files.begin(), files.end());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -39,23 +39,24 @@ void run(const std::string& file, const std::string& out, double sync) {
 
 void add_gui(CLI::App& app) {
     struct Options {
-        std::string file;
+        std::vector<std::string> files;
         std::string out = "sessions";
         double sync = 0;  // [s]
     };
     auto* command = app.add_subcommand(
         "gui", "The operator's window; without devices, the mouse moves a simulated hand");
     auto options = std::make_shared<Options>();
-    command->add_option("FILE", options->file,
-                        "scene or experiment, or a recorded session's folder; otherwise "
-                        "scenes/block-on-table.yaml");
+    command->add_option(
+        "FILE", options->files,
+        "scene or experiment, or folders of recorded sessions, of which two are shown "
+        "side by side; none: a page of what there is");
     command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
     command->add_option("--sync", options->sync, "as of dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(
         "\nExamples:\n  dihaptic gui scenes/block-on-table.yaml\n"
         "  dihaptic gui sessions/2026-11-20_101500_lift-block");
-    command->callback([options] { run(options->file, options->out, options->sync); });
+    command->callback([options] { run(options->files, options->out, options->sync); });
 }
 
 }  // namespace dihaptic::cli

@@ -22,10 +22,10 @@ void on_message(QtMsgType type, const QMessageLogContext& context, const QString
         dihaptic::gui::SessionRunner::end_program();
 }
 
-/// Shows a recorded session, and nothing else.
-int look_at(const QString& folder) {
+/// Shows recorded sessions, and nothing else.
+int look_at(const QStringList& folders) {
     try {
-        (new dihaptic::gui::SessionPlayer(folder.toStdString()))->show();
+        dihaptic::gui::open_sessions(folders);
     } catch (const dihaptic::Error& e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 2;
@@ -55,13 +55,15 @@ int main(int argc, char** argv) {
     const QCommandLineOption sync("sync", "Synchronise recordings to the disk so often [s].",
                                   "seconds", "0");
     parser.addOption(sync);
-    parser.addPositionalArgument("FILE", "scene or experiment, or the folder of a recorded session",
-                                 "[FILE]");
+    parser.addPositionalArgument(
+        "FILE", "scene or experiment, or folders of recorded sessions, of which two go together",
+        "[FILE]");
     parser.process(app);
-    const QString file = parser.positionalArguments().value(0);
+    const QStringList files = parser.positionalArguments();
+    const QString file = files.value(0);
 
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
-    if (QFileInfo(file).isDir()) return look_at(file);
+    if (QFileInfo(file).isDir()) return look_at(files);
     dihaptic::gui::StopRequest stop;
     dihaptic::gui::OperatorWindow window(parser.value(out), parser.value(sync).toDouble(),
                                          stop.flag());

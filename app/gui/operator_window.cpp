@@ -442,13 +442,13 @@ void OperatorWindow::show_page_of_docs(const QString& file) {
 
 void OperatorWindow::choose_session() {
     auto* dialog = new SessionsDialog(out_, this);
-    connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_session);
+    connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
     dialog->open();
 }
 
-void OperatorWindow::play_session(const QString& folder) {
+void OperatorWindow::play_sessions(const QStringList& folders) {
     try {
-        (new SessionPlayer(folder.toStdString()))->show();
+        open_sessions(folders);
     } catch (const Error& e) {
         log(e.what(), true);
     }

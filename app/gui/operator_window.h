@@ -71,7 +71,7 @@ class OperatorWindow : public QMainWindow {
     void remember(const QString& file);
     void make_help_menu();
     void choose_session();
-    void play_session(const QString& folder);
+    void play_sessions(const QStringList& folders);
     void reload();
     void opened(const Opened& opened);
     void refused(const QStringList& problems);

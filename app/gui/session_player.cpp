@@ -1,5 +1,6 @@
 #include "session_player.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QFileDialog>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 #include "base/table.h"
 #include "layers_menu.h"
@@ -147,6 +149,12 @@ void SessionPlayer::make_menus() {
         view->addAction(QString::fromStdString(camera.name), this,
                         [this, name = camera.name] { view_->set_camera(name); });
     view->addSeparator();
+    together_ = view->addAction("&Together with other sessions");
+    together_->setCheckable(true);
+    together_->setToolTip("Goes to the same time of the same trial");
+    for (QDockWidget* dock : findChildren<QDockWidget*>())
+        view->addAction(dock->toggleViewAction());
+    view->addSeparator();
     add_layers(*view, *view_);
     add_fine_pictures(*view, *view_);
 }
@@ -158,6 +166,7 @@ void SessionPlayer::make_moments() {
     list_->setRootIsDecorated(false);
     list_->setHeaderLabels({"s", "what"});
     list_->setFocusPolicy(Qt::ClickFocus);
+    read_starts();
     add_moments(folder_.file("trials.csv"), "start_time", {"trial_num", "condition", "outcome"});
     add_moments(folder_.file("events.csv"), "time_s", {"event", "detail"});
     add_moments(folder_.file("episodes.csv"), "start_time", {"episode", "slip_mm", "rise_mm"});
@@ -174,6 +183,57 @@ void SessionPlayer::make_moments() {
     dock->setWidget(list_);
     addDockWidget(Qt::RightDockWidgetArea, dock);
     resizeDocks({dock}, {300}, Qt::Horizontal);
+}
+
+void SessionPlayer::read_starts() {
+    std::error_code ignored;
+    const std::string file = folder_.file("trials.csv");
+    if (!std::filesystem::is_regular_file(file, ignored)) return;
+    const std::vector<std::vector<std::string>> rows = read_csv(file);
+    if (rows.empty()) return;
+    const auto column = [&](const char* name) {
+        return std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
+    };
+    const auto time = static_cast<size_t>(column("start_time"));
+    const auto trial = static_cast<size_t>(column("trial_num"));
+    for (const std::vector<std::string>& row : std::span(rows).subspan(1)) {
+        if (std::max(time, trial) >= row.size()) continue;
+        bool is_time = false, is_trial = false;
+        const Start start{QString::fromStdString(row[time]).toDouble(&is_time),
+                          QString::fromStdString(row[trial]).toInt(&is_trial)};
+        if (is_time && is_trial) starts_.push_back(start);
+    }
+    std::sort(starts_.begin(), starts_.end(),
+              [](const Start& a, const Start& b) { return a.time < b.time; });
+}
+
+SessionPlayer::Moment SessionPlayer::moment() const {
+    const auto next =
+        std::upper_bound(starts_.begin(), starts_.end(), time_,
+                         [](double time, const Start& start) { return time < start.time; });
+    if (next == starts_.begin()) return {0, time_ - log_.begin()};
+    const Start& start = *std::prev(next);
+    return {start.trial, time_ - start.time};
+}
+
+void SessionPlayer::follow(const Moment& moment) {
+    if (!together_->isChecked()) return;
+    double begin = log_.begin(), end = log_.end();
+    if (moment.trial > 0) {
+        const auto start = std::find_if(starts_.rbegin(), starts_.rend(), [&](const Start& one) {
+            return one.trial == moment.trial;
+        });
+        if (start == starts_.rend()) return;
+        begin = start->time;
+        if (start != starts_.rbegin()) end = std::prev(start)->time - log_.head().tick;
+    }
+    following_ = true;
+    go_to(std::min(begin + moment.since, end));
+    following_ = false;
+}
+
+void SessionPlayer::set_together(bool together) {
+    together_->setChecked(together);
 }
 
 void SessionPlayer::add_moments(const std::string& file, const char* time,
@@ -256,6 +316,11 @@ void SessionPlayer::go_to(double time) {
                         .arg(frame.sequence);
     if (frame.trial > 0) where += QString(", trial %1").arg(frame.trial);
     where_->setText(where);
+    if (following_ || !together_->isChecked()) return;
+    for (QWidget* window : QApplication::topLevelWidgets()) {
+        auto* other = qobject_cast<SessionPlayer*>(window);
+        if (other != nullptr && other != this) other->follow(moment());
+    }
 }
 
 void SessionPlayer::play(bool on) {
@@ -327,6 +392,24 @@ void SessionPlayer::keyPressEvent(QKeyEvent* event) {
             break;
         default:
             QMainWindow::keyPressEvent(event);
+    }
+}
+
+void open_sessions(const QStringList& folders) {
+    std::vector<std::unique_ptr<SessionPlayer>> players;
+    for (const QString& folder : folders)
+        players.push_back(std::make_unique<SessionPlayer>(folder.toStdString()));
+    const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+    for (size_t i = 0; i < players.size(); ++i) {
+        SessionPlayer* const player = players[i].release();  // deletes itself when it is closed
+        if (folders.size() == 2) {
+            player->set_together(true);
+            // half a display has no room for the list of moments, which View shows again
+            for (QDockWidget* dock : player->findChildren<QDockWidget*>()) dock->hide();
+            player->resize(room.width() / 2, room.height());
+            player->move(i == 0 ? room.left() : room.right() + 1 - player->width(), room.top());
+        }
+        player->show();
     }
 }
 

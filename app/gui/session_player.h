@@ -1,5 +1,5 @@
 // A window for a recorded session: the scene at any moment, curves of what was recorded, and what
-// happened when. Several may be open, to compare sessions.
+// happened when. Two may go together, to compare sessions.
 #pragma once
 
 #include <QElapsedTimer>
@@ -36,6 +36,18 @@ class SessionPlayer : public QMainWindow {
     double time() const { return time_; }
     void go_to(double time);
 
+    /// A moment as a trial has it: the trial's number (0: before all trials, or there are none) and
+    /// the time since it began [s].
+    struct Moment {
+        int trial = 0;
+        double since = 0;
+    };
+    Moment moment() const;
+    /// Shows that moment of the trial's last attempt, at most its end, if this window goes together
+    /// with others and has such a trial.
+    void follow(const Moment& moment);
+    void set_together(bool together);
+
   protected:
     void keyPressEvent(QKeyEvent* event) override;
 
@@ -43,6 +55,7 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
+    void read_starts();
     void add_moments(const std::string& file, const char* time,
                      const std::vector<const char*>& what);
     void read_curves();
@@ -59,6 +72,13 @@ class SessionPlayer : public QMainWindow {
     double time_ = 0;
     double speed_ = 1;
     std::vector<double> moments_;
+    struct Start {
+        double time;  // [s]
+        int trial;
+    };
+    std::vector<Start> starts_;  // of attempts at trials
+    QAction* together_ = nullptr;
+    bool following_ = false;
     std::vector<task::RecordedValue> values_;
     QStringList expressions_{"grip_force", "load_force"};
     CurveReader reader_;
@@ -73,5 +93,9 @@ class SessionPlayer : public QMainWindow {
     QTreeWidget* list_ = nullptr;
     QTimer read_;  // curves of a stretch that was zoomed to
 };
+
+/// Opens a window for each of these sessions. Two stand side by side and go together. Throws Error
+/// when one cannot be read.
+void open_sessions(const QStringList& folders);
 
 }  // namespace dihaptic::gui

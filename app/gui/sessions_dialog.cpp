@@ -18,11 +18,15 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     setWindowTitle("Recorded sessions");
     list_->setAccessibleName("Sessions");
     list_->setRootIsDecorated(false);
+    list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     list_->setHeaderLabels(
         {"started", "title", "participant", "moved by", "state", "ticks", "folder"});
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Close);
     auto* layout = new QVBoxLayout(this);
-    layout->addWidget(new QLabel("Sessions in " + QDir(folder).absolutePath()));
+    auto* where = new QLabel("Sessions in " + QDir(folder).absolutePath() +
+                             ". Two that are chosen (Ctrl + click) are shown side by side.");
+    where->setWordWrap(true);
+    layout->addWidget(where);
     layout->addWidget(list_, 1);
     layout->addWidget(buttons);
     fill(folder);
@@ -59,9 +63,11 @@ void SessionsDialog::fill(const QString& folder) {
 }
 
 void SessionsDialog::choose() {
-    const QTreeWidgetItem* const item = list_->currentItem();
-    if (item == nullptr) return;
-    Q_EMIT chosen(item->data(0, Qt::UserRole).toString());
+    QStringList folders;
+    for (const QTreeWidgetItem* item : list_->selectedItems())
+        folders += item->data(0, Qt::UserRole).toString();
+    if (folders.isEmpty()) return;
+    Q_EMIT chosen(folders);
     accept();
 }
 

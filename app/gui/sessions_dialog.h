@@ -15,8 +15,8 @@ class SessionsDialog : public QDialog {
     explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
 
   Q_SIGNALS:
-    /// Folder of the session.
-    void chosen(const QString& folder);
+    /// Folders of sessions.
+    void chosen(const QStringList& folders);
 
   private:
     void fill(const QString& folder);

@@ -1,4 +1,5 @@
 """A recorded session, looked at again: from the list of sessions, and by itself."""
+import csv
 import glob
 import os
 import pathlib
@@ -61,6 +62,35 @@ class Player(Window):
         name = os.path.basename(folder)
         self.wait("the player",
                   lambda: self.xdotool("search", "--onlyvisible", "--name", f"^{name} - Dihaptic$"))
+
+    def test_shows_two_sessions_side_by_side_at_the_same_place_of_a_trial(self):
+        starts = []
+        for i in (1, 2):
+            subprocess.run([PROGRAM, "run", "experiments/first-trials.yaml", "--simulate", "--participant", f"sim-00{i}",
+                            "--seed", str(i), "--out", self.out], check=True, capture_output=True)
+        folders = sorted(path.rstrip("/") for path in glob.glob(self.out + "/*/"))
+        for folder in folders:
+            with open(folder + "/trials.csv") as file:
+                starts.append([float(row["start_time"]) for row in csv.DictReader(file)])
+        self.assertNotAlmostEqual(starts[0][2], starts[1][2], delta=0.05)
+        self.open(*folders)
+        first, second = (self.xdotool("search", "--name", f"^{os.path.basename(folder)} - Dihaptic$").strip()
+                         for folder in folders)
+        self.xdotool("windowmove", first, "0", "0", "windowsize", first, "700", "900", "windowmove", second, "700", "0",
+                     "windowsize", second, "700", "900", "windowfocus", first)
+        for name in (first, second):
+            self.assertIn("Geometry: 700x900", self.xdotool("getwindowgeometry", name))
+        steps = int((starts[0][2] + 0.5) * 10)  # of 100 ticks, into the third trial
+        self.xdotool("key", "--delay", "30", *["shift+Right"] * steps)
+        time.sleep(1)
+        self.screenshot("two-sessions")
+        at = []
+        for self.name, folder in zip((first, second), folders):
+            self.xdotool("windowfocus", self.name)
+            self.save(folder)
+            at += self.saved_at(folder)
+        self.assertGreater(at[0] - starts[0][2], 0.2)
+        self.assertAlmostEqual(at[0] - starts[0][2], at[1] - starts[1][2], delta=0.0021)
 
     def test_refuses_a_folder_that_is_no_session(self):
         told = subprocess.run([PROGRAM, "gui", self.folder.name], env=self.environment, capture_output=True, text=True)

@@ -72,11 +72,11 @@ class Window(unittest.TestCase):
         list = pathlib.Path(self.folder.name, "opened")
         return list.read_text().split() if list.exists() else []
 
-    def open(self, file=None):
+    def open(self, *files):
         self.log = open(self.folder.name + "/log", "w+")
         self.addCleanup(self.log.close)
         # a test that is run by nohup too
-        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, file or self.scene], env=self.environment,
+        self.window = subprocess.Popen([PROGRAM, "gui", "--out", self.out, *(files or [self.scene])], env=self.environment,
                                        stdout=self.log, stderr=self.log,
                                        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
         self.addCleanup(self.window.wait)
