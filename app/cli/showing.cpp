@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip-axis",
-                                       "handles", "workspace", "joints"};
+                                       "handles", "workspace", "joints",   "hand"};
 
 /// Adds the box in which hands are kept: the rig's wall, or else the workspace of the finger's
 /// device.
@@ -141,6 +141,7 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
     overlays_.grip_axis = wanted("grip-axis");
     overlays_.handles = wanted("handles");
     overlays_.joints = wanted("joints");
+    overlays_.hand = wanted("hand");
     if (wanted("workspace")) overlays_.workspaces = showing.workspaces;
     const auto [width, height] = pixels(options.size);
     offscreen_.emplace(width, height);

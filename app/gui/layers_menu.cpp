@@ -23,6 +23,7 @@ void add_layers(QMenu& menu, SceneWidget& scene) {
     add_layer(menu, scene, "&Grip axis", &SceneWidget::Layers::grip_axis);
     add_layer(menu, scene, "P&ath of the object", &SceneWidget::Layers::path);
     add_layer(menu, scene, "&Joints", &SceneWidget::Layers::joints);
+    add_layer(menu, scene, "Th&e hand", &SceneWidget::Layers::hand);
 }
 
 QAction* add_fine_pictures(QMenu& menu, SceneWidget& scene) {

@@ -243,6 +243,7 @@ void SceneWidget::draw_scene() {
     overlays.grip_axis = layers_.grip_axis;
     overlays.joints = layers_.joints;
     // a screen shows no depth, and a mouse feels none
+    overlays.hand = layers_.hand;
     overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
     overlays.patch = patch_;
     if (layers_.path) overlays.path = path;

@@ -53,6 +53,7 @@ class SceneWidget : public QOpenGLWidget {
         bool joints = false;
         bool workspaces = false;
         bool drop_lines = false;
+        bool hand = false;
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);

@@ -11,6 +11,7 @@
 #include "servo/displayed.h"
 #include "view/colours.h"
 #include "view/gl.h"
+#include "view/hand_bones.h"
 #include "view/joint_marks.h"
 #include "view/shaders.h"
 #include "view/shadow_map.h"
@@ -41,6 +42,9 @@ Mat3 light_rotation() {
     R_WL << x, z.cross(x), z;
     return R_WL.transpose();
 }
+
+constexpr double kRod = 0.01;      // so thin that its round ends have no length
+constexpr double kKnuckle = 1.04;  // over a bone's radius: hides where the two meet
 
 /// The matrix that scales a model and puts it at a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
@@ -134,6 +138,10 @@ struct SceneView::Parts {
     gl::Program background;
     gl::VertexArray nothing;
     gl::Model ball;  // of radius 1
+    gl::Model rod;   // of radius kRod, from the origin to 1 along z
+    Thing skin;      // the hand's colour
+    int thumb = -1;  // indices of fingers; -1: there is none
+    int index = -1;
     // the multisampled picture
     gl::Framebuffer samples;
     gl::Renderbuffer colour;
@@ -157,6 +165,8 @@ struct SceneView::Parts {
         glGenVertexArrays(1, &name);
         nothing = gl::VertexArray(name);
         ball = gl::Model(triangles(scene::Shape::sphere(1)));
+        rod = gl::Model(tube(std::array{Vec3(0, 0, 0), Vec3(0, 0, 1)}, kRod));
+        skin.colour = linear_colour("#c9a58f");
         for (size_t i = 0; i < scene.bodies.size(); ++i) {
             const scene::Body& body = scene.bodies[i];
             Thing& thing =
@@ -165,8 +175,11 @@ struct SceneView::Parts {
             if (thing.ground) table_top = thing.highest;
             thing.plane = body.shape.kind == scene::ShapeKind::plane;
         }
-        for (size_t i = 0; i < scene.fingers.size(); ++i)
+        for (size_t i = 0; i < scene.fingers.size(); ++i) {
             fingers.push_back(make_thing(scene.fingers[i].shape, {}, finger_colour(i)));
+            if (scene.fingers[i].name == "thumb") thumb = static_cast<int>(i);
+            if (scene.fingers[i].name == "index") index = static_cast<int>(i);
+        }
         joints = joint_marks(scene);
         floor = gl::Model(square(2 * kDepthRange));
         for (const Thing& thing : bodies) X_WF.p.z() = std::min(X_WF.p.z(), thing.lowest);
@@ -254,8 +267,32 @@ struct SceneView::Parts {
                                   resolved_colour);
     }
 
-    void draw_models(const servo::Frame& frame, const gl::Program& program,
-                     const std::function<void(const Thing&, const Vec3& tint)>& prepare) const {
+    using Prepare = std::function<void(const Thing&, const Vec3& tint)>;
+
+    void draw_hand(const servo::Frame& frame, const gl::Program& program,
+                   const Prepare& prepare) const {
+        const auto is_seen = [&](int finger) {
+            return finger >= 0 &&
+                   servo::is_displayed(frame, bodies.size() + static_cast<size_t>(finger));
+        };
+        if (!is_seen(thumb) || !is_seen(index)) return;
+        prepare(skin, skin.colour);
+        const auto put = [&](const gl::Model& model, const Pose& X, const Vec3& size) {
+            program.set("world_from_model", placed(X, size));
+            model.draw();
+        };
+        for (const Bone& bone :
+             hand_bones(servo::displayed_proxy(frame, static_cast<size_t>(thumb)).p,
+                        servo::displayed_proxy(frame, static_cast<size_t>(index)).p)) {
+            const double wide = bone.radius / kRod;
+            put(rod, along(bone.from, bone.to), {wide, wide, (bone.to - bone.from).norm()});
+            for (const Vec3& end : {bone.from, bone.to})
+                put(ball, {Quat::Identity(), end}, Vec3::Constant(kKnuckle * bone.radius));
+        }
+    }
+
+    void draw_models(const servo::Frame& frame, bool hand, const gl::Program& program,
+                     const Prepare& prepare) const {
         const auto draw = [&](const Thing& thing, size_t body, const Pose& X) {
             if (!servo::is_displayed(frame, body)) return;
             const servo::LookFrame* look = servo::item_of(frame.task.looks, body);
@@ -270,6 +307,7 @@ struct SceneView::Parts {
             draw(bodies[i], i, servo::displayed_body(frame, i));
         for (size_t i = 0; i < fingers.size(); ++i)
             draw(fingers[i], bodies.size() + i, servo::displayed_proxy(frame, i));
+        if (hand) draw_hand(frame, program, prepare);
     }
 
     /// How the shadow map sees the world.
@@ -280,13 +318,13 @@ struct SceneView::Parts {
 
     Shown draw(const servo::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
                const Overlays& overlays);
-    Lamp render_shadows(const servo::Frame& frame);
+    Lamp render_shadows(const servo::Frame& frame, bool hand);
     void draw_patch(const PatchLook& look) const;
     // `corner` and `size` are a pane's [pixels]
     void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
     void draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
-                       const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
-                       const Lamp& lamp) const;
+                       const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Lamp& lamp,
+                       bool hand) const;
     void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
     void add_drop_lines(Solids& out, const servo::Frame& frame) const;
     void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
@@ -326,7 +364,7 @@ Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> al
                              int new_height, const Overlays& overlays) {
     const KeepTarget target;
     resize(new_width, new_height);
-    const Lamp lamp = render_shadows(frame);
+    const Lamp lamp = render_shadows(frame, overlays.hand);
     glBindFramebuffer(GL_FRAMEBUFFER, samples);
     glEnable(GL_SCISSOR_TEST);
     for (const Pane& pane : all) {
@@ -341,7 +379,7 @@ Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> al
         glFrontFace(pane.viewpoint.flipped ? GL_CW : GL_CCW);
         const Eigen::Vector2d corner(left, bottom), size(across, up);
         draw_background(corner, size);
-        draw_surfaces(frame, pane.viewpoint, corner, size, lamp);
+        draw_surfaces(frame, pane.viewpoint, corner, size, lamp, overlays.hand);
         draw_overlays(frame, overlays);
     }
     glFrontFace(GL_CCW);
@@ -384,7 +422,7 @@ void SceneView::Parts::draw_patch(const PatchLook& look) const {
     glClearBufferfv(GL_COLOR, 0, std::array{light, light, light, 1.f}.data());
 }
 
-SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& frame) {
+SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& frame, bool hand) {
     const Mat3 R_LW = light_rotation();
     const double half = reach(frame, R_LW);
     Lamp out;
@@ -396,7 +434,7 @@ SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& fram
                       [&](const gl::Program& program) {
                           program.set("world_from_model", gl::matrix(X_WF));
                           floor.draw();
-                          draw_models(frame, program, [](const Thing&, const Vec3&) {});
+                          draw_models(frame, hand, program, [](const Thing&, const Vec3&) {});
                       });
     return out;
 }
@@ -414,7 +452,7 @@ void SceneView::Parts::draw_background(const Eigen::Vector2d& corner,
 
 void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
                                      const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
-                                     const Lamp& lamp) const {
+                                     const Lamp& lamp, bool hand) const {
     const float furthest = 1;
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -434,7 +472,7 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint&
     surface.set("alpha", 1.0);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_map.texture());
-    draw_models(frame, surface, [&](const Thing& thing, const Vec3& tint) {
+    draw_models(frame, hand, surface, [&](const Thing& thing, const Vec3& tint) {
         surface.set("albedo", tint);
         surface.set("gloss", thing.ground ? 0.25 : 1.0);
         surface.set("grid", thing.ground ? 0.28 : 0.0);

@@ -44,6 +44,7 @@ struct Overlays {
     std::span<const Workspace> workspaces;  ///< of devices
     std::optional<PatchLook> patch;         ///< once, whatever the panes
     bool drop_lines = false;                ///< from each proxy down to the table
+    bool hand = false;                      ///< one whose thumb and index finger the proxies are
 };
 
 /// The number of the frame that was shown, and its time.

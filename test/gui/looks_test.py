@@ -31,7 +31,7 @@ class Looks(Window):
         scene = pathlib.Path("scenes/tools.yaml").read_text().replace("../meshes", os.getcwd() + "/meshes")
         pathlib.Path(self.scene).write_text(scene)
         self.open()
-        for layer in "hfcgap":
+        for layer in "hfcgape":
             self.key("alt+v", layer)
         self.key("alt+h", "Down")
         self.key("F5")

@@ -264,8 +264,14 @@ TEST(SceneView, PicturesAreLikeStoredOnes) {
     expect_like(picture(held.scene, held.frame, held.camera(), 192, 120), "held-block");
     const std::vector<Vec3> path{{0, 0, 0.02}, {0.03, 0, 0.05}, {0, 0, 0.07}};
     const std::array<Workspace, 1> workspaces{Workspace{{}, {0.2, 0.15, 0.16}}};
-    const Overlays all{true, true, true, true, false, path, workspaces};
+    Overlays all;
+    all.handles = all.forces = all.contacts = all.grip_axis = true;
+    all.path = path;
+    all.workspaces = workspaces;
     expect_like(picture(held.scene, held.frame, held.camera(), 192, 120, all), "overlays");
+    Overlays hand;
+    hand.hand = true;
+    expect_like(picture(held.scene, held.frame, held.camera(), 192, 120, hand), "hand");
     const scene::Scene tools = shipped("scenes/tools.yaml");
     servo::Frame frame = start(tools);
     for (size_t i = 0; i < frame.fingers.size(); ++i)

@@ -1,0 +1,24 @@
+// A simple right hand that follows a thumb and an index finger: where its bones are when these are.
+#pragma once
+
+#include <vector>
+
+#include "base/geometry.h"
+
+namespace dihaptic::view {
+
+/// A straight part of the hand, with round ends.
+struct Bone {
+    Vec3 from;
+    Vec3 to;
+    double radius;
+};
+
+/// The forearm, the palm, and the bones of five fingers, of each from its root to its tip. `thumb`,
+/// `index`: where these touch, in W [m]. The hand comes from the person's side (-y) and a little
+/// from above; the other fingers go along with the index finger. Bones keep their lengths: fingers
+/// end before places that are too far apart for a hand. Empty where both are at one place, or at
+/// none.
+std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index);
+
+}  // namespace dihaptic::view
