@@ -120,6 +120,21 @@ bool Composer::save() {
     return true;
 }
 
+bool Composer::save_as(const QString& file) {
+    if (const QString why = write(file, edit_->toPlainText()); !why.isEmpty()) {
+        state_->setText(QString("%1 cannot be written: %2").arg(file, why));
+        return false;
+    }
+    forget();
+    return true;
+}
+
+void Composer::check_now() {
+    if (!pause_.isActive()) return;
+    pause_.stop();
+    Q_EMIT edited();
+}
+
 void Composer::show_problems(const QStringList& problems) {
     static const QRegularExpression place(R"(^(.*?):(\d+): (.*)$)",
                                           QRegularExpression::DotMatchesEverythingOption);

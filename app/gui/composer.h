@@ -29,6 +29,11 @@ class Composer : public QWidget {
     bool go_to(const Place& place);
     /// Writes the file; false, and says why, if it cannot.
     bool save();
+    /// Writes the text to another file and leaves this one as it was; false, and says why, if it
+    /// cannot.
+    bool save_as(const QString& file);
+    /// Has what was typed checked now, not after a pause.
+    void check_now();
     /// The file to be read: the open one or, while it has changes that were not saved, a draft of
     /// it beside it.
     QString source();

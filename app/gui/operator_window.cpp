@@ -293,6 +293,7 @@ void OperatorWindow::make_file_menu() {
     save_action_ =
         file->addAction("Sa&ve", QKeySequence::Save, this, [this] { composer_->save(); });
     save_action_->setEnabled(false);
+    file->addAction("Save &as ...", QKeySequence("Ctrl+Shift+S"), this, &OperatorWindow::save_as);
     file->addAction("Recorded &sessions ...", QKeySequence("Ctrl+Shift+O"), this,
                     &OperatorWindow::choose_session);
     file->addAction("&Folder of sessions", this, [this] {
@@ -390,6 +391,13 @@ void OperatorWindow::choose_file() {
     const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
                                                       "Scenes and experiments (*.yaml)");
     if (!file.isEmpty()) open(file);
+}
+
+void OperatorWindow::save_as() {
+    if (file_.isEmpty() || !open_action_->isEnabled()) return;
+    const QString file =
+        QFileDialog::getSaveFileName(this, "Save as", file_, "Scenes and experiments (*.yaml)");
+    if (!file.isEmpty() && composer_->save_as(file)) open(file);
 }
 
 void OperatorWindow::fill_recent() {
@@ -518,6 +526,7 @@ void OperatorWindow::opened(const Opened& opened) {
     remember(file_);
     frame_ = opened.frame;
     complaint_.clear();
+    text_is_wrong_ = false;
     // of real devices that have been opened, more may be known than before
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
@@ -551,7 +560,8 @@ void OperatorWindow::opened(const Opened& opened) {
 }
 
 void OperatorWindow::refused(const QStringList& problems) {
-    start_when_opened_ = false;
+    text_is_wrong_ = composer_->changed();
+    if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
     starts_.reset();
     composer_->show_problems(problems);
     if (!composer_->changed()) {  // who types sees what is wrong where it is
@@ -563,9 +573,15 @@ void OperatorWindow::refused(const QStringList& problems) {
     if (changed_) reload();
 }
 
+void OperatorWindow::refuse_to_start() {
+    log("The text has errors: it was not saved, and no session starts.", true);
+}
+
 void OperatorWindow::start() {
+    composer_->check_now();
     start_when_opened_ = loader_.loading() && !starts_;
     if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (text_is_wrong_ && composer_->changed()) return refuse_to_start();
     // what can hurt is looked at before, and what cannot when one likes
     if (rig::is_real(plan_->rig)) {
         show_checklist(true);

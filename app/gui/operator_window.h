@@ -67,6 +67,7 @@ class OperatorWindow : public QMainWindow {
     void connect_files();
     void restore();
     void choose_file();
+    void save_as();
     void fill_recent();
     void remember(const QString& file);
     void make_help_menu();
@@ -76,6 +77,7 @@ class OperatorWindow : public QMainWindow {
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
+    void refuse_to_start();
     /// Starts, after what there is to check and to ask.
     void start_checked();
     /// Shows the checklist; `before_start`: a session follows.
@@ -145,6 +147,7 @@ class OperatorWindow : public QMainWindow {
     std::optional<MouseHand> mouse_;      ///< of the running session
     bool start_when_opened_ = false;
     std::optional<recording::Participant> starts_;  ///< whose session starts when the file is read
+    bool text_is_wrong_ = false;                    // of the editor, as it is now
     bool changed_ = false;  ///< the file has changed while it could not be read again
     bool closing_ = false;
     bool ended_ = false;  ///< a signal asked the program to end

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <span>
 
 #include "base/table.h"
@@ -133,8 +134,7 @@ QWidget* SessionPlayer::make_controls() {
         expressions_.clear();
         for (const QString& text : curves_->text().split(';', Qt::SkipEmptyParts))
             expressions_ += text.trimmed();
-        choose_curves();
-        view_->setFocus();
+        if (choose_curves()) view_->setFocus();
     });
     layout->addWidget(curves_);
     return row;
@@ -248,6 +248,7 @@ void SessionPlayer::add_moments(const std::string& file, const char* time,
     };
     const size_t at = column(time);
     const std::string table = std::filesystem::path(file).stem().string();
+    std::map<QString, QTreeWidgetItem*> limits;  // are listed where they come first, with how often
     for (size_t i = 1; i < rows.size() && at < rows[0].size(); ++i) {
         bool is_number = false;
         const double seconds = QString::fromStdString(rows[i][at]).toDouble(&is_number);
@@ -264,27 +265,40 @@ void SessionPlayer::add_moments(const std::string& file, const char* time,
                                                          .arg(value.toDouble(), 0, 'f', 2)
                                                    : value;
         }
+        const bool limit = !words.isEmpty() && words.front() == "limit";
+        QTreeWidgetItem*& same = limits[limit ? words.join(" ") : QString()];
+        if (same != nullptr) {
+            const int times = same->data(1, Qt::UserRole).toInt() + 1;
+            same->setData(1, Qt::UserRole, times);
+            same->setText(1, QString("%1 (%2 times)").arg(words.join(" ")).arg(times));
+            continue;
+        }
         auto* item =
             new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), words.join(" ")});
+        if (limit) {
+            item->setData(1, Qt::UserRole, 1);
+            same = item;
+        }
         item->setData(0, Qt::UserRole, seconds);
         item->setToolTip(1, words.join(" "));
         moments_.push_back(seconds);
     }
 }
 
-void SessionPlayer::choose_curves() {
+bool SessionPlayer::choose_curves() {
     Diagnostics diagnostics;
     std::vector<task::RecordedValue> values;
     for (const QString& text : expressions_)
         values.emplace_back(text.toStdString(), scene_, diagnostics);
     if (diagnostics.has_errors()) {
         statusBar()->showMessage(QString::fromStdString(diagnostics.problems().front().text()));
-        return;
+        return false;
     }
     statusBar()->clearMessage();
     values_ = std::move(values);
     read_curves();
     go_to(time_);
+    return true;
 }
 
 void SessionPlayer::read_curves() {

@@ -59,7 +59,8 @@ class SessionPlayer : public QMainWindow {
     void add_moments(const std::string& file, const char* time,
                      const std::vector<const char*>& what);
     void read_curves();
-    void choose_curves();
+    /// False, and says why, if a text is no expression.
+    bool choose_curves();
     void play(bool on);
     void go_on();
     void step(int frames);

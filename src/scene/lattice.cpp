@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/geometry.h"
+#include "scene/colour.h"
 #include "scene/scene.h"
 
 namespace dihaptic::scene {
@@ -153,6 +154,8 @@ bool is_sound(const Lattice& lattice, const Scene& scene, Diagnostics& diagnosti
     if (lattice.mass.has_value() == lattice.density.has_value())
         error(lattice.place, "mass", lattice.mass ? "stands beside a density" : "is missing",
               "Give mass_g or density_kg_m3.");
+    if (!lattice.colour.empty() && read_colour(lattice.colour, lattice.place, diagnostics) < 0)
+        sound = false;
     for (const Glued& glued : lattice.glued) {
         if (glued.to.empty() || scene.find(glued.to) >= 0) continue;
         report_unknown_body(glued.to, scene, glued.place, "to", diagnostics);

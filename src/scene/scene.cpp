@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "scene/colour.h"
 #include "scene/mesh.h"
 #include "scene/relief_picture.h"
 
@@ -149,6 +150,7 @@ void check_driven(const Body& body, Diagnostics& diagnostics) {
 
 void check_body(const Body& body, Diagnostics& diagnostics) {
     check_plausible(body.shape, body.place, diagnostics);
+    read_colour(body.colour, body.place, diagnostics);
     if (body.driven) check_driven(body, diagnostics);
     if (body.shape.kind == ShapeKind::plane && (body.moves_at_all() || body.driven)) {
         diagnostics.error(body.place, "fixed", "a plane is infinite and cannot move",

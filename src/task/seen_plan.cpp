@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
+#include "scene/colour.h"
 #include "servo/shown_texts.h"
 #include "task/lookup.h"
 
@@ -27,19 +27,6 @@ servo::LookFrame& look_of(TaskPlan::Looks& looks, size_t body) {
     servo::LookFrame& look = looks.things.emplace_back();
     look.body = static_cast<int32_t>(body);
     return look;
-}
-
-/// 65536 red + 256 green + blue; -1 if none is given.
-int32_t colour(const LookSpec& spec, Diagnostics& diagnostics) {
-    if (spec.colour.empty()) return -1;
-    int32_t rgb = -1;
-    const char* const end = spec.colour.data() + spec.colour.size();
-    const bool starts = spec.colour.size() == 7 && spec.colour[0] == '#';
-    const auto [at, error] = std::from_chars(spec.colour.data() + 1, end, rgb, 16);
-    if (starts && error == std::errc() && at == end && rgb >= 0) return rgb;
-    diagnostics.error(spec.place, "colour", fmt::format("'{}' is no colour", spec.colour),
-                      "Write red, green and blue in hexadecimal, e.g. colour: \"#d55e00\".");
-    return -1;
 }
 
 }  // namespace
@@ -195,7 +182,7 @@ void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks&
         if (spec.colour.empty() && spec.scale == 1)
             diagnostics.error(spec.place, "look", "changes nothing",
                               "Give it colour, scale or both.");
-        const int32_t rgb = colour(spec, diagnostics);
+        const int32_t rgb = scene::read_colour(spec.colour, spec.place, diagnostics);
         const int body = index(spec.body, spec, "body", bodies_, "no body");
         const int finger =
             index(spec.finger, spec, "finger", fingers_, "none of the scene's fingers");

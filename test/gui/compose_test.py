@@ -47,7 +47,11 @@ class Compose(Window):
         self.open()
         self.key("ctrl+e", "ctrl+End", "Return")
         self.type("bodis: []")
+        self.key("F5")  # before the pause after which the text is checked
         time.sleep(2)
+        self.key("F5")
+        time.sleep(0.5)
+        self.assertEqual(glob.glob(self.out + "/*"), [])
         self.screenshot("compose-mistake")
         self.assertEqual(self.text(), SCENE)
         for _ in range(9):
@@ -57,6 +61,28 @@ class Compose(Window):
         self.screenshot("compose-mended")
         self.start()  # saves first
         self.assertIn("# mine", self.text())
+        self.quit()
+
+    def test_saves_under_another_name_and_goes_on_with_that(self):
+        self.open()
+        self.key("ctrl+e", "ctrl+Home", "Down", "End")
+        self.type(", mine")
+        self.key("ctrl+shift+s")
+        dialog = self.wait("the dialog", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Save as$"))
+        self.xdotool("windowfocus", dialog.split()[-1])
+        time.sleep(0.5)
+        self.key("ctrl+a")
+        mine = pathlib.Path(self.folder.name, "mine.yaml")
+        self.type(str(mine))
+        self.key("Return")
+        self.wait("the file", mine.exists)
+        self.wait("the title", lambda: ", mine - Dihaptic" in self.xdotool("getwindowname", self.name))
+        self.assertIn(", mine\n", mine.read_text())
+        self.assertEqual(self.text(), SCENE)
+        self.assertEqual(self.drafts(), [])
+        self.xdotool("windowfocus", self.name)
+        self.settle()
+        self.screenshot("saved-as")
         self.quit()
 
     def test_offers_words_and_shows_where_what_is_clicked_was_written(self):

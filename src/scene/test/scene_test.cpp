@@ -228,6 +228,12 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"title: x\n", "bodies: is missing"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n",
             "scene.yaml:2: error: mass_g: must be positive, is -100"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 9, colour: "
+            "reddish}\n",
+            "scene.yaml:2: error: colour: 'reddish' is no colour. Write red, green and blue in"},
+        Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 9, colour: "
+            "'#d0303'}\n",
+            "colour: '#d0303' is no colour"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40]}\n",
             "has neither mass nor density"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 1, density_g_cm3: "

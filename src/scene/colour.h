@@ -1,0 +1,15 @@
+// Colours as files have them: "#rrggbb".
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::scene {
+
+/// 65536 red + 256 green + blue. -1 of an empty text, and of one that is no colour, of which
+/// `diagnostics` is told.
+int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics);
+
+}  // namespace dihaptic::scene
