@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <span>
 
 #include "base/table.h"
@@ -32,6 +31,18 @@ namespace {
 
 constexpr int kSliderSteps = 100000;
 constexpr int kPicture = 16;  // between pictures while it plays [ms]
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// Of a table, its headings first; none if there is no such file.
+Rows rows_of(const std::string& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored) ? read_csv(file) : Rows{};
+}
+
+size_t column_of(const Rows& rows, const char* name) {
+    return static_cast<size_t>(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+}
 
 scene::Scene scene_of(const recording::SessionFolder& folder) {
     Diagnostics diagnostics(UnknownKeys::are_left_out);
@@ -186,16 +197,9 @@ void SessionPlayer::make_moments() {
 }
 
 void SessionPlayer::read_starts() {
-    std::error_code ignored;
-    const std::string file = folder_.file("trials.csv");
-    if (!std::filesystem::is_regular_file(file, ignored)) return;
-    const std::vector<std::vector<std::string>> rows = read_csv(file);
+    const Rows rows = rows_of(folder_.file("trials.csv"));
     if (rows.empty()) return;
-    const auto column = [&](const char* name) {
-        return std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin();
-    };
-    const auto time = static_cast<size_t>(column("start_time"));
-    const auto trial = static_cast<size_t>(column("trial_num"));
+    const size_t time = column_of(rows, "start_time"), trial = column_of(rows, "trial_num");
     for (const std::vector<std::string>& row : std::span(rows).subspan(1)) {
         if (std::max(time, trial) >= row.size()) continue;
         bool is_time = false, is_trial = false;
@@ -238,17 +242,10 @@ void SessionPlayer::set_together(bool together) {
 
 void SessionPlayer::add_moments(const std::string& file, const char* time,
                                 const std::vector<const char*>& what) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) return;
-    const std::vector<std::vector<std::string>> rows = read_csv(file);
+    const Rows rows = rows_of(file);
     if (rows.empty()) return;
-    const auto column = [&](const char* name) {
-        return static_cast<size_t>(std::find(rows[0].begin(), rows[0].end(), name) -
-                                   rows[0].begin());
-    };
-    const size_t at = column(time);
+    const size_t at = column_of(rows, time);
     const std::string table = std::filesystem::path(file).stem().string();
-    std::map<QString, QTreeWidgetItem*> limits;  // are listed where they come first, with how often
     for (size_t i = 1; i < rows.size() && at < rows[0].size(); ++i) {
         bool is_number = false;
         const double seconds = QString::fromStdString(rows[i][at]).toDouble(&is_number);
@@ -257,7 +254,7 @@ void SessionPlayer::add_moments(const std::string& file, const char* time,
         if (table == "trials") words += "trial";
         if (table == "lifts") words += QString(time).chopped(2).replace('_', ' ') + ", trial";
         for (const char* name : what) {
-            const size_t k = column(name);
+            const size_t k = column_of(rows, name);
             if (k >= rows[i].size() || rows[i][k].empty()) continue;
             const QString value = QString::fromStdString(rows[i][k]);
             words += QString(name).endsWith("_mm") ? QString("%1 %2 mm")
@@ -265,24 +262,25 @@ void SessionPlayer::add_moments(const std::string& file, const char* time,
                                                          .arg(value.toDouble(), 0, 'f', 2)
                                                    : value;
         }
-        const bool limit = !words.isEmpty() && words.front() == "limit";
-        QTreeWidgetItem*& same = limits[limit ? words.join(" ") : QString()];
-        if (same != nullptr) {
-            const int times = same->data(1, Qt::UserRole).toInt() + 1;
-            same->setData(1, Qt::UserRole, times);
-            same->setText(1, QString("%1 (%2 times)").arg(words.join(" ")).arg(times));
-            continue;
-        }
-        auto* item =
-            new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), words.join(" ")});
-        if (limit) {
-            item->setData(1, Qt::UserRole, 1);
-            same = item;
-        }
-        item->setData(0, Qt::UserRole, seconds);
-        item->setToolTip(1, words.join(" "));
-        moments_.push_back(seconds);
+        list_moment(seconds, words.join(" "));
     }
+}
+
+void SessionPlayer::list_moment(double seconds, const QString& what) {
+    const bool limit = what.startsWith("limit ");
+    if (QTreeWidgetItem* const same = limit ? limits_[what] : nullptr) {
+        const int times = same->data(1, Qt::UserRole).toInt() + 1;
+        same->setData(1, Qt::UserRole, times);
+        same->setText(1, QString("%1 (%2 times)").arg(what).arg(times));
+        return;
+    }
+    auto* item = new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), what});
+    item->setData(0, Qt::UserRole, seconds);
+    item->setToolTip(1, what);
+    moments_.push_back(seconds);
+    if (!limit) return;
+    item->setData(1, Qt::UserRole, 1);
+    limits_[what] = item;
 }
 
 bool SessionPlayer::choose_curves() {

@@ -5,6 +5,7 @@
 #include <QElapsedTimer>
 #include <QMainWindow>
 #include <QTimer>
+#include <map>
 #include <memory>
 
 #include "curve_reader.h"
@@ -18,6 +19,7 @@ class QLineEdit;
 class QPushButton;
 class QSlider;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace dihaptic::gui {
 
@@ -58,6 +60,8 @@ class SessionPlayer : public QMainWindow {
     void read_starts();
     void add_moments(const std::string& file, const char* time,
                      const std::vector<const char*>& what);
+    /// A limit that was reached before is counted there.
+    void list_moment(double seconds, const QString& what);
     void read_curves();
     /// False, and says why, if a text is no expression.
     bool choose_curves();
@@ -73,6 +77,7 @@ class SessionPlayer : public QMainWindow {
     double time_ = 0;
     double speed_ = 1;
     std::vector<double> moments_;
+    std::map<QString, QTreeWidgetItem*> limits_;
     struct Start {
         double time;  // [s]
         int trial;
