@@ -48,6 +48,7 @@ class SessionPlayer : public QMainWindow {
     /// Shows that moment of the trial's last attempt, at most its end, if this window goes together
     /// with others and has such a trial.
     void follow(const Moment& moment);
+    /// Whether this window and others show the same moment.
     void set_together(bool together);
 
   protected:

@@ -5,8 +5,8 @@
 namespace dihaptic::gui {
 namespace {
 
-/// A picture is drawn once more for the mirror, which a scene drawn in software would be slower for
-/// [ms].
+/// Between two pictures of the mirror [ms]. The scene is drawn once more for each, which takes its
+/// time where there is no graphics card.
 constexpr int kBetween = 250;
 
 }  // namespace
