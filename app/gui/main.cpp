@@ -64,6 +64,11 @@ int main(int argc, char** argv) {
 
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
     if (QFileInfo(file).isDir()) return look_at(files);
+    if (files.size() > 1) {
+        std::fprintf(stderr,
+                     "only recorded sessions are opened together. Name one scene or experiment.\n");
+        return 2;
+    }
     dihaptic::gui::StopRequest stop;
     dihaptic::gui::OperatorWindow window(parser.value(out), parser.value(sync).toDouble(),
                                          stop.flag());

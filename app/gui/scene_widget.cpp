@@ -242,8 +242,8 @@ void SceneWidget::draw_scene() {
     overlays.contacts = layers_.contacts;
     overlays.grip_axis = layers_.grip_axis;
     overlays.joints = layers_.joints;
-    // a screen shows no depth, and a mouse feels none
     overlays.hand = layers_.hand;
+    // a screen shows no depth, and a mouse feels none
     overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
     overlays.patch = patch_;
     if (layers_.path) overlays.path = path;

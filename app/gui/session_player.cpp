@@ -19,7 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <span>
+#include <optional>
 
 #include "base/table.h"
 #include "layers_menu.h"
@@ -32,16 +32,12 @@ namespace {
 constexpr int kSliderSteps = 100000;
 constexpr int kPicture = 16;  // between pictures while it plays [ms]
 
-using Rows = std::vector<std::vector<std::string>>;
-
-/// Of a table, its headings first; none if there is no such file.
-Rows rows_of(const std::string& file) {
+/// A session's table; nullopt if it has none of that name.
+std::optional<CsvFile> table_of(const recording::SessionFolder& folder, const char* name) {
+    const std::string file = folder.file(name);
     std::error_code ignored;
-    return std::filesystem::is_regular_file(file, ignored) ? read_csv(file) : Rows{};
-}
-
-size_t column_of(const Rows& rows, const char* name) {
-    return static_cast<size_t>(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+    if (!std::filesystem::is_regular_file(file, ignored)) return {};
+    return CsvFile(file);
 }
 
 scene::Scene scene_of(const recording::SessionFolder& folder) {
@@ -177,13 +173,20 @@ void SessionPlayer::make_moments() {
     list_->setRootIsDecorated(false);
     list_->setHeaderLabels({"s", "what"});
     list_->setFocusPolicy(Qt::ClickFocus);
-    read_starts();
-    add_moments(folder_.file("trials.csv"), "start_time", {"trial_num", "condition", "outcome"});
-    add_moments(folder_.file("events.csv"), "time_s", {"event", "detail"});
-    add_moments(folder_.file("episodes.csv"), "start_time", {"episode", "slip_mm", "rise_mm"});
-    for (const char* moment :
-         {"touch_s", "load_onset_s", "lift_off_s", "replacement_s", "release_s"})
-        add_moments(folder_.file("lifts.csv"), moment, {"trial_num"});
+    if (const auto trials = table_of(folder_, "trials.csv")) {
+        read_starts(*trials);
+        add_moments(*trials, "start_time", "trial", {"trial_num", "condition", "outcome"});
+    }
+    if (const auto events = table_of(folder_, "events.csv"))
+        add_moments(*events, "time_s", "", {"event", "detail"});
+    if (const auto episodes = table_of(folder_, "episodes.csv"))
+        add_moments(*episodes, "start_time", "", {"episode", "slip_mm", "rise_mm"});
+    if (const auto lifts = table_of(folder_, "lifts.csv")) {
+        for (const char* moment :
+             {"touch_s", "load_onset_s", "lift_off_s", "replacement_s", "release_s"})
+            add_moments(*lifts, moment, QString(moment).chopped(2).replace('_', ' ') + ", trial",
+                        {"trial_num"});
+    }
     list_->sortItems(0, Qt::AscendingOrder);
     list_->header()->resizeSection(0, 80);
     std::sort(moments_.begin(), moments_.end());
@@ -196,16 +199,11 @@ void SessionPlayer::make_moments() {
     resizeDocks({dock}, {300}, Qt::Horizontal);
 }
 
-void SessionPlayer::read_starts() {
-    const Rows rows = rows_of(folder_.file("trials.csv"));
-    if (rows.empty()) return;
-    const size_t time = column_of(rows, "start_time"), trial = column_of(rows, "trial_num");
-    for (const std::vector<std::string>& row : std::span(rows).subspan(1)) {
-        if (std::max(time, trial) >= row.size()) continue;
-        bool is_time = false, is_trial = false;
-        const Start start{QString::fromStdString(row[time]).toDouble(&is_time),
-                          QString::fromStdString(row[trial]).toInt(&is_trial)};
-        if (is_time && is_trial) starts_.push_back(start);
+void SessionPlayer::read_starts(const CsvFile& trials) {
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const double time = trials.number(i, "start_time"), trial = trials.number(i, "trial_num");
+        if (std::isfinite(time) && std::isfinite(trial))
+            starts_.push_back({time, static_cast<int>(trial)});
     }
     std::sort(starts_.begin(), starts_.end(),
               [](const Start& a, const Start& b) { return a.time < b.time; });
@@ -240,23 +238,16 @@ void SessionPlayer::set_together(bool together) {
     together_->setChecked(together);
 }
 
-void SessionPlayer::add_moments(const std::string& file, const char* time,
+void SessionPlayer::add_moments(const CsvFile& table, const char* time, const QString& first,
                                 const std::vector<const char*>& what) {
-    const Rows rows = rows_of(file);
-    if (rows.empty()) return;
-    const size_t at = column_of(rows, time);
-    const std::string table = std::filesystem::path(file).stem().string();
-    for (size_t i = 1; i < rows.size() && at < rows[0].size(); ++i) {
-        bool is_number = false;
-        const double seconds = QString::fromStdString(rows[i][at]).toDouble(&is_number);
-        if (!is_number) continue;
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const double seconds = table.number(i, time);
+        if (!std::isfinite(seconds)) continue;
         QStringList words;
-        if (table == "trials") words += "trial";
-        if (table == "lifts") words += QString(time).chopped(2).replace('_', ' ') + ", trial";
+        if (!first.isEmpty()) words += first;
         for (const char* name : what) {
-            const size_t k = column_of(rows, name);
-            if (k >= rows[i].size() || rows[i][k].empty()) continue;
-            const QString value = QString::fromStdString(rows[i][k]);
+            const QString value = QString::fromStdString(table.text(i, name));
+            if (value.isEmpty()) continue;
             words += QString(name).endsWith("_mm") ? QString("%1 %2 mm")
                                                          .arg(QString(name).chopped(3))
                                                          .arg(value.toDouble(), 0, 'f', 2)

@@ -21,6 +21,10 @@ class QSlider;
 class QTreeWidget;
 class QTreeWidgetItem;
 
+namespace dihaptic {
+class CsvFile;
+}
+
 namespace dihaptic::gui {
 
 class SceneWidget;
@@ -58,8 +62,10 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
-    void read_starts();
-    void add_moments(const std::string& file, const char* time,
+    void read_starts(const CsvFile& trials);
+    /// Lists each row at the time of a column, by the words `first` and those of the columns
+    /// `what`.
+    void add_moments(const CsvFile& table, const char* time, const QString& first,
                      const std::vector<const char*>& what);
     /// A limit that was reached before is counted there.
     void list_moment(double seconds, const QString& what);

@@ -1,4 +1,4 @@
-// A simple right hand that follows a thumb and an index finger: where its bones are when these are.
+// Where the bones of a simple right hand are, whose thumb and index finger the record has.
 #pragma once
 
 #include <vector>

@@ -97,6 +97,11 @@ class Player(Window):
         self.assertEqual(told.returncode, 2, told.stderr)
         self.assertIn("session", told.stderr)
 
+    def test_refuses_two_scenes(self):
+        told = subprocess.run([PROGRAM, "gui", self.scene, self.scene], env=self.environment, capture_output=True, text=True)
+        self.assertEqual(told.returncode, 2, told.stderr)
+        self.assertIn("Name one scene or experiment", told.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
