@@ -35,9 +35,9 @@ endfunction()
 # that it may include; LINKS the outside libraries, which stay private; SOURCES generated files.
 # A room's doors are reached through an include folder of their own, so that to include another header, or a room that is
 # not named (or used by one that is named), does not compile: arrows point down only, and end at doors. Tests may
-# look into every room.
+# look into every room. LEAKY: libraries that its tests load, and that are gone by the end, keep memory.
 function(dihaptic_room name)
-    cmake_parse_arguments(ROOM "" "" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
+    cmake_parse_arguments(ROOM "LEAKY" "" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
     # relative: the folder that holds the project may be called test itself
@@ -85,8 +85,12 @@ function(dihaptic_room name)
         target_link_libraries(${name}_test PRIVATE ${room} dihaptic_testing ${ROOM_LINKS} ${ROOM_TEST_USES})
         dihaptic_together(${name}_test)
         dihaptic_precompile(${name}_test dihaptic_testing)
+        set(leaks "")
+        if(ROOM_LEAKY AND DIHAPTIC_SANITIZE)
+            set(leaks ENVIRONMENT_MODIFICATION ASAN_OPTIONS=string_append::detect_leaks=0)
+        endif()
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-            PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT})
+            PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT} ${leaks})
     endif()
     file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
     if(DIHAPTIC_SOAKS AND soaks)

@@ -189,7 +189,7 @@ void add_solvers(CLI::App& app) {
 struct JitterOptions : BenchOptions {
     double time = 60;
     int runs = 1;
-    bool view = false;
+    bench::Beside beside;
 };
 
 void run_jitter(const JitterOptions& options) {
@@ -198,7 +198,7 @@ void run_jitter(const JitterOptions& options) {
         ProgressLine line("bench jitter");
         for (int run = 0; run < options.runs && !stop_requested; ++run) {
             all.runs.push_back(
-                bench::bench_jitter(options.setup, options.time, options.view, stop_requested,
+                bench::bench_jitter(options.setup, options.time, options.beside, stop_requested,
                                     [&](const std::string& what, double share) {
                                         line.show((run + share) / options.runs, what);
                                     }));
@@ -237,14 +237,21 @@ void add_jitter(CLI::App& app) {
                      "how many runs, one after another: prints the median and the spread")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
-    command->add_flag("--view", options->view,
+    command->add_flag("--view", options->beside.view,
                       "draw the scene beside, as fast as the machine goes");
+    command
+        ->add_option("--sound", options->beside.sound,
+                     "begin a tone beside, twenty times a second: on speakers, or in a file")
+        ->type_name("speakers|file")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, rig::SoundTo>{
+            {"speakers", rig::SoundTo::speakers}, {"file", rig::SoundTo::file}}));
     add_settings(*command, *options);
     command->footer(
         "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic-bench jitter\n"
         "  dihaptic-bench jitter --rate 4000 --time 10\n"
         "  dihaptic-bench jitter --runs 5\n"
-        "  dihaptic-bench jitter --view");
+        "  dihaptic-bench jitter --view\n"
+        "  dihaptic-bench jitter --sound file");
     command->callback([options] { run_jitter(*options); });
 }
 

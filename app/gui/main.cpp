@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "application.h"
+#include "escape_listener.h"
 #include "keeper/at_death.h"
 #include "operator_window.h"
 #include "recording/session.h"
@@ -76,6 +77,9 @@ int main(int argc, char** argv) {
                      &dihaptic::gui::OperatorWindow::force_off);
     QObject::connect(&stop, &dihaptic::gui::StopRequest::came, &window,
                      &dihaptic::gui::OperatorWindow::end);
+    dihaptic::gui::EscapeListener escape;
+    QObject::connect(&escape, &dihaptic::gui::EscapeListener::heard,
+                     &dihaptic::gui::SessionRunner::pause_at_once);
     window.show();
     if (file.isEmpty()) {
         window.show_start_page();

@@ -206,6 +206,7 @@ void OperatorWindow::connect_session() {
         if (runner_.running() && runner_.on_virtual_clock()) runner_.set_pace(pace);
     });
     connect(&runner_, &SessionRunner::ended, this, &OperatorWindow::session_ended);
+    connect(&runner_, &SessionRunner::paused_at_once, this, [this] { pause(true); });
     connect(&runner_, &SessionRunner::warned, this,
             [this](const QString& message) { log(message, true); });
     connect(&runner_, &SessionRunner::finishing_progressed, session_, &SessionPanel::set_finishing);

@@ -182,8 +182,8 @@ void SessionPlayer::make_moments() {
     if (const auto episodes = table_of(folder_, "episodes.csv"))
         add_moments(*episodes, "start_time", "", {"episode", "slip_mm", "rise_mm"});
     if (const auto lifts = table_of(folder_, "lifts.csv")) {
-        for (const char* moment :
-             {"touch_s", "load_onset_s", "lift_off_s", "replacement_s", "release_s"})
+        for (const char* moment : {"touch_s", "load_onset_s", "lift_off_s", "first_slip_s",
+                                   "replacement_s", "release_s"})
             add_moments(*lifts, moment, QString(moment).chopped(2).replace('_', ' ') + ", trial",
                         {"trial_num"});
     }

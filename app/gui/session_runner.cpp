@@ -50,6 +50,15 @@ void SessionRunner::end_program() {
     std::_Exit(1);  // not exit(), whose handlers belong to a window that is gone
 }
 
+void SessionRunner::pause_at_once() {
+    SessionRunner* const runner = the_runner;
+    if (runner == nullptr) return;
+    const std::lock_guard lock(runner->coming_and_going_);
+    if (!runner->running()) return;
+    runner->set_paused(true);
+    QMetaObject::invokeMethod(runner, &SessionRunner::paused_at_once, Qt::QueuedConnection);
+}
+
 void SessionRunner::watch() {
     if (!running() || alive_.isActive()) return;
     first_beat_.stop();
@@ -60,7 +69,10 @@ void SessionRunner::watch() {
 void SessionRunner::start(session::Plan plan, session::RunOptions options, double pace,
                           std::unique_ptr<devices::DeviceGroup> devices,
                           std::shared_ptr<Latest<servo::Frame>> second) {
-    session_ = std::make_unique<Session>();
+    {
+        const std::lock_guard lock(coming_and_going_);
+        session_ = std::make_unique<Session>();
+    }
     session_->live.second = std::move(second);
     no_suspension_.emplace();
     session_->plan = std::move(plan);
@@ -93,7 +105,10 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
             this,
             [this, end] {
                 thread_.join();
-                session_.reset();
+                {
+                    const std::lock_guard lock(coming_and_going_);
+                    session_.reset();
+                }
                 alive_.stop();
                 first_beat_.stop();
                 no_suspension_.reset();

@@ -6,6 +6,7 @@
 #include <QTimer>
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -108,8 +109,13 @@ class SessionRunner : public QObject {
     /// it switches force off at once, waits for the session's files, and ends the program; if none
     /// does it does nothing. From any thread but the session's.
     static void end_program();
+    /// Pauses the session that runs, if one does, though the window is busy or hangs: force is off
+    /// from the servo's next tick on. From any thread.
+    static void pause_at_once();
 
   Q_SIGNALS:
+    /// After pause_at_once(), in the window's thread.
+    void paused_at_once();
     /// `share`: of the session's files that is written. Both signals come in the window's thread.
     void finishing_progressed(double share);
     /// What a session that begins goes without.
@@ -131,6 +137,7 @@ class SessionRunner : public QObject {
 
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;
+    std::mutex coming_and_going_;  ///< of session_, which other threads may reach while it is held
     std::optional<app::NoSuspension> no_suspension_;
     std::atomic<bool> busy_{false};  ///< thread_ runs a session, or makes its files
     QTimer alive_;                   ///< beats as long as the window answers

@@ -146,7 +146,7 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
     return i;
 }
 
-/// Finds how often digits slid on the object, and how far at most.
+/// Finds how often digits slid on the object, from when on, and how far at most.
 void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
     lift.slip = 0;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -161,9 +161,12 @@ void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
         }
         bool slid = false;
         for (size_t i = 0; i < speed.size(); ++i) {
-            const bool slides =
-                speed[i] > kSlipSpeed && trace.samples()[range.first + i].touching[f];
-            lift.slips += slides && !slid;
+            const GraspTrace::Sample& sample = trace.samples()[range.first + i];
+            const bool slides = speed[i] > kSlipSpeed && sample.touching[f];
+            if (slides && !slid) {
+                ++lift.slips;
+                lift.first_slip = std::fmin(lift.first_slip, sample.time);
+            }
             slid = slides;
         }
     }

@@ -68,6 +68,7 @@ struct Lift {
     double slope = kUnmeasured, offset = kUnmeasured;
     double height = kUnmeasured, overshoot = kUnmeasured, slip = kUnmeasured;
     int slips = 0;
+    double first_slip = kUnmeasured;
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -107,6 +108,7 @@ struct Lift {
         v("overshoot", f.overshoot, "mm", "largest height beyond that");
         v("slip", f.slip, "mm", "of the digit that slipped most, from lift-off to lowering");
         v("slips", f.slips, "1", "times that a digit slid faster than 5 mm/s");
+        v("first_slip", f.first_slip, "s", "when the first of these began, in the session");
     }
 
     bool complete() const { return mark == "complete"; }

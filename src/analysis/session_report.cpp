@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
-#include <ranges>
 
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
@@ -287,7 +286,9 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                         : done             ? "done"
                                            : "interrupted";
     }
-    return figure_table<PlainTrial>(std::views::values(trials));
+    std::vector<PlainTrial> rows;
+    for (const auto& [number, trial] : trials) rows.push_back(trial);
+    return figure_table<PlainTrial>(rows);
 }
 
 /// Finds when each event was first seen on the screen.

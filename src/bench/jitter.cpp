@@ -10,6 +10,8 @@
 #include "base/plural.h"
 #include "bench/bench_log.h"
 #include "bench/drawing.h"
+#include "recording/hearings.h"
+#include "sound/player.h"
 
 namespace dihaptic::bench {
 namespace {
@@ -27,6 +29,48 @@ Time lift(measure::Bench& bench) {
     return reached;
 }
 
+/// A tone that begins over and over, by the ticks of a servo.
+class Tone {
+  public:
+    Tone(rig::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)
+        : folder_(folder) {
+        task::SoundSpec tone;
+        tone.name = "tone";
+        tone.tone = 440;
+        tone.duration = 0.02;
+        rig::SoundOutput output;
+        output.to = to;
+        const std::vector sounds{tone};
+        player_.emplace(sound::Player::Plan{sounds, output, 1, true}, folder);
+        servo.reserve(due_);
+    }
+
+    void hear(const servo::Frame& frame) noexcept {
+        due_.sequence = frame.sequence;
+        due_.time = frame.time;
+        due_.task.sounds.clear();
+        if (frame.time >= next_) {
+            due_.task.sounds.push_back({0, 1});
+            next_ = frame.time + kInterval;
+        }
+        player_->hear(due_);
+    }
+    /// Returns how often it was heard.
+    int64_t finish() {
+        for (const std::string& problem : player_->finish()) throw Error(problem, "Try again.");
+        player_.reset();  // which writes the last lines of its file
+        return static_cast<int64_t>(recording::read_hearings(folder_).size());
+    }
+
+  private:
+    static constexpr Time kInterval = std::chrono::milliseconds(50);
+
+    const recording::SessionFolder& folder_;
+    servo::Frame due_;
+    Time next_{0};
+    std::optional<sound::Player> player_;
+};
+
 /// A block that is held in real time, turn by turn, and recorded.
 class HeldBlock {
   public:
@@ -39,7 +83,9 @@ class HeldBlock {
     }
 
     /// Holds the block for `turn` [s]; `published`: publishes the frames for a view to draw.
-    void hold(servo::Timing& timing, double turn, bool published, const std::atomic<bool>& stop) {
+    /// `tone`: hears of the ticks, unless it is null.
+    void hold(servo::Timing& timing, double turn, bool published, Tone* tone,
+              const std::atomic<bool>& stop) {
         recording::Recorder recorder = log_.record(recording::Writing::in_thread);
         const Time period = bench_.servo().period();
         const Time first = reached_ + period;
@@ -48,12 +94,26 @@ class HeldBlock {
             [&](const servo::Frame& frame) {
                 recorder.record(frame);
                 if (published) newest_.publish(frame);
+                if (tone != nullptr) tone->hear(frame);
                 height_ = frame.bodies[1].X_WB.p.z();
             },
             first, first + from_seconds(turn) - period, stop, timing);
         reached_ = timing.reached;
         recorder.finish();
         dropped_ += recorder.dropped();
+    }
+    /// The same with what is beside, but for the view; returns how many sounds were heard.
+    int64_t hold(servo::Timing& timing, double turn, const Beside& beside,
+                 const std::atomic<bool>& stop) {
+        if (!beside.sound) {
+            hold(timing, turn, beside.view, nullptr, stop);
+            return 0;
+        }
+        const TemporaryFolder parent;
+        const auto folder = recording::SessionFolder::create(parent.path(), "jitter");
+        Tone tone(*beside.sound, bench_.servo(), folder);
+        hold(timing, turn, beside.view, &tone, stop);
+        return tone.finish();
     }
 
     const scene::Scene& scene() const { return scene_; }
@@ -84,6 +144,26 @@ std::string bar(int64_t count) {
     return fmt::format("{:<22s} {:8d}", std::string(length, '#'), count);
 }
 
+std::string beside_text(const JitterFigures& f) {
+    std::string out;
+    if (f.pictures > 0)
+        out += fmt::format("a view drew {:.0f} pictures a second beside both\n", f.pictures);
+    if (f.sounds > 0) out += fmt::format("{} heard beside the servo\n", counted(f.sounds, "sound"));
+    if (f.disturbed())
+        out += fmt::format("without that: {} in as many ticks; p99.9 of lateness {:.1f} us\n",
+                           counted(f.quiet_overruns, "overrun"), f.quiet_lateness.p999);
+    return out;
+}
+
+void add_timing(JitterFigures& figures, const servo::Timing& timing, int priority) {
+    figures.ticks = static_cast<int64_t>(timing.ticks.count());
+    figures.lateness = spread(timing.lateness);
+    figures.tick = spread(timing.ticks);
+    figures.overruns = timing.overruns;
+    figures.refused = servo::describe(timing.refusals, priority);
+    for (const float us : timing.lateness.us()) figures.wakeups.add(static_cast<int>(us));
+}
+
 }  // namespace
 
 double JitterFigures::p999_ratio() const {
@@ -94,35 +174,37 @@ Spread JitterFigures::cyclictest_spread() const {
     return spread(cyclictest);
 }
 
-JitterFigures bench_jitter(const measure::BenchSetup& base, double whole, bool view,
+JitterFigures bench_jitter(const measure::BenchSetup& base, double whole, const Beside& beside,
                            const std::atomic<bool>& stop, const measure::Progress& progress) {
+    const bool disturbed = beside.view || beside.sound;
     measure::BenchSetup setup = base;
     setup.settings.dynamics.sleeping = setup.extra_blocks == 0;
-    setup.hold_time = (view ? 2 : 1) * whole + kTurn;
+    setup.hold_time = (disturbed ? 2 : 1) * whole + kTurn;
     HeldBlock block(setup);
     JitterFigures figures;
     figures.rate = setup.settings.rate;
     figures.extra = setup.extra_blocks;
     servo::Timing timing;
-    timing.reserve(static_cast<size_t>(whole * setup.settings.rate) + 2);
+    servo::Timing quiet;
+    const auto most = static_cast<size_t>(whole * setup.settings.rate) + 2;
+    timing.reserve(most);
+    if (disturbed) quiet.reserve(most);
     int64_t pictures = 0;
     while (figures.seconds < whole - 1e-9 && !stop) {
         const double turn = std::min(kTurn, whole - figures.seconds);
         const auto say = [&](const char* what, double done) {
             if (progress) progress(what, (figures.seconds + done * turn) / whole);
         };
-        std::optional<Drawing> drawing;
-        if (view) {
-            say("servo without a view", 0);
-            servo::Timing quiet;
-            block.hold(quiet, turn, view, stop);
-            figures.quiet_overruns += quiet.overruns;
-            drawing.emplace(block.scene(), block.newest());
+        if (disturbed) {
+            say("servo alone", 0);
+            block.hold(quiet, turn, beside.view, nullptr, stop);
         }
-        say("servo", view ? 0.33 : 0);
-        block.hold(timing, turn, view, stop);
+        std::optional<Drawing> drawing;
+        if (beside.view) drawing.emplace(block.scene(), block.newest());
+        say("servo", disturbed ? 0.33 : 0);
+        figures.sounds += block.hold(timing, turn, beside, stop);
         if (figures.no_cyclictest.empty() && !stop) {
-            say("cyclictest", view ? 0.67 : 0.5);
+            say("cyclictest", disturbed ? 0.67 : 0.5);
             const Cyclictest peer{setup.settings, timing.refusals.priority == 0,
                                   timing.refusals.memory == 0, block.log().file("cyclictest.json")};
             figures.no_cyclictest = run_cyclictest(peer, turn, figures.cyclictest);
@@ -133,14 +215,11 @@ JitterFigures bench_jitter(const measure::BenchSetup& base, double whole, bool v
     }
     const double drawn = (figures.no_cyclictest.empty() ? 2 : 1) * figures.seconds;
     figures.pictures = static_cast<double>(pictures) / drawn;
-    figures.ticks = static_cast<int64_t>(timing.ticks.count());
-    figures.lateness = spread(timing.lateness);
-    figures.tick = spread(timing.ticks);
-    figures.overruns = timing.overruns;
+    figures.quiet_overruns = quiet.overruns;
+    figures.quiet_lateness = spread(quiet.lateness);
     figures.dropped = block.dropped();
     figures.held = block.held();
-    figures.refused = servo::describe(timing.refusals, setup.settings.real_time_priority);
-    for (const float us : timing.lateness.us()) figures.wakeups.add(static_cast<int>(us));
+    add_timing(figures, timing, setup.settings.real_time_priority);
     return figures;
 }
 
@@ -230,11 +309,7 @@ std::string to_text(const JitterFigures& f) {
     } else {
         out += "no peer: " + f.no_cyclictest + "\n";
     }
-    if (f.pictures > 0) {
-        out += fmt::format(
-            "a view drew {:.0f} pictures a second beside both; without it {} in as many ticks\n",
-            f.pictures, counted(f.quiet_overruns, "overrun"));
-    }
+    out += beside_text(f);
     if (f.dropped > 0) out += fmt::format("{} not recorded\n", counted(f.dropped, "frame"));
     if (!f.held) out += "the block was NOT held\n";
     if (!f.refused.empty()) out += "note: " + f.refused + "\n";

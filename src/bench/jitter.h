@@ -10,6 +10,7 @@
 
 #include "bench/cyclictest.h"
 #include "measure/grasp.h"
+#include "rig/sound.h"
 
 namespace dihaptic::bench {
 
@@ -43,12 +44,15 @@ struct JitterFigures {
     std::string refused;  ///< what the system refused of real time; "" if nothing
     Wakeups cyclictest;
     double pictures = 0;  ///< pictures per second of the view that draws beside both; 0: no view
-    int64_t quiet_overruns = 0;  ///< overruns in as many ticks without that view
+    int64_t sounds = 0;   ///< that were heard beside the servo
+    int64_t quiet_overruns = 0;  ///< overruns in as many ticks without that view and these sounds
+    Spread quiet_lateness;       ///< the same
     std::string no_cyclictest;   ///< why cyclictest has no wake-ups
 
     double period() const { return 1e6 / rate; }          ///< [us]
     double slack() const { return period() - tick.p99; }  ///< [us]
     double tick_p99_share() const { return tick.p99 / period(); }
+    bool disturbed() const { return pictures > 0 || sounds > 0; }
     double p999_ratio() const;  ///< NaN without cyclictest
     int64_t cyclictest_late() const { return cyclictest.later_than(slack()); }
     Spread cyclictest_spread() const;
@@ -75,16 +79,24 @@ struct JitterFigures {
         v("slack_us", f.slack(), "us", "what a tick's p99 leaves of the period");
         v("cyclictest_late", given(peer, f.cyclictest_late()), "1", "wake-ups beyond the slack");
         v("view_hz", given(viewed, f.pictures), "Hz", "pictures drawn beside");
-        v("overruns_without_view", given(viewed, f.quiet_overruns), "1", "in as many ticks");
+        v("sounds", given(f.sounds > 0, f.sounds), "1", "heard beside");
+        v("overruns_without", given(f.disturbed(), f.quiet_overruns), "1",
+          "in as many ticks with no view and no sound");
+        v("lateness_without_us", given(f.disturbed(), f.quiet_lateness), "us", "the same");
         v("refused", given(!f.refused.empty(), f.refused), "", "what Linux refused");
     }
 };
 
+/// What goes on beside the servo.
+struct Beside {
+    bool view = false;                  ///< one draws as fast as it can
+    std::optional<rig::SoundTo> sound;  ///< where a tone goes that begins twenty times a second
+};
+
 /// Two fingers hold the block in the air, and are recorded, for `seconds`, in turn with cyclictest
-/// for the same time; or until `stop`. With `view`, a view draws beside both as fast as it can, and
-/// the servo also takes turns without it, for the same time. Throws Error when nothing can be
-/// drawn.
-JitterFigures bench_jitter(const measure::BenchSetup& setup, double seconds, bool view,
+/// for the same time; or until `stop`. With something beside, the servo also takes turns without
+/// it, for the same time. Throws Error when nothing can be drawn or played.
+JitterFigures bench_jitter(const measure::BenchSetup& setup, double seconds, const Beside& beside,
                            const std::atomic<bool>& stop, const measure::Progress& progress);
 
 std::string to_text(const JitterFigures& figures);

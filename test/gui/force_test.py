@@ -91,7 +91,7 @@ class Force(Window):
                 self.pushed()
                 self.key(*keys)
                 self.screenshot("escape-" + place.replace(" ", "-"))
-                print(f"Escape, {place}: {self.off_after(lambda: self.xdotool('key', 'Escape'), 0.5) * 1e3:.1f} ms")
+                print(f"Escape, {place}: {self.off_after(lambda: self.xdotool('key', 'Escape'), 0.3) * 1e3:.1f} ms")
                 self.key("Escape", "Escape")  # what was open is closed by now
                 self.xdotool("windowfocus", self.name)
                 self.key("F6")
@@ -99,7 +99,7 @@ class Force(Window):
             self.pushed()
             self.xdotool("windowfocus", subject)
             time.sleep(0.3)
-            self.off_after(lambda: self.xdotool("key", "Escape"), 0.5)
+            self.off_after(lambda: self.xdotool("key", "Escape"), 0.3)
             self.key("F6")
             self.pushed()
         self.xdotool("windowfocus", self.name)

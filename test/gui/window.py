@@ -159,11 +159,13 @@ class Window(unittest.TestCase):
         self.key("F5")
         if not self.real_rig:
             return
-        list = self.wait("the checklist", lambda: self.xdotool("search", "--onlyvisible", "--name", "^Before the session"))
-        self.xdotool("windowfocus", list.split()[-1])
-        time.sleep(0.3)
-        self.key("Return")
-        time.sleep(0.3)
+        shown = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Before the session").split()
+        list = self.wait("the checklist", shown)[-1]
+        while shown():  # there is no window manager, so that it may not have the keyboard yet
+            self.xdotool("windowfocus", list)
+            time.sleep(0.3)
+            self.key("Return")
+            time.sleep(0.3)
         self.xdotool("windowfocus", self.name)
 
     def ended(self, state):

@@ -137,6 +137,7 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     EXPECT_NEAR(lift.height, 0.05, 1e-9);
     EXPECT_NEAR(lift.overshoot, 0, 1e-9);
     EXPECT_EQ(lift.slips, 0);
+    EXPECT_TRUE(std::isnan(lift.first_slip));
 }
 
 TEST(Lifts, GripIsSeenToFollowLoad) {
@@ -205,12 +206,13 @@ TEST(Lifts, OneThatBeginsWhereTicksAreMissingIsMeasuredFromWhereItIsKnown) {
     EXPECT_EQ(lift_of(plan).mark, "place not known");
 }
 
-TEST(Lifts, ASlipIsCounted) {
+TEST(Lifts, ASlipIsCountedAndItsTimeIsTold) {
     Plan plan;
     plan.slides_at = 1.5;
     const Lift lift = lift_of(plan);
     EXPECT_EQ(lift.slips, 2);  // of both digits
     EXPECT_NEAR(lift.slip, 1e-3, 1e-4);
+    EXPECT_NEAR(lift.first_slip, 1.5, 0.002);
     EXPECT_TRUE(lift.complete());
 }
 

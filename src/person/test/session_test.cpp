@@ -121,9 +121,9 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
         sit_down(plan, median_person(Objects::device));
         const auto phases = plan.task->phases();
         std::map<int, double> spent;  // time in the last state, by trial [s]
-        run_trials(plan, [&](const servo::Frame& frame) {
+        run_trials(plan, [&, last = std::string(state)](const servo::Frame& frame) {
             const std::string& phase = phases[static_cast<size_t>(frame.phase)];
-            if (phase == state || (phase == "less" && std::string(state) == "more"))
+            if (phase == last || (phase == "less" && last == "more"))
                 spent[frame.trial] += plan.settings.tick();
         });
         ASSERT_FALSE(spent.empty()) << name;

@@ -1,0 +1,33 @@
+// Hears Escape in a thread of its own, before the window does: one that draws slowly, or hangs,
+// does not keep force on.
+#pragma once
+
+#include <QObject>
+#include <atomic>
+#include <thread>
+
+namespace dihaptic::gui {
+
+/// Only on X11; elsewhere it hears nothing, and Escape goes the way of every key (Application).
+class EscapeListener : public QObject {
+    Q_OBJECT
+
+  public:
+    /// Call after the QGuiApplication is made.
+    EscapeListener();
+    ~EscapeListener() override;
+
+  Q_SIGNALS:
+    /// In the listener's thread, at each press of Escape while a window of this program is the
+    /// active one.
+    void heard();
+
+  private:
+    void listen();
+
+    std::atomic<bool> active_{false};
+    int quit_ = -1;  ///< an eventfd
+    std::thread thread_;
+};
+
+}  // namespace dihaptic::gui
