@@ -139,8 +139,8 @@ Window rebound(const std::vector<Stretch>& stretches) {
 std::map<int, int> last_attempts(const CsvFile& trials) {
     std::map<int, int> out;
     for (size_t i = 0; i < trials.rows(); ++i) {
-        int& last = out[static_cast<int>(trials.number(i, "trial_num"))];
-        last = std::max(last, static_cast<int>(trials.number(i, "attempt")));
+        int& last = out[trials.whole(i, "trial_num")];
+        last = std::max(last, trials.whole(i, "attempt"));
     }
     return out;
 }
@@ -372,7 +372,7 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
     bool extents = false;
     for (size_t i = 0; i < trials.rows(); ++i) {
         Trial trial;
-        trial.number = static_cast<int>(trials.number(i, "trial_num"));
+        trial.number = trials.whole(i, "trial_num");
         trial.block = trials.text(i, "block");
         const std::string perturbation = trials.text(i, "perturbation");
         trial.kind = kind_of(trials.text(i, "kind"), perturbation, unmeasured);
@@ -412,7 +412,7 @@ std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::stri
             curve->round = round;
         }
         Trial& trial = curve->trials.emplace_back();
-        trial.number = static_cast<int>(trials.number(i, "trial_num"));
+        trial.number = trials.whole(i, "trial_num");
         trial.block = trials.text(i, "block");
         trial.kind = trials.text(i, "kind");
         const bool acts = !trials.text(i, "perturbation").empty() && !is_clamp(trial.kind);

@@ -52,7 +52,7 @@ std::map<std::string, Round> rounds_of(const CsvFile& trials,
         const std::string kind = kind_of(trials.text(i, "kind"), "", {});
         const double compensation = -trials.number(i, "hand_angle_deg");
         Direction& direction = round.directions[trials.text(i, "condition")];
-        direction.along_W = direction_of(reaches, static_cast<int>(trials.number(i, "trial_num")));
+        direction.along_W = direction_of(reaches, trials.whole(i, "trial_num"));
         if (kind == "perturbed") {
             direction.trained = true;
             round.trained = true;

@@ -56,7 +56,7 @@ std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFil
             const double level = track.logarithmic ? std::log10(share) : share;
             if ((outcome != yes && outcome != no) || !std::isfinite(level)) continue;
             track.answers.push_back({level, outcome == yes});
-            track.trials.push_back(static_cast<int>(trials.number(i, "trial_num")));
+            track.trials.push_back(trials.whole(i, "trial_num"));
         }
     }
     return out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "base/diagnostics.h"
 #include "base/text_file.h"
@@ -148,6 +149,11 @@ double CsvFile::number(size_t row, const std::string& column) const {
     char* end = nullptr;
     const double value = std::strtod(cell.c_str(), &end);
     return !cell.empty() && *end == '\0' ? value : kUnmeasured;
+}
+
+int CsvFile::whole(size_t row, const std::string& column) const {
+    const double value = number(row, column);
+    return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
 }
 
 }  // namespace dihaptic

@@ -54,6 +54,8 @@ class CsvFile {
     std::string text(size_t row, const std::string& column) const;
     /// NaN where the cell holds no number.
     double number(size_t row, const std::string& column) const;
+    /// Without what is behind the decimal point; 0 where the cell holds no number, or a larger one.
+    int whole(size_t row, const std::string& column) const;
     /// Gives a column of an earlier version's table the name that it has now.
     void rename(const std::string& was, const std::string& now) {
         std::replace(header_.begin(), header_.end(), was, now);
