@@ -88,7 +88,7 @@ TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
     Random random(8, "panes");
     for (int i = 0; i < kDisplays; ++i) {
         const rig::Display display = random_display(random, i);
-        for (const Pane& pane : panes(display, 1)) {
+        for (const Pane& pane : panes(display, 2)) {
             const Vec3 eye = pane.viewpoint.eye_W;
             const Vec3 way = random_point(random, display) - eye;
             double before = -1;
