@@ -239,12 +239,8 @@ void add_jitter(CLI::App& app) {
         ->capture_default_str();
     command->add_flag("--view", options->beside.view,
                       "draw the scene beside, as fast as the machine goes");
-    command
-        ->add_option("--sound", options->beside.sound,
-                     "begin a tone beside, twenty times a second: on speakers, or in a file")
-        ->type_name("speakers|file")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, rig::SoundTo>{
-            {"speakers", rig::SoundTo::speakers}, {"file", rig::SoundTo::file}}));
+    add_choice(*command, "--sound", options->beside.sound,
+               "where a tone goes that begins beside, twenty times a second");
     add_settings(*command, *options);
     command->footer(
         "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic-bench jitter\n"

@@ -91,6 +91,7 @@ EscapeListener::EscapeListener() {
     connect(qApp, &QGuiApplication::applicationStateChanged, this,
             [this](Qt::ApplicationState now) { active_ = now == Qt::ApplicationActive; });
     quit_ = eventfd(0, EFD_CLOEXEC);
+    if (quit_ < 0) return;
     thread_ = std::thread([this] { listen(); });
 }
 

@@ -1,5 +1,5 @@
-// Hears Escape in a thread of its own, before the window does: one that draws slowly, or hangs,
-// does not keep force on.
+// Hears Escape in a thread of its own, so that a window that draws slowly, or hangs, does not keep
+// force on.
 #pragma once
 
 #include <QObject>

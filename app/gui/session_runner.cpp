@@ -54,8 +54,7 @@ void SessionRunner::pause_at_once() {
     SessionRunner* const runner = the_runner;
     if (runner == nullptr) return;
     const std::lock_guard lock(runner->coming_and_going_);
-    if (!runner->running()) return;
-    runner->set_paused(true);
+    if (!runner->running() || runner->session_->live.paused.exchange(true)) return;
     QMetaObject::invokeMethod(runner, &SessionRunner::paused_at_once, Qt::QueuedConnection);
 }
 

@@ -114,7 +114,7 @@ class SessionRunner : public QObject {
     static void pause_at_once();
 
   Q_SIGNALS:
-    /// After pause_at_once(), in the window's thread.
+    /// After pause_at_once() has paused the session, in the window's thread.
     void paused_at_once();
     /// `share`: of the session's files that is written. Both signals come in the window's thread.
     void finishing_progressed(double share);

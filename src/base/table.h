@@ -54,7 +54,7 @@ class CsvFile {
     std::string text(size_t row, const std::string& column) const;
     /// NaN where the cell holds no number.
     double number(size_t row, const std::string& column) const;
-    /// Without what is behind the decimal point; 0 where the cell holds no number, or a larger one.
+    /// A number without its decimals; 0 where the cell holds none, or one that is too large.
     int whole(size_t row, const std::string& column) const;
     /// Gives a column of an earlier version's table the name that it has now.
     void rename(const std::string& was, const std::string& now) {

@@ -105,13 +105,13 @@ class HeldBlock {
     /// The same with what is beside, but for the view; returns how many sounds were heard.
     int64_t hold(servo::Timing& timing, double turn, const Beside& beside,
                  const std::atomic<bool>& stop) {
-        if (!beside.sound) {
+        if (!beside.sounds()) {
             hold(timing, turn, beside.view, nullptr, stop);
             return 0;
         }
         const TemporaryFolder parent;
         const auto folder = recording::SessionFolder::create(parent.path(), "jitter");
-        Tone tone(*beside.sound, bench_.servo(), folder);
+        Tone tone(beside.sound, bench_.servo(), folder);
         hold(timing, turn, beside.view, &tone, stop);
         return tone.finish();
     }
@@ -176,7 +176,7 @@ Spread JitterFigures::cyclictest_spread() const {
 
 JitterFigures bench_jitter(const measure::BenchSetup& base, double whole, const Beside& beside,
                            const std::atomic<bool>& stop, const measure::Progress& progress) {
-    const bool disturbed = beside.view || beside.sound;
+    const bool disturbed = beside.anything();
     measure::BenchSetup setup = base;
     setup.settings.dynamics.sleeping = setup.extra_blocks == 0;
     setup.hold_time = (disturbed ? 2 : 1) * whole + kTurn;

@@ -89,8 +89,12 @@ struct JitterFigures {
 
 /// What goes on beside the servo.
 struct Beside {
-    bool view = false;                  ///< one draws as fast as it can
-    std::optional<rig::SoundTo> sound;  ///< where a tone goes that begins twenty times a second
+    bool view = false;  ///< one draws as fast as it can
+    /// Where a tone goes that begins twenty times a second.
+    rig::SoundTo sound = rig::SoundTo::nowhere;
+
+    bool sounds() const { return sound != rig::SoundTo::nowhere; }
+    bool anything() const { return view || sounds(); }
 };
 
 /// Two fingers hold the block in the air, and are recorded, for `seconds`, in turn with cyclictest

@@ -159,13 +159,20 @@ class Window(unittest.TestCase):
         self.key("F5")
         if not self.real_rig:
             return
-        shown = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Before the session").split()
-        list = self.wait("the checklist", shown)[-1]
-        while shown():  # there is no window manager, so that it may not have the keyboard yet
+
+        def lists():
+            return self.xdotool("search", "--onlyvisible", "--name", "^Before the session").split()
+
+        def answered():
+            """There is no window manager, so that the list may not have the keyboard at once."""
             self.xdotool("windowfocus", list)
             time.sleep(0.3)
             self.key("Return")
             time.sleep(0.3)
+            return not lists()
+
+        list = self.wait("the checklist", lists)[-1]
+        self.wait("the checklist's end", answered)
         self.xdotool("windowfocus", self.name)
 
     def ended(self, state):

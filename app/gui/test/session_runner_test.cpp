@@ -113,6 +113,31 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     }
 }
 
+TEST_F(SessionRunnerTest, APauseFromAnotherThreadTakesForceAwayThoughTheWindowHangs) {
+    runner_.watch();
+    grip();
+    int told = 0;
+    QObject::connect(&runner_, &SessionRunner::paused_at_once, [&] { ++told; });
+    const auto pause_twice = [] {
+        SessionRunner::pause_at_once();
+        SessionRunner::pause_at_once();
+    };
+    const double before = now();
+    std::thread(pause_twice).join();
+    QThread::msleep(200);  // the window's thread hangs
+    EXPECT_NE(runner_.read_frame().status & servo::kForceOff, 0u);
+    EXPECT_EQ(runner_.frame().fingers[0].f_sent_W, Vec3::Zero());
+    EXPECT_LT(now(), before + 0.1);
+    EXPECT_EQ(told, 0);
+    answer_for(50);
+    EXPECT_EQ(told, 1);
+    runner_.end();
+    for (const servo::Frame& f : end()) EXPECT_EQ(f.status & servo::kAbandoned, 0u);
+    SessionRunner::pause_at_once();  // no session runs
+    answer_for(50);
+    EXPECT_EQ(told, 1);
+}
+
 TEST_F(SessionRunnerTest, AStopFromOutsideTakesForceAwayAndEndsInOrder) {
     runner_.watch();
     grip();
