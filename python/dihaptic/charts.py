@@ -1,0 +1,166 @@
+"""Draws a session's quantities, in the look of the program's report."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _native, vocabulary
+from .errors import NotThere, error
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .session import Session
+
+#: Moments of a lift, and the columns of lifts.csv that have their times.
+_LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "first_slip"]
+#: Of quantities whose colour means the same everywhere.
+_COLOURS: dict[str, str] = _native.colours()
+#: For all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
+_OTHERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+
+
+def plot(
+    session: Session,
+    *names: str,
+    align: str | None = None,
+    before: float = 0.5,
+    after: float = 1.5,
+    by: str | None = None,
+    axes: Axes | None = None,
+) -> Axes:
+    """Draws quantities of a session against time, and returns matplotlib's axes.
+
+    Without `align`, over the session. With it, each lift or trial from `before` to `after` [s]
+    about a moment of it: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`,
+    `release`, `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line,
+    their mean a thick one; `by`, a column such as "condition", makes a mean for each of its values.
+    Vectors have a line for each component. Raises NotThere or Error.
+
+    >>> import dihaptic as dh
+    >>> axes = dh.load(lift_session).plot("block.position.z", align="lift_off", before=0.2, after=0.4)
+    >>> axes.get_ylabel()
+    'block.position.z [m]'
+    """
+    if not names:
+        raise error("no quantity is named", 'Name one, e.g. session.plot("grip_force").')
+    if axes is None:
+        import matplotlib.pyplot as plt
+
+        _, axes = plt.subplots(figsize=(8, 4.5), layout="constrained")
+    if align is None:
+        for name, label, values in _curves(session, names):
+            _line(axes, session.t, values, label, _colour(name, label, axes), 1.2)
+        axes.set_xlabel("time [s]")
+    else:
+        moments = _moments(session, align, by)
+        _aligned(axes, session, names, moments, before, after)
+        axes.set_xlabel(f"time from {align.replace('_', '-')} [s]")
+        axes.axvline(0, color="#999999", linewidth=0.8, zorder=0)
+    _finish(axes, session, names)
+    return axes
+
+
+def _curves(session: Session, names: tuple[str, ...]) -> list[tuple[str, str, npt.NDArray[Any]]]:
+    """Of each number and each component: the quantity's name, the curve's label, and its values."""
+    out = []
+    for name in names:
+        if name in vocabulary.lists():
+            raise error("is a list, which has no curve", "Draw one of its columns with pandas.", key=name)
+        values = session[name]
+        if values.ndim == 1:
+            out.append((name, name, values))
+            continue
+        for i, component in enumerate(vocabulary.quantity(name).components):
+            out.append((name, f"{name}.{component}", values[:, i]))
+    return out
+
+
+def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, float]]:
+    """The group and the time of each lift or trial in which the moment happened [s]."""
+    trials = session.trials
+    if align in _LIFT_MOMENTS:
+        table = session.lifts
+        keys = ["trial_num", "attempt"] if "attempt" in trials else ["trial_num"]
+        more = trials[[*keys, *trials.columns.difference(table.columns)]]
+        table = table.merge(more, on=keys, how="left")
+        column = f"{align}_s"
+    else:
+        table, column = trials, align
+    if column not in table or not pd.api.types.is_numeric_dtype(table[column]):
+        raise NotThere(
+            align,
+            "is no moment to align by",
+            [*_LIFT_MOMENTS, "start_time", "stop_time"],
+            f"Those are {', '.join(_LIFT_MOMENTS)}; start_time and stop_time of trials.",
+        )
+    if by is not None and by not in table:
+        raise NotThere(by, "is no column of the trials", list(table.columns), "")
+    groups = table[by].fillna("").astype(str) if by is not None else pd.Series("", index=table.index)
+    found = [(g, float(t)) for g, t in zip(groups, table[column]) if np.isfinite(t)]
+    if not found:
+        raise error("happened in no trial of this session", "See session.lifts.", key=align)
+    return found
+
+
+def _aligned(
+    axes: Axes,
+    session: Session,
+    names: tuple[str, ...],
+    moments: list[tuple[str, float]],
+    before: float,
+    after: float,
+) -> None:
+    ticks = np.arange(-round(before / session.tick), round(after / session.tick) + 1)
+    groups = sorted({group for group, _ in moments})
+    for name, label, values in _curves(session, names):
+        for group in groups:
+            text = f"{label}, {group}" if group else label
+            colour = _colour(name, label, axes) if len(groups) == 1 else _next_colour(axes)
+            rows = [_cut(session, values, time, ticks) for g, time in moments if g == group]
+            if len(rows) > 1:
+                for row in rows:
+                    axes.plot(ticks * session.tick, row, color=colour, linewidth=0.5, alpha=0.35)
+            known = np.array(rows, dtype=float)
+            with np.errstate(invalid="ignore"):
+                count = np.isfinite(known).sum(axis=0)
+                mean = np.where(count > 0, np.nansum(known, axis=0) / np.maximum(count, 1), np.nan)
+            _line(axes, ticks * session.tick, mean, text, colour, 2.0)
+
+
+def _cut(session: Session, values: npt.NDArray[Any], time: float, ticks: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The values at these ticks about a time; NaN where the session has none."""
+    at = int(np.searchsorted(session.t, time - session.tick / 2)) + ticks
+    inside = (at >= 0) & (at < len(values))
+    out = np.full(len(ticks), np.nan)
+    out[inside] = values[at[inside]]
+    return out
+
+
+def _line(axes: Axes, x: Any, y: Any, label: str, colour: str, width: float) -> None:
+    axes.plot(x, y, label=label, color=colour, linewidth=width)
+
+
+def _next_colour(axes: Axes) -> str:
+    named = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
+    return _OTHERS[len(named) % len(_OTHERS)]
+
+
+def _colour(name: str, label: str, axes: Axes) -> str:
+    return _COLOURS.get(name, "") if label == name and name in _COLOURS else _next_colour(axes)
+
+
+def _finish(axes: Axes, session: Session, names: tuple[str, ...]) -> None:
+    units = {session.unit(name) for name in names}
+    what = names[0] if len(names) == 1 else ""
+    unit = units.pop() if len(units) == 1 else ""
+    axes.set_ylabel(f"{what} [{unit}]".strip() if unit and unit != "1" else what)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(color="#eeeeee", linewidth=0.8)
+    axes.set_axisbelow(True)
+    if len([line for line in axes.get_lines() if not line.get_label().startswith("_")]) > 1:
+        axes.legend(frameon=False, fontsize="small")

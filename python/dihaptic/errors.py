@@ -1,0 +1,71 @@
+"""What is raised when an input is wrong: with the file, the line, the key and the remedy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong, and what would be right.
+
+    >>> Problem("error", "block.yaml", 4, "mass", "is negative", "A mass is positive.").text()
+    'block.yaml:4: error: mass: is negative. A mass is positive.'
+    """
+
+    severity: str  #: "error" or "warning"
+    file: str  #: "" if it was found in no file
+    line: int  #: from 1; 0: the file as a whole
+    key: str  #: that the problem is about; may be ""
+    what: str
+    remedy: str
+
+    def text(self) -> str:
+        """The problem as a sentence, as the command line prints it."""
+        place = f"{self.file}:{self.line}: " if self.line else f"{self.file}: " if self.file else ""
+        key = f"{self.key}: " if self.key else ""
+        remedy = f" {self.remedy}" if self.remedy else ""
+        return f"{place}{self.severity}: {key}{self.what}.{remedy}"
+
+
+class Error(ValueError):
+    """An input is wrong: a file, a name, a table.
+
+    Its text is what the command line would print; `problems` has what it is made of.
+
+    >>> import dihaptic as dh
+    >>> dh.load("no-such-session")
+    Traceback (most recent call last):
+    ...
+    dihaptic.errors.Error: no-such-session: error: is no session: it has no session.yaml. Name a folder that dihaptic made.
+    """
+
+    def __init__(self, problems: list[Problem]) -> None:
+        super().__init__("\n".join(problem.text() for problem in problems))
+        self.problems = problems
+
+
+def error(what: str, remedy: str, *, file: str = "", line: int = 0, key: str = "") -> Error:
+    """An Error with one problem."""
+    return Error([Problem("error", file, line, key, what, remedy)])
+
+
+class NotThere(Error, KeyError):
+    """A session, or a world, has nothing of that name.
+
+    >>> import dihaptic as dh
+    >>> session = dh.load(lift_session)
+    >>> session["gripforce"]
+    Traceback (most recent call last):
+    ...
+    dihaptic.errors.NotThere: error: gripforce: is not recorded. Did you mean 'grip_force'? Session.quantities lists them.
+    """
+
+    __str__ = Exception.__str__  # a KeyError would put quotes about its text
+
+    def __init__(self, name: str, what: str, candidates: list[str], remedy: str) -> None:
+        import difflib
+
+        near = difflib.get_close_matches(name, candidates, n=1)
+        hint = f"Did you mean '{near[0]}'? " if near else ""
+        super().__init__([Problem("error", "", 0, name, what, hint + remedy)])

@@ -1,0 +1,267 @@
+"""Runs the program's commands: sessions, rehearsals, reports.
+
+Each runs in a process of its own, so that nothing that Python does keeps a servo from its tick.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import warnings
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+import pandas as pd
+
+from .errors import Error, Problem, error
+from .session import Session
+from .tables import read_table
+
+_BAD_INPUT = 2
+_PROBLEM = re.compile(r"^(?:(?P<file>[^:\n]+):(?:(?P<line>\d+):)? )?(?P<severity>error|warning): (?P<what>.*)$")
+_PROGRESS = re.compile(r"^(?P<what>.+?) +(?P<share>\d+) %")
+
+
+def program() -> str:
+    """Path of the program: of this package's build, or else the installed one. Raises Error.
+
+    >>> import dihaptic.program
+    >>> dihaptic.program.program().endswith("dihaptic")
+    True
+    """
+    built = Path(__file__).parent.parent.parent / "dihaptic"  # of the link in the build folder
+    if built.is_file():
+        return str(built)
+    installed = shutil.which("dihaptic")
+    if installed is None:
+        raise error("the program dihaptic is not there", "Build it by ./dev build, or install it.")
+    return installed
+
+
+def run(
+    file: str | Path,
+    *,
+    rig: str | Path = "",
+    movement: str | Path = "",
+    participant: str = "",
+    simulate: bool = False,
+    settings: Mapping[str, Any] | None = None,
+    seed: int = 1,
+    out: str | Path = "sessions",
+    progress: bool = True,
+) -> Session:
+    """Runs a scene or an experiment, as `dihaptic run` does, and opens its session.
+
+    `simulate`: a simulated person on simulated devices does the trials. A session that was
+    interrupted, or whose force went off, is returned too, with a warning that says why. Raises Error
+    for whatever is wrong with the files.
+
+    >>> import dihaptic as dh
+    >>> session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
+    >>> session.lifts.lift.item()
+    'complete'
+    """
+    command = ["run", str(file), "--seed", str(seed), "--out", str(out)]
+    for option, value in {"--rig": rig, "--movement": movement, "--participant": participant}.items():
+        if value:
+            command += [option, str(value)]
+    for key, value in (settings or {}).items():
+        command += ["--set", f"{key}={value}"]
+    return _session_of(_call(command + ["--simulate"] * simulate, progress))
+
+
+def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
+    """Goes on with a session whose trials were not all done; returns the new session.
+
+    >>> import dihaptic as dh
+    >>> dh.resume(lift_session)
+    Traceback (most recent call last):
+    ...
+    dihaptic.errors.Error: ...: error: has no trials that could go on. ...
+    """
+    return _session_of(_call(["resume", _folder(session)], progress))
+
+
+def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
+    """Whether a session's forces, computed again from what its devices said, are the same to the bit.
+
+    >>> import dihaptic as dh
+    >>> dh.replay(lift_session, progress=False)
+    True
+    """
+    return _call(["replay", _folder(session)], progress).code == 0
+
+
+def recover(session: Session | str | Path, *, progress: bool = True) -> Session:
+    """Makes the files of a session that was killed, from its raw.log.
+
+    >>> import dihaptic as dh
+    >>> dh.recover(lift_session, progress=False).info["state"]
+    'complete'
+    """
+    folder = _folder(session)
+    _call(["recover", folder], progress)
+    return Session(folder)
+
+
+def report(session: Session | str | Path, *, progress: bool = True) -> Path:
+    """Makes the report of a session, or of a folder of sessions; returns its report.html.
+
+    >>> import dihaptic as dh
+    >>> dh.report(lift_session, progress=False).name
+    'report.html'
+    """
+    folder = _folder(session)
+    _call(["report", folder], progress)
+    return Path(folder) / "report.html"
+
+
+def check(*files: str | Path, rig: str | Path = "") -> list[Problem]:
+    """What `dihaptic check` finds in files: its errors and warnings; none: they are in order.
+
+    >>> import dihaptic as dh
+    >>> dh.check("scenes/block-on-table.yaml")
+    []
+    """
+    command = ["check", *(str(file) for file in files)] + (["--rig", str(rig)] if rig else [])
+    try:
+        answer = _call(command, progress=False)
+    except Error as found:
+        return found.problems
+    return _problems(answer.said + answer.output)
+
+
+def rehearse(
+    experiment: str | Path,
+    people: int = 1,
+    *,
+    jobs: int = 1,
+    population: str | Path = "",
+    seed: int = 1,
+    out: str | Path = "",
+    progress: bool = True,
+) -> Rehearsal:
+    """Lets simulated people do an experiment, as `dihaptic rehearse` does, and collects their tables.
+
+    Who is in the folder already is not done again. The tables are the same whatever `jobs`. Raises
+    Error.
+
+    >>> import dihaptic as dh
+    >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
+    >>> sorted(study.trials.ppid.unique())
+    ['sim-001', 'sim-002']
+    """
+    folder = Path(out or f"rehearsals/{Path(experiment).stem}_{seed}")
+    command = ["rehearse", str(experiment), "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
+    _call([*command, "--out", str(folder)] + (["--population", str(population)] if population else []), progress)
+    _call(["collect", str(folder), "--out", str(folder)], progress=False)
+    return Rehearsal(folder)
+
+
+class Rehearsal:
+    """What a population of simulated people did: tables with a row for each person's trial or fit.
+
+    >>> import dihaptic as dh
+    >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
+    >>> len(study.sessions), "trials" in study.tables
+    (2, True)
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+
+    def __repr__(self) -> str:
+        return f"<Rehearsal {self.folder}: {len(self.sessions)} people>"
+
+    @property
+    def sessions(self) -> list[Path]:
+        """Folder of each person, in the order of their numbers."""
+        return sorted(path.parent for path in self.folder.glob("*/person.yaml"))
+
+    @property
+    def tables(self) -> list[str]:
+        """Names of the tables that were collected, without their .csv."""
+        return sorted(path.stem for path in self.folder.glob("*.csv"))
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table of all people by its name. Raises Error."""
+        return read_table(self.folder / f"{name}.csv")
+
+    @property
+    def trials(self) -> pd.DataFrame:
+        """A row for each attempt of each person."""
+        return self.table("trials")
+
+    @property
+    def people(self) -> pd.DataFrame:
+        """A row for each person: who they are made to be."""
+        return self.table("people")
+
+
+class _Answer:
+    """What a command printed, and how it ended."""
+
+    def __init__(self, code: int, output: list[str], said: list[str]) -> None:
+        self.code = code
+        self.output = output
+        self.said = said  # on standard error, without progress
+
+
+def _call(command: Sequence[str], progress: bool) -> _Answer:
+    """Runs a command to its end. Raises Error when its input was bad."""
+    with subprocess.Popen(
+        [program(), *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        said: list[str] = []
+        watcher = threading.Thread(target=_watch, args=(process.stderr, said, progress))
+        watcher.start()
+        output = process.stdout.read().splitlines()
+        watcher.join()
+    if process.returncode == _BAD_INPUT:
+        raise Error(_problems(said + output) or [Problem("error", "", 0, "", "\n".join(said), "")])
+    if process.returncode < 0:
+        raise error(f"dihaptic {command[0]} was ended by signal {-process.returncode}", "")
+    return _Answer(process.returncode, output, said)
+
+
+def _watch(stream: IO[str], said: list[str], progress: bool) -> None:
+    """Shows the command's progress in one line, and keeps what else it says."""
+    shown = False
+    for line in stream:
+        at = _PROGRESS.match(line)
+        if at is None:
+            said.append(line.rstrip("\n"))
+        elif progress:
+            sys.stderr.write(f"\r{at['what']} {at['share']} %".ljust(40))
+            sys.stderr.flush()
+            shown = True
+    if shown:
+        sys.stderr.write("\r" + " " * 40 + "\r")
+
+
+def _problems(lines: Sequence[str]) -> list[Problem]:
+    found = []
+    for line in lines:
+        at = _PROBLEM.match(line)
+        if at:
+            place = (at["severity"], at["file"] or "", int(at["line"] or 0))
+            found.append(Problem(*place, key="", what=at["what"].rstrip("."), remedy=""))
+    return found
+
+
+def _session_of(answer: _Answer) -> Session:
+    folder = next((line[len("session: ") :] for line in answer.output if line.startswith("session: ")), None)
+    if folder is None:
+        raise error("the session has no folder", "", key="\n".join(answer.said + answer.output))
+    if answer.code != 0:
+        warnings.warn("\n".join(answer.said) or f"see {folder}", stacklevel=3)
+    return Session(folder)
+
+
+def _folder(session: Session | str | Path) -> str:
+    return str(session.folder if isinstance(session, Session) else session)

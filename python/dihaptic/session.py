@@ -1,0 +1,345 @@
+"""Reads a recorded session: its tables, and each quantity that it recorded tick by tick."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _native, vocabulary
+from .errors import NotThere, error
+from .tables import read_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = npt.NDArray[Any]
+
+
+def load(folder: str | Path) -> Session:
+    """Opens a session by its folder, or by a file in it. Nothing is read before it is asked for.
+
+    Raises Error when it is no session, or when its session.nwb has not been made, because the
+    session still runs or was killed.
+
+    >>> import dihaptic as dh
+    >>> session = dh.load(lift_session)
+    >>> session.fingers, session.bodies
+    (['thumb', 'index'], ['table', 'block'])
+    """
+    return Session(folder)
+
+
+class Session:
+    """A recorded session.
+
+    Tables are pandas' (`trials`, `lifts`, `events`, ...), quantities are numpy arrays by their
+    names in docs/quantities.md: `session["grip_force"]` of what a tick has once,
+    `session["block.position"]` or `session["thumb.force_sent"]` of a body, joint or finger,
+    `session["block.position.z"]` of one component, `session["contacts"]` of a list. All are in SI
+    units; vectors in the world's axes have the columns x, y, z, quaternions w, x, y, z.
+
+    >>> import dihaptic as dh
+    >>> session = dh.load(lift_session)
+    >>> session["block.position"].shape == (len(session.t), 3)
+    True
+    >>> round(float(session["load_force"].max()), 1)
+    1.2
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        path = Path(folder)
+        self.folder = path if path.is_dir() else path.parent
+        if not (self.folder / "session.yaml").is_file():
+            raise error(
+                "is no session: it has no session.yaml",
+                "Name a folder that dihaptic made.",
+                file=str(folder),
+            )
+
+    def __repr__(self) -> str:
+        return f"<Session {self.folder.name}: {self.info.get('title', '')}, {self.info.get('state', '')}>"
+
+    # What it is made of
+
+    @cached_property
+    def info(self) -> dict[str, Any]:
+        """What session.yaml says: who, when, with what, and how it ended.
+
+        >>> import dihaptic as dh
+        >>> dh.load(lift_session).info["state"]
+        'complete'
+        """
+        info: dict[str, Any] = _native.read_yaml(str(self.folder / "session.yaml"))
+        return info
+
+    @cached_property
+    def fingers(self) -> list[str]:
+        """Names of the scene's fingers, in order."""
+        return [str(name) for name in self._head["fingers"]]
+
+    @cached_property
+    def bodies(self) -> list[str]:
+        """Names of the scene's bodies, in order."""
+        return [str(name) for name in self._head["bodies"]]
+
+    @cached_property
+    def joints(self) -> list[str]:
+        """Names of the scene's joints, in order."""
+        return [str(name) for name in self._head["joints"]]
+
+    @property
+    def tick(self) -> float:
+        """Time from one tick to the next [s]."""
+        return float(self._head["tick"])
+
+    @cached_property
+    def _head(self) -> dict[str, Any]:
+        head: dict[str, Any] = _native.log_head(str(self.folder / "raw.log"))
+        return head
+
+    # Tables
+
+    @property
+    def tables(self) -> list[str]:
+        """Names of the tables in the session's folder, without their .csv.
+
+        >>> import dihaptic as dh
+        >>> "lifts" in dh.load(lift_session).tables
+        True
+        """
+        return sorted(path.stem for path in self.folder.glob("*.csv"))
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table by its name, with its units in `attrs`. Raises NotThere.
+
+        >>> import dihaptic as dh
+        >>> dh.load(lift_session).table("lifts").lift.item()
+        'complete'
+        """
+        file = self.folder / f"{name}.csv"
+        if not file.is_file():
+            raise NotThere(name, "is no table of this session", self.tables, "Session.tables lists them.")
+        return read_table(file)
+
+    @cached_property
+    def trials(self) -> pd.DataFrame:
+        """A row for each attempt at a trial."""
+        return self.table("trials")
+
+    @cached_property
+    def phases(self) -> pd.DataFrame:
+        """A row for each phase of a trial."""
+        return self.table("phases")
+
+    @cached_property
+    def events(self) -> pd.DataFrame:
+        """A row for each moment: touches, lift-offs, messages, settings that changed."""
+        return self.table("events")
+
+    @cached_property
+    def episodes(self) -> pd.DataFrame:
+        """A row for each hold, slide and flight of the object."""
+        return self.table("episodes")
+
+    @cached_property
+    def lifts(self) -> pd.DataFrame:
+        """A row for each attempt with an object and two fingers."""
+        return self.table("lifts")
+
+    # Quantities
+
+    @cached_property
+    def t(self) -> Array:
+        """Times of all ticks, since activation [s]: of each row of what a tick has once."""
+        return self._times(self._series("sequence"))
+
+    def __getitem__(self, name: str) -> Any:
+        """A quantity as a numpy array, or a list such as "contacts" as a pandas table.
+
+        Reads it from the disk; keep the result rather than ask twice. Raises NotThere.
+        """
+        if name in vocabulary.lists():
+            return self._list(name)
+        series, component = self._find(name)
+        data = self._series(series)["data"]
+        values: Array = data[...] if component is None else data[:, component]
+        return values
+
+    def exact(self, name: str) -> Array:
+        """A quantity with all its bits, from raw.log: session.nwb keeps numbers that are not whole
+        in 32 bits, 7 digits. Reads the whole log, which takes seconds for minutes. Raises NotThere.
+
+        >>> import dihaptic as dh
+        >>> session = dh.load(lift_session)
+        >>> bool((session.exact("grip_force").astype("f4") == session["grip_force"]).all())
+        True
+        """
+        of_list, item, term, index = self._place_of(name)
+        values = _native.log_values(str(self.folder / "raw.log"), of_list, item, term)
+        out = np.array(values)
+        return out if index is None else out[:, index]
+
+    def __contains__(self, name: object) -> bool:
+        if not isinstance(name, str):
+            return False
+        try:
+            if name not in vocabulary.lists():
+                self._find(name)
+        except NotThere:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def keys(self) -> list[str]:
+        """Names of all that was recorded, lists included.
+
+        >>> import dihaptic as dh
+        >>> [name for name in dh.load(lift_session).keys() if name.startswith("block.")][:2]
+        ['block.position', 'block.orientation']
+        """
+        once = [q.name for q in vocabulary.of_list("") if self._has(q.name)]
+        of_items = [
+            f"{item}.{q.name}"
+            for list_name, items in self._items()
+            for item in items
+            for q in vocabulary.of_list(list_name)
+            if self._has(f"{item}_{q.name}")
+        ]
+        return once + of_items + [name for name in vocabulary.lists() if self._has(_group_of(name))]
+
+    @property
+    def quantities(self) -> pd.DataFrame:
+        """A table of all that was recorded: name, unit, frame, columns, meaning.
+
+        >>> import dihaptic as dh
+        >>> dh.load(lift_session).quantities.loc["block.position", "unit"]
+        'm'
+        """
+        rows = []
+        for name in self.keys():
+            if name in vocabulary.lists():
+                rows.append((name, "", "", "table", ""))
+                continue
+            q = vocabulary.quantity(name)
+            rows.append((name, q.unit, q.frame, q.components, q.meaning))
+        return pd.DataFrame(rows, columns=["name", "unit", "frame", "columns", "meaning"]).set_index("name")
+
+    def unit(self, name: str) -> str:
+        """The unit of a quantity; "1": a pure number. Raises NotThere.
+
+        >>> import dihaptic as dh
+        >>> dh.load(lift_session).unit("thumb.force_sent")
+        'N'
+        """
+        self._find(name)
+        list_name, _, term, _ = self._place_of(name)
+        q = vocabulary.find(term, list_name)
+        assert q is not None
+        return q.unit
+
+    def between(self, begin: float, end: float) -> slice:
+        """The ticks from `begin` to before `end` [s], to cut an array of the session's by.
+
+        >>> import dihaptic as dh
+        >>> session = dh.load(lift_session)
+        >>> len(session["grip_force"][session.between(1.0, 1.5)])
+        500
+        """
+        half = self.tick / 2
+        return slice(*(int(i) for i in np.searchsorted(self.t, [begin - half, end - half])))
+
+    # Pictures
+
+    def plot(self, *names: str, **options: Any) -> Axes:
+        """Draws quantities against time; see `dihaptic.charts.plot` for its options.
+
+        >>> import dihaptic as dh
+        >>> axes = dh.load(lift_session).plot("grip_force", "load_force", align="lift_off")
+        >>> axes.get_xlabel()
+        'time from lift-off [s]'
+        """
+        from .charts import plot
+
+        return plot(self, *names, **options)
+
+    # The file
+
+    @cached_property
+    def _file(self) -> h5py.File:
+        file = self.folder / "session.nwb"
+        if not file.is_file():
+            raise error(
+                "has no session.nwb: the session still runs, or was killed",
+                f"If it does not run, make its files: dihaptic recover {self.folder}.",
+                file=str(self.folder),
+            )
+        return h5py.File(file, "r")
+
+    def _items(self) -> list[tuple[str, list[str]]]:
+        return [
+            ("fingers", self.fingers),
+            ("turns", self.fingers),
+            ("bodies", self.bodies),
+            ("joints", self.joints),
+        ]
+
+    def _has(self, series: str) -> bool:
+        return f"acquisition/{series}" in self._file
+
+    def _series(self, name: str) -> Any:
+        return self._file[f"acquisition/{name}"]
+
+    def _times(self, series: Any) -> Array:
+        if "timestamps" in series:
+            stamps: Array = series["timestamps"][...]
+            return stamps
+        # no tick is missing
+        return np.arange(len(series["data"])) * self.tick
+
+    def _place_of(self, name: str) -> tuple[str, int, str, int | None]:
+        """Of a name: the list ("": a tick has it once), the item, the quantity's own name, and the
+        component that the name ends with, if any."""
+        if vocabulary.find(name):
+            return "", 0, name, None
+        for list_name, items in self._items():
+            for i, item in enumerate(items):
+                term, _, component = name.removeprefix(item + ".").partition(".")
+                q = vocabulary.find(term, list_name)
+                if not name.startswith(item + ".") or q is None:
+                    continue
+                if not component or component in q.components:
+                    return list_name, i, term, q.components.index(component) if component else None
+        raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
+
+    def _find(self, name: str) -> tuple[str, int | None]:
+        """The series of a name, and the column of its component, if it names one."""
+        list_name, item, term, index = self._place_of(name)
+        series = f"{dict(self._items())[list_name][item]}_{term}" if list_name else term
+        if not self._has(series):
+            raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
+        return series, index
+
+    def _list(self, name: str) -> pd.DataFrame:
+        columns = [c for q in vocabulary.of_list(name) for c in q.columns()]
+        group = _group_of(name)
+        if not self._has(group):
+            return pd.DataFrame(columns=["time", *columns])
+        series = self._series(group)
+        rows = series["data"][...].reshape(len(series["data"]), -1)
+        table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
+        table.insert(0, "time", self._times(series))
+        return table
+
+
+def _group_of(list_name: str) -> str:
+    """The series of a list in session.nwb."""
+    return list_name if list_name == "contacts" else f"task_{list_name}"

@@ -1,0 +1,41 @@
+"""Reads the tables that the program writes, with the units of their columns."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from . import _native
+from .errors import error
+
+#: Columns that stand for yes and no.
+_YES = {"yes": True, "no": False}
+
+
+def read_table(file: str | Path) -> pd.DataFrame:
+    """Reads a table of the program's (docs/tables.md), or any CSV file of one's own.
+
+    `attrs["units"]` has the unit of each column whose name ends in one, and `attrs["meanings"]` a
+    few words on each column of a table that docs/tables.md lists. An empty cell is NaN, or None in
+    a column of texts. Raises Error when the file cannot be read.
+
+    >>> import dihaptic as dh
+    >>> lifts = dh.read_table(f"{lift_session}/lifts.csv")
+    >>> lifts.attrs["units"]["peak_grip_N"]
+    'N'
+    >>> lifts.attrs["meanings"]["peak_grip_N"]
+    'mean of the digits, from touch to lowering'
+    """
+    path = Path(file)
+    try:
+        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype={"ppid": str})
+    except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
+        raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
+    if "simulated" in table:
+        table["simulated"] = table["simulated"].map(_YES)
+    units = {column: _native.unit_of(column) for column in table}
+    table.attrs["units"] = {column: unit for column, unit in units.items() if unit}
+    known = _native.table_columns(path.name)
+    table.attrs["meanings"] = {c: meaning for c, meaning in known if c in table}
+    return table

@@ -1,0 +1,99 @@
+"""What each tick records: the names, units and meanings of docs/quantities.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from . import _native
+
+#: Lists whose series are named by their items: a finger, a body or a joint.
+NAMED_LISTS = ("fingers", "turns", "bodies", "joints")
+
+_COMPONENTS = {"float64[3]": "xyz", "float64[4] (x, y, z, w)": "wxyz"}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of the record, as docs/quantities.md lists it.
+
+    >>> import dihaptic as dh
+    >>> dh.quantity("block.position").unit
+    'm'
+    """
+
+    of: str  #: the list that it is of: "fingers", "bodies", "contacts"; "": a tick has it once
+    name: str
+    type: str  #: "float64", "float64[3]", "int32", ...
+    unit: str  #: in SI; "1": a pure number
+    frame: str  #: "W", the world, or "D", the device; "": it has no axes
+    meaning: str
+
+    @property
+    def components(self) -> str:
+        """ "xyz" of a vector, "wxyz" of a quaternion, "" of a number: the columns of its array."""
+        return _COMPONENTS.get(self.type, "")
+
+    def columns(self) -> list[str]:
+        """Names of its columns in a table.
+
+        >>> import dihaptic as dh
+        >>> dh.quantity("block.position").columns()
+        ['position_x', 'position_y', 'position_z']
+        """
+        return [f"{self.name}_{c}" for c in self.components] if self.components else [self.name]
+
+
+_ALL = [Quantity(*row) for row in _native.quantities()]
+_BY_LIST: dict[str, dict[str, Quantity]] = {}
+for _quantity in _ALL:
+    _BY_LIST.setdefault(_quantity.of, {})[_quantity.name] = _quantity
+
+
+def of_list(name: str) -> list[Quantity]:
+    """The quantities of a list, in their order; of "", what a tick has once."""
+    return list(_BY_LIST.get(name, {}).values())
+
+
+def find(name: str, list_name: str = "") -> Quantity | None:
+    """The quantity of that name in a list, or None."""
+    return _BY_LIST.get(list_name, {}).get(name)
+
+
+def lists() -> list[str]:
+    """Names of all lists that have a series as a whole: contacts, targets, loads, ..."""
+    return [name for name in _BY_LIST if name and name not in NAMED_LISTS]
+
+
+def quantity(name: str) -> Quantity:
+    """The quantity of a name such as "grip_force", "thumb.force_sent" or "contacts.gap".
+
+    Behind a dot, any list with a quantity of that name will do. Raises NotThere.
+
+    >>> import dihaptic as dh
+    >>> dh.quantity("grip_force").meaning
+    'Pinch part of the normal forces, half their sum; NaN for one finger.'
+    """
+    item, dot, last = name.rpartition(".")
+    if not dot:
+        found = find(name)
+    elif item in _BY_LIST:
+        found = find(last, item)
+    else:
+        found = next((q for q in (find(last, of) for of in NAMED_LISTS) if q is not None), None)
+    if found is None:
+        from .errors import NotThere
+
+        raise NotThere(name, "is no quantity", [q.name for q in _ALL], "quantities() lists them.")
+    return found
+
+
+def quantities() -> pd.DataFrame:
+    """All quantities as a table: of, name, type, unit, frame, meaning.
+
+    >>> import dihaptic as dh
+    >>> dh.quantities().query("name == 'load_force'").unit.item()
+    'N'
+    """
+    return pd.DataFrame([vars(q) for q in _ALL])

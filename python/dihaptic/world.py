@@ -1,0 +1,275 @@
+"""A world in virtual time that Python steps tick by tick: the program's own contact and rendering."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from . import _native, vocabulary
+from .errors import NotThere
+
+Array = npt.NDArray[np.float64]
+_STILL = (0.0, 0.0, 0.0)
+_UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+
+
+class World:
+    """A scene with simulated devices, held by a simulated hand.
+
+    `file` is a scene, or an experiment without trials; `rig` one of simulated devices, ideal ones if
+    left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it goes where
+    the scene's own hand goes, and each tick is the one that `dihaptic run` would do, to the bit.
+
+    Raises Error for whatever `dihaptic check` finds wrong.
+
+    >>> import dihaptic as dh
+    >>> world = dh.World("scenes/block-on-table.yaml")
+    >>> world.step(1000)
+    >>> round(world.t, 3), round(world.bodies["block"].position[2], 3)
+    (0.999, 0.02)
+    """
+
+    def __init__(
+        self,
+        file: str | Path,
+        rig: str | Path = "",
+        *,
+        settings: dict[str, Any] | None = None,
+        seed: int = 1,
+    ) -> None:
+        given = [f"{key}={value}" for key, value in (settings or {}).items()]
+        self._world = _native.World(str(file), str(rig), given, seed)
+        names = self._world.fingers()
+        self.bodies = {name: Body(self, i, name) for i, name in enumerate(self._world.bodies())}
+        self.joints: list[str] = self._world.joints()
+        self.fingers = [Finger(self, i, name) for i, name in enumerate(names)]
+        self.tick: float = self._world.tick_length()  #: time from one tick to the next [s]
+        self.warnings: list[str] = self._world.warnings()
+
+    @property
+    def object(self) -> Body | None:
+        """The body that the scene is about; None if nothing can move."""
+        return self.bodies.get(self._world.object())
+
+    @property
+    def t(self) -> float:
+        """Time of the last tick [s]."""
+        return float(self["time"]) * 1e-9
+
+    @property
+    def duration(self) -> float:
+        """Time for which the scene's own hand moves [s]."""
+        return float(self._world.duration())
+
+    def step(self, ticks: int = 1, director: Callable[[World], None] | None = None) -> None:
+        """Does some ticks; a director is called in each, before the world moves.
+
+        What a director orders (leads, pushes, places, scales) acts in the same tick; a finger's lead
+        in the next, since the devices have been read by then. What it reads is of the tick before,
+        so there must have been one. Its exceptions end the step. Raises Error once the world has
+        stopped, for instance because the force grew beyond what is safe.
+
+        >>> import dihaptic as dh
+        >>> world = dh.World("scenes/block-on-table.yaml")
+        >>> world.step()
+        >>> heights = []
+        >>> world.step(10, lambda w: heights.append(w.bodies["block"].position[2]))
+        >>> len(heights)
+        10
+        """
+        call = None if director is None else lambda: director(self)
+        self._world.step(ticks, call)
+
+    def reset(self) -> None:
+        """Begins anew: as at first, at time 0, with the scene's own hand and no orders.
+
+        >>> import dihaptic as dh
+        >>> world = dh.World("scenes/block-on-table.yaml")
+        >>> world.step(5)
+        >>> world.reset()
+        >>> world.step()
+        >>> world.t
+        0.0
+        """
+        self._world.begin()
+
+    def __getitem__(self, name: str) -> Any:
+        """A quantity of the last tick, by the names that a Session has: "grip_force",
+        "block.position", "thumb.force_sent"; a list such as "contacts" as a pandas table.
+        Raises NotThere.
+        """
+        if name in vocabulary.lists():
+            columns = [c for q in vocabulary.of_list(name) for c in q.columns()]
+            return pd.DataFrame(self._world.rows(name), columns=columns)
+        value = None
+        if vocabulary.find(name):
+            value = self._world.read("", 0, name)
+        item, _, term = name.rpartition(".")
+        for of_list, items in self._items():
+            if item in items and vocabulary.find(term, of_list):
+                value = self._world.read(of_list, items.index(item), term)
+        if value is None:
+            known = [q.name for q in vocabulary.of_list("")]
+            raise NotThere(name, "is not there", known, "dihaptic.quantities() lists what there is.")
+        return value
+
+    def _items(self) -> list[tuple[str, list[str]]]:
+        fingers = [finger.name for finger in self.fingers]
+        return [("fingers", fingers), ("turns", fingers), ("bodies", list(self.bodies)), ("joints", self.joints)]
+
+
+class Finger:
+    """A finger of a world: its device's handle, and its proxy, what stands for it in the world.
+
+    >>> import dihaptic as dh
+    >>> world = dh.World("scenes/block-on-table.yaml")
+    >>> world.step()
+    >>> world.fingers[0].name, world.fingers[0].handle.shape
+    ('thumb', (3,))
+    """
+
+    def __init__(self, world: World, index: int, name: str) -> None:
+        self._world = world
+        self._index = index
+        self.name = name
+
+    def _read(self, term: str) -> Array:
+        value: Array = self._world._world.read("fingers", self._index, term)
+        return value
+
+    @property
+    def handle(self) -> Array:
+        """Position of the handle, in world axes [m]."""
+        return self._read("handle_position")
+
+    @property
+    def handle_velocity(self) -> Array:
+        """Velocity of the handle, in world axes [m/s]."""
+        return self._read("handle_velocity")
+
+    @property
+    def proxy(self) -> Array:
+        """Position of the proxy, in world axes [m]."""
+        return self._read("proxy_position")
+
+    @property
+    def force(self) -> Array:
+        """Force that the device exerts on the handle, in world axes [N]."""
+        return self._read("force_sent")
+
+    def lead(
+        self,
+        position: Sequence[float] | Array,
+        velocity: Sequence[float] | Array = _STILL,
+        orientation: Sequence[float] | Array | None = None,
+    ) -> None:
+        """Leads the finger from the next tick on, until something else is said.
+
+        `position` [m] and `velocity` [m/s] are of the point that it wants to be at, in world axes:
+        the hand's muscles pull the handle there (the scene's `hand.impedance`), so that what it
+        presses on keeps it away. `orientation`: unit quaternion w, x, y, z.
+
+        >>> import dihaptic as dh
+        >>> world = dh.World("scenes/block-on-table.yaml")
+        >>> world.fingers[0].lead((-0.05, 0, 0.1))
+        >>> world.step(1500)
+        >>> bool(abs(world.fingers[0].handle - (-0.05, 0, 0.1)).max() < 2e-3)
+        True
+        """
+        self._world._world.lead(self._index, position, velocity, orientation)
+
+    def let_go(self) -> None:
+        """Gives the finger back to the scene's own hand."""
+        self._world._world.let_go(self._index)
+
+
+class Body:
+    """A body of a world's scene.
+
+    >>> import dihaptic as dh
+    >>> world = dh.World("scenes/block-on-table.yaml")
+    >>> world.bodies["block"].place((0, 0, 0.5))
+    >>> world.step(100)  # the first puts it there; then it falls
+    >>> fallen = 0.5 - world.bodies["block"].position[2]
+    >>> bool(abs(fallen - 9.81 / 2 * 0.1**2) < 1e-3)
+    True
+    """
+
+    def __init__(self, world: World, index: int, name: str) -> None:
+        self._world = world
+        self._index = index
+        self.name = name
+
+    def _read(self, term: str) -> Array:
+        value: Array = self._world._world.read("bodies", self._index, term)
+        return value
+
+    @property
+    def position(self) -> Array:
+        """Position of its origin, in world axes [m]."""
+        return self._read("position")
+
+    @property
+    def orientation(self) -> Array:
+        """Unit quaternion w, x, y, z that turns its axes into the world's."""
+        return self._read("orientation")
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity of its origin, in world axes [m/s]."""
+        return self._read("velocity")
+
+    @property
+    def angular_velocity(self) -> Array:
+        """Its angular velocity, in world axes [rad/s]."""
+        return self._read("angular_velocity")
+
+    def place(
+        self,
+        position: Sequence[float] | Array,
+        orientation: Sequence[float] | Array = _UPRIGHT,
+        velocity: Sequence[float] | Array = _STILL,
+        angular_velocity: Sequence[float] | Array = _STILL,
+    ) -> None:
+        """Puts it somewhere in the next tick: position [m], unit quaternion w, x, y, z, velocities
+        [m/s, rad/s], all in world axes."""
+        self._world._world.place(self._index, position, orientation, velocity, angular_velocity)
+
+    def push(
+        self, force: Sequence[float] | Array = _STILL, torque: Sequence[float] | Array = _STILL
+    ) -> None:
+        """Pushes at its centre of mass in every tick from now on [N, N*m, world axes], until another
+        push; without arguments, no more."""
+        self._world._world.push(self._index, force, torque)
+
+    def scale(
+        self,
+        *,
+        mass: float | Sequence[float] = 1.0,
+        weight: float = 1.0,
+        turning: float = 1.0,
+        friction: float = 1.0,
+    ) -> None:
+        """Scales its inertia (by one factor, or one for each of the world's axes), weight, moments of
+        inertia and friction from now on; without arguments, they are the scene's again."""
+        axes = (mass, mass, mass) if isinstance(mass, (int, float)) else mass
+        self._world._world.scale(self._index, axes, weight, turning, friction)
+
+
+def step_all(worlds: Iterable[World], ticks: int = 1, jobs: int | None = None) -> list[bool]:
+    """Steps many worlds side by side, on all processors, and says which of them still go on.
+
+    >>> import dihaptic as dh
+    >>> worlds = [dh.World("scenes/block-on-table.yaml", seed=seed) for seed in range(1, 4)]
+    >>> dh.step_all(worlds, 100)
+    [True, True, True]
+    """
+    inner = [world._world for world in worlds]
+    _native.step_all(inner, ticks, jobs or os.cpu_count() or 1)
+    return [not world.over() for world in inner]

@@ -1,0 +1,183 @@
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "analysis/fits/adaptation_fit.h"
+#include "analysis/fits/psychometric_fit.h"
+#include "analysis/fits/two_rate_fit.h"
+#include "base/diagnostics.h"
+#include "base/field.h"
+#include "parts.h"
+
+namespace py = pybind11;
+
+namespace dihaptic::python {
+namespace {
+
+using analysis::Interval;
+using Counts = std::vector<std::tuple<double, int, int>>;
+
+py::tuple pair(const Interval& interval) {
+    return py::make_tuple(interval.low, interval.high);
+}
+
+/// What every fit of a curve has.
+py::dict common(const analysis::CurveFit& fit, const std::vector<double>& measured) {
+    const auto n =
+        std::count_if(measured.begin(), measured.end(), [](double x) { return std::isfinite(x); });
+    py::dict out;
+    out["predicted"] =
+        py::array_t<double>(static_cast<py::ssize_t>(fit.predicted.size()), fit.predicted.data());
+    out["residual_sd"] = fit.residual_sd;
+    out["sse"] = fit.mean_square * static_cast<double>(n);
+    out["n"] = n;
+    return out;
+}
+
+std::vector<model::AdaptationTrial> trials(const std::vector<double>& perturbation,
+                                           const std::vector<bool>& clamp) {
+    if (perturbation.size() != clamp.size())
+        throw Error("perturbation and clamp have different lengths", "Give one of each a trial.");
+    std::vector<model::AdaptationTrial> out;
+    for (size_t i = 0; i < perturbation.size(); ++i)
+        out.push_back({clamp[i] ? 0 : perturbation[i], clamp[i]});
+    return out;
+}
+
+py::dict fit_two_rate(const std::vector<double>& measured, const std::vector<double>& perturbation,
+                      const std::vector<bool>& clamp) {
+    const analysis::TwoRateFit fit = analysis::fit_two_rate(measured, trials(perturbation, clamp));
+    py::dict out = common(fit, measured);
+    out["retention_slow"] = fit.rates.slow.retention;
+    out["learning_slow"] = fit.rates.slow.learning;
+    out["retention_fast"] = fit.rates.fast.retention;
+    out["learning_fast"] = fit.rates.fast.learning;
+    py::dict intervals;
+    intervals["retention_slow"] = pair(fit.retention_slow);
+    intervals["learning_slow"] = pair(fit.learning_slow);
+    intervals["retention_fast"] = pair(fit.retention_fast);
+    intervals["learning_fast"] = pair(fit.learning_fast);
+    out["intervals"] = intervals;
+    return out;
+}
+
+py::dict fit_single_rate(const std::vector<double>& measured,
+                         const std::vector<double>& perturbation, const std::vector<bool>& clamp) {
+    const auto fit = analysis::fit_single_rate(measured, trials(perturbation, clamp));
+    py::dict out = common(fit, measured);
+    out["retention"] = fit.rate.retention;
+    out["learning"] = fit.rate.learning;
+    py::dict intervals;
+    intervals["retention"] = pair(fit.retention);
+    intervals["learning"] = pair(fit.learning);
+    out["intervals"] = intervals;
+    return out;
+}
+
+py::dict fit_learning_curve(const std::vector<double>& measured) {
+    const analysis::LearningCurveFit fit = analysis::fit_learning_curve(measured);
+    py::dict out = common(fit, measured);
+    out["start"] = fit.curve.start;
+    out["asymptote"] = fit.curve.asymptote;
+    out["time_constant"] = fit.curve.time_constant;
+    py::dict intervals;
+    intervals["start"] = pair(fit.start);
+    intervals["asymptote"] = pair(fit.asymptote);
+    intervals["time_constant"] = pair(fit.time_constant);
+    out["intervals"] = intervals;
+    return out;
+}
+
+model::Sigmoid sigmoid_of(const std::string& word) {
+    const auto names = enum_names(model::Sigmoid{});
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) {
+        std::string known;
+        for (const char* name : names) known += std::string(known.empty() ? "" : ", ") + name;
+        throw Error({}, "sigmoid", "is '" + word + "'", "Those that there are: " + known + ".");
+    }
+    return static_cast<model::Sigmoid>(found - names.begin());
+}
+
+Counts count_answers(const std::vector<double>& levels, const std::vector<bool>& answers) {
+    if (levels.size() != answers.size())
+        throw Error("levels and answers have different lengths", "Give one answer for each level.");
+    std::vector<analysis::Answer> all;
+    for (size_t i = 0; i < levels.size(); ++i) all.push_back({levels[i], answers[i]});
+    Counts out;
+    for (const analysis::LevelCount& level : analysis::count(all))
+        out.emplace_back(level.level, level.yes, level.trials);
+    return out;
+}
+
+analysis::PsychometricFitSettings settings_of(const std::string& sigmoid,
+                                              const std::variant<double, std::string>& guess,
+                                              double max_lapse, std::optional<double> shape) {
+    analysis::PsychometricFitSettings out;
+    out.sigmoid = sigmoid_of(sigmoid);
+    if (const double* const rate = std::get_if<double>(&guess)) {
+        if (!(*rate >= 0 && *rate < 1))
+            throw Error({}, "guess", "is no probability below 1",
+                        "Give 0 for yes or no questions.");
+        out.guess = *rate;
+    } else if (std::get<std::string>(guess) == "lapse") {
+        out.guess_is_lapse = true;
+    } else {
+        throw Error({}, "guess", "is '" + std::get<std::string>(guess) + "'",
+                    "Give a probability, or \"lapse\".");
+    }
+    if (!(max_lapse >= 0 && max_lapse < 0.5))
+        throw Error({}, "max_lapse", "is not between 0 and 0.5", "Leave it out: 0.05.");
+    if (shape && !(*shape > 0))
+        throw Error({}, "shape", "is not positive", "Leave it out to have it fitted.");
+    out.max_lapse = max_lapse;
+    out.shape = shape;
+    return out;
+}
+
+py::dict fit_psychometric(const Counts& counts, const std::string& sigmoid,
+                          const std::variant<double, std::string>& guess, double max_lapse,
+                          std::optional<double> shape) {
+    const auto settings = settings_of(sigmoid, guess, max_lapse, shape);
+    std::vector<analysis::LevelCount> levels;
+    for (const auto& [level, yes, asked] : counts) levels.push_back({level, yes, asked});
+    const analysis::PsychometricFit fit = analysis::fit_psychometric(levels, settings);
+    const auto ends = analysis::profile_intervals(levels, fit, settings);
+    py::dict out;
+    out["sigmoid"] = sigmoid;
+    out["threshold"] = fit.function.threshold;
+    out["shape"] = fit.function.shape;
+    out["guess"] = fit.function.guess;
+    out["lapse"] = fit.function.lapse;
+    out["deviance"] = fit.deviance;
+    out["shape_unknown"] = fit.shape_unknown;
+    py::dict intervals;
+    intervals["threshold"] = pair(ends.threshold);
+    intervals["shape"] = pair(ends.shape);
+    intervals["lapse"] = pair(ends.lapse);
+    out["intervals"] = intervals;
+    return out;
+}
+
+double psychometric(const std::string& sigmoid, double threshold, double shape, double guess,
+                    double lapse, double level) {
+    return model::Psychometric{sigmoid_of(sigmoid), threshold, shape, guess, lapse}.probability(
+        level);
+}
+
+}  // namespace
+
+void add_fits(py::module_& m) {
+    m.def("fit_two_rate", &fit_two_rate);
+    m.def("fit_single_rate", &fit_single_rate);
+    m.def("fit_learning_curve", &fit_learning_curve);
+    m.def("count_answers", &count_answers);
+    m.def("fit_psychometric", &fit_psychometric);
+    m.def("psychometric", &psychometric);
+}
+
+}  // namespace dihaptic::python

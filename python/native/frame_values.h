@@ -1,0 +1,111 @@
+// Reads what a frame has by name, as numbers and arrays for Python.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "servo/frame.h"
+
+namespace dihaptic::python {
+
+/// One value of a frame, by its list ("": the tick itself), the item in it, and its name.
+class FrameValue {
+  public:
+    FrameValue(const std::string& list, size_t item, const std::string& name)
+        : list_(list), item_(item), name_(name) {}
+
+    /// None if the frame has no such value.
+    pybind11::object of(const servo::Frame& frame) {
+        found_ = pybind11::none();
+        here_ = list_.empty();
+        servo::Frame::visit(frame, *this);
+        return found_;
+    }
+
+    // as a visitor
+    template <class T>
+    void operator()(const T& value, const servo::Term& term) {
+        if (!here_ || name_ != term.name) return;
+        if constexpr (std::is_same_v<T, Vec3>) {
+            found_ = pybind11::cast(value);
+        } else if constexpr (std::is_same_v<T, Quat>) {
+            found_ = pybind11::cast(Eigen::Vector4d(value.w(), value.x(), value.y(), value.z()));
+        } else if constexpr (std::is_same_v<T, Time>) {
+            found_ = pybind11::cast(value.count());
+        } else if constexpr (std::is_enum_v<T>) {
+            found_ = pybind11::cast(static_cast<int>(value));
+        } else {
+            found_ = pybind11::cast(value);
+        }
+    }
+    template <class T>
+    void each(const char* list, const std::vector<T>& items, const char*) {
+        if (list_ != list || item_ >= items.size()) return;
+        here_ = true;
+        T::visit(items[item_], *this);
+        here_ = false;
+    }
+    template <class T>
+    void changed(const char* list, const std::vector<T>& items, const std::vector<uint16_t>&,
+                 const char* meaning) {
+        each(list, items, meaning);
+    }
+
+  private:
+    std::string list_;
+    size_t item_;
+    std::string name_;
+    bool here_ = false;
+    pybind11::object found_;
+};
+
+/// The items of one list of a frame as rows of numbers, with the columns of session.nwb.
+class FrameRows {
+  public:
+    explicit FrameRows(const std::string& list) : list_(list) {}
+
+    std::vector<std::vector<double>> of(const servo::Frame& frame) {
+        servo::Frame::visit(frame, *this);
+        return rows_;
+    }
+
+    // as a visitor
+    template <class T>
+    void operator()(const T& value, const servo::Term&) {
+        if (!here_) return;
+        std::vector<double>& row = rows_.back();
+        if constexpr (std::is_same_v<T, Vec3>) {
+            row.insert(row.end(), value.data(), value.data() + 3);
+        } else if constexpr (std::is_same_v<T, Quat>) {
+            row.insert(row.end(), {value.w(), value.x(), value.y(), value.z()});
+        } else if constexpr (!std::is_same_v<T, Time>) {
+            row.push_back(static_cast<double>(value));
+        }
+    }
+    template <class T>
+    void each(const char* list, const std::vector<T>& items, const char*) {
+        if (list_ != list) return;
+        here_ = true;
+        for (const T& item : items) {
+            rows_.emplace_back();
+            T::visit(item, *this);
+        }
+        here_ = false;
+    }
+    template <class T>
+    void changed(const char* list, const std::vector<T>& items, const std::vector<uint16_t>&,
+                 const char* meaning) {
+        each(list, items, meaning);
+    }
+
+  private:
+    std::string list_;
+    bool here_ = false;
+    std::vector<std::vector<double>> rows_;
+};
+
+}  // namespace dihaptic::python

@@ -1,0 +1,164 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "analysis/episodes.h"
+#include "analysis/events.h"
+#include "analysis/lifts.h"
+#include "analysis/session_report.h"
+#include "analysis/trials.h"
+#include "base/figure.h"
+#include "base/node.h"
+#include "base/palette.h"
+#include "base/unit.h"
+#include "frame_values.h"
+#include "parts.h"
+#include "recording/raw_log.h"
+#include "recording/schema.h"
+#include "servo/frame.h"
+
+namespace py = pybind11;
+
+namespace dihaptic::python {
+namespace {
+
+/// List, name, type, unit, frame, meaning.
+using QuantityRow =
+    std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
+
+/// Lists the quantities of a Frame as its visit() describes them.
+class QuantityLister {
+  public:
+    template <class T>
+    void operator()(const T&, const servo::Term& term) {
+        rows.emplace_back(list_, term.name, recording::type_name<T>(), term.unit, term.frame,
+                          term.meaning);
+    }
+    template <class T>
+    void each(const char* name, const std::vector<T>&, const char*) {
+        list_ = name;
+        const T item{};
+        T::visit(item, *this);
+        list_ = "";
+    }
+    template <class T>
+    void changed(const char* name, const std::vector<T>& items, const std::vector<uint16_t>&,
+                 const char* meaning) {
+        each(name, items, meaning);
+    }
+    std::vector<QuantityRow> rows;
+
+  private:
+    const char* list_ = "";
+};
+
+std::vector<QuantityRow> quantities() {
+    QuantityLister lister;
+    const servo::Frame frame;
+    servo::Frame::visit(frame, lister);
+    return lister.rows;
+}
+
+std::vector<std::pair<std::string, std::string>> table_columns(const std::string& file) {
+    std::vector<Table::Column> columns;
+    if (file == "trials.csv") columns = analysis::trial_columns();
+    if (file == "phases.csv") columns = list_figures(analysis::PhaseFigures{}).columns;
+    if (file == "events.csv") columns = list_figures(analysis::Event{}).columns;
+    if (file == "episodes.csv") columns = list_figures(analysis::Episode{}).columns;
+    if (file == "lifts.csv") columns = list_figures(analysis::Lift{}).columns;
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const Table::Column& column : columns) out.emplace_back(column.name, column.description);
+    return out;
+}
+
+/// The unit that a column's name ends with, as people write it: "N/s" of peak_grip_rate_N_s.
+std::string unit_of(const std::string& column) {
+    const NameInUnit in = split_unit(column);
+    if (in.quantity == Quantity::none || in.name.size() == column.size()) return "";
+    if (in.si == 1) return std::string(si_symbol(in.quantity));
+    std::string suffix = column.substr(in.name.size() + 1);
+    std::replace(suffix.begin(), suffix.end(), '_', '/');
+    return suffix;
+}
+
+/// A document as dictionaries, lists and texts.
+py::object to_python(const Node& node) {
+    switch (node.kind) {
+        case Node::Kind::null:
+            return py::none();
+        case Node::Kind::scalar:
+            return py::str(node.scalar);
+        case Node::Kind::sequence: {
+            py::list out;
+            for (const Node& item : node.items) out.append(to_python(item));
+            return out;
+        }
+        case Node::Kind::mapping: {
+            py::dict out;
+            for (const Node::Entry& entry : node.entries)
+                out[py::str(entry.key)] = to_python(entry.value);
+            return out;
+        }
+    }
+    return py::none();
+}
+
+Node to_node(const py::handle& value) {
+    if (value.is_none()) return {};
+    if (py::isinstance<py::dict>(value)) {
+        Node out = Node::mapping();
+        for (const auto& [key, item] : py::cast<py::dict>(value))
+            out.set(py::str(key), to_node(item));
+        return out;
+    }
+    if (py::isinstance<py::list>(value)) {
+        Node out;
+        out.kind = Node::Kind::sequence;
+        for (const py::handle& item : py::cast<py::list>(value)) out.items.push_back(to_node(item));
+        return out;
+    }
+    return Node::of(py::str(value));
+}
+
+py::dict log_head(const std::string& file) {
+    const recording::LogHead head = recording::RawLogReader(file).head();
+    py::dict out;
+    out["tick"] = head.tick;
+    out["fingers"] = head.fingers;
+    out["bodies"] = head.bodies;
+    out["joints"] = head.joints;
+    return out;
+}
+
+/// What a log has of a quantity, tick by tick, with all its bits.
+py::list log_values(const std::string& file, const std::string& list, size_t item,
+                    const std::string& name) {
+    recording::RawLogReader log(file);
+    FrameValue value(list, item, name);
+    py::list out;
+    while (const servo::Frame* frame = log.next()) out.append(value.of(*frame));
+    return out;
+}
+
+py::dict colours() {
+    py::dict out;
+    out["grip_force"] = palette::kGrip;
+    out["load_force"] = palette::kLoad;
+    return out;
+}
+
+}  // namespace
+
+void add_vocabulary(py::module_& m) {
+    m.def("quantities", &quantities);
+    m.def("table_columns", &table_columns);
+    m.def("unit_of", &unit_of);
+    m.def("read_yaml", [](const std::string& file) { return to_python(read_yaml(file)); });
+    m.def("write_yaml", [](const py::handle& value) { return to_yaml(to_node(value)); });
+    m.def("log_head", &log_head);
+    m.def("log_values", &log_values);
+    m.def("colours", &colours);
+}
+
+}  // namespace dihaptic::python

@@ -1,0 +1,288 @@
+// A world in virtual time, which Python steps tick by tick.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+#include <atomic>
+#include <exception>
+#include <thread>
+
+#include "frame_values.h"
+#include "haptics/safety.h"
+#include "parts.h"
+#include "session/phase_director.h"
+#include "session/plan.h"
+
+namespace py = pybind11;
+
+namespace dihaptic::python {
+namespace {
+
+/// Leads each finger where Python says, and, until it says something, where the scene's own hand
+/// goes.
+class LedHand : public hand::Driver {
+  public:
+    LedHand(std::shared_ptr<const hand::Driver> own, size_t fingers)
+        : own_(std::move(own)), led_(fingers) {}
+
+    void lead(size_t finger, const hand::FingerTarget& target) { led_[finger] = target; }
+    void let_go(size_t finger) { led_[finger].reset(); }
+    double duration() const override { return own_->duration(); }
+    const std::vector<Phase>& phases() const override { return own_->phases(); }
+
+  private:
+    hand::FingerTarget do_target(int finger, double t) const noexcept override {
+        const auto& led = led_[static_cast<size_t>(finger)];
+        return led ? *led : own_->target(finger, t);
+    }
+    std::shared_ptr<const hand::Driver> own_;
+    std::vector<std::optional<hand::FingerTarget>> led_;
+};
+
+void check(const char* what, const Vec3& value) {
+    if (!value.allFinite())
+        throw Error({}, what, "has a component that is no number", "Give three finite numbers.");
+}
+
+/// Of a body's inertia, weight and friction: a world with less than none of them has no solution.
+void check_factor(const char* what, double value, bool zero) {
+    if (std::isfinite(value) && (value > 0 || (zero && value == 0))) return;
+    throw Error({}, what, fmt::format("is {}", value),
+                zero ? "Give a factor of at least 0." : "Give a factor above 0.");
+}
+
+session::Plan plan_of(const std::string& file, const std::string& rig,
+                      const std::vector<std::string>& set, uint64_t seed) {
+    session::Request request;
+    request.file = file;
+    request.rig = rig;
+    request.set = set;
+    request.seed = seed;
+    session::Plan plan = session::make_plan(request);
+    if (plan.task) {
+        throw Error({file, 0}, "task", "has trials, which a world does not do",
+                    "Give its scene, or do the trials by dihaptic.run().");
+    }
+    if (rig::is_real(plan.rig)) {
+        throw Error(plan.rig.place, "devices", "are real, and a world is in virtual time",
+                    "Leave the rig out, or choose one of simulated devices.");
+    }
+    return plan;
+}
+
+class World {
+  public:
+    World(const std::string& file, const std::string& rig, const std::vector<std::string>& set,
+          uint64_t seed)
+        : plan_(plan_of(file, rig, set, seed)), own_(plan_.driver) {
+        begin();
+    }
+
+    /// Begins anew, at time 0, with the hand and the orders of the beginning.
+    void begin() {
+        hand_ = std::make_shared<LedHand>(own_, plan_.scene.fingers.size());
+        plan_.driver = hand_;
+        servo_ = session::make_servo(plan_, session::open_devices(plan_));
+        std::vector<recording::PhaseInfo> phases;
+        for (const hand::Driver::Phase& phase : own_->phases())
+            phases.push_back({phase.name, phase.start, phase.end});
+        phases_.emplace(std::move(phases), plan_.settings.tick());
+        loads_.clear();
+        properties_.clear();
+        placements_.clear();
+        now_ = Time{0};
+        servo_->activate();
+        frame_ = nullptr;
+    }
+
+    /// Does so many ticks; with a function, calls it in each, before the world moves.
+    void step(int64_t ticks, const py::object& director) {
+        thrown_ = nullptr;
+        if (director.is_none()) {
+            const py::gil_scoped_release others_may_run;
+            for (int64_t i = 0; i < ticks && !over(); ++i) tick({});
+        } else {
+            const auto call = [&] { director(); };
+            for (int64_t i = 0; i < ticks && !over() && !thrown_; ++i) tick(call);
+        }
+        if (thrown_) std::rethrow_exception(thrown_);
+        if (over()) throw Error(why_over(), "Begin anew: World.reset().");
+    }
+    /// One step without Python, of a thread of step_all().
+    void run(int64_t ticks) noexcept {
+        for (int64_t i = 0; i < ticks && !over(); ++i) tick({});
+    }
+    bool over() const { return servo_->stopped(); }
+
+    py::object read(const std::string& list, size_t item, const std::string& name) const {
+        return FrameValue(list, item, name).of(frame());
+    }
+    std::vector<std::vector<double>> rows(const std::string& list) const {
+        return FrameRows(list).of(frame());
+    }
+
+    void lead(size_t finger, const Vec3& position, const Vec3& velocity,
+              const std::optional<Eigen::Vector4d>& orientation) {
+        check("position", position);
+        check("velocity", velocity);
+        hand::FingerTarget target;
+        target.p_WT = position;
+        target.v_WT = velocity;
+        if (orientation) target.R_WT = quaternion(*orientation);
+        hand_->lead(finger, target);
+    }
+    void let_go(size_t finger) { hand_->let_go(finger); }
+    void place(int32_t body, const Vec3& position, const Eigen::Vector4d& orientation,
+               const Vec3& velocity, const Vec3& angular_velocity) {
+        check("position", position);
+        check("velocity", velocity);
+        check("angular_velocity", angular_velocity);
+        std::erase_if(placements_, [&](const auto& p) { return p.body == body; });
+        placements_.push_back(
+            {body, {quaternion(orientation), position}, velocity, angular_velocity});
+    }
+    void push(int32_t body, const Vec3& force, const Vec3& torque) {
+        check("force", force);
+        check("torque", torque);
+        std::erase_if(loads_, [&](const auto& load) { return load.body == body; });
+        if (force == Vec3::Zero() && torque == Vec3::Zero()) return;
+        if (loads_.size() == servo::TaskFrame::kMostLoads) throw too_many("pushes");
+        loads_.push_back({body, force, torque});
+    }
+    void scale(int32_t body, const Vec3& mass, double weight, double turning, double friction) {
+        for (const double factor : mass) check_factor("mass", factor, false);
+        check_factor("weight", weight, true);
+        check_factor("turning", turning, false);
+        check_factor("friction", friction, true);
+        std::erase_if(properties_, [&](const auto& p) { return p.body == body; });
+        if (mass == Vec3::Ones() && weight == 1 && turning == 1 && friction == 1) return;
+        if (properties_.size() == servo::TaskFrame::kMostProperties)
+            throw too_many("scaled bodies");
+        servo::PropertiesFrame properties;
+        properties.body = body;
+        properties.mass_scale = mass;
+        properties.weight_scale = weight;
+        properties.turning_scale = turning;
+        properties.friction_scale = friction;
+        properties_.push_back(properties);
+    }
+
+    std::vector<std::string> fingers() const { return scene::finger_names(plan_.scene); }
+    std::vector<std::string> bodies() const {
+        std::vector<std::string> out;
+        for (const scene::Body& body : plan_.scene.bodies) out.push_back(body.name);
+        return out;
+    }
+    std::vector<std::string> joints() const {
+        std::vector<std::string> out;
+        for (const scene::Joint& joint : scene::recorded_joints(plan_.scene))
+            out.push_back(joint.name);
+        return out;
+    }
+    std::string object() const {
+        const int index = plan_.scene.object_index();
+        return index < 0 ? "" : plan_.scene.bodies[static_cast<size_t>(index)].name;
+    }
+    double duration() const { return own_->duration(); }
+    double tick_length() const { return plan_.settings.tick(); }
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> out;
+        for (const Problem& warning : plan_.warnings) out.push_back(warning.text());
+        return out;
+    }
+
+  private:
+    void tick(const std::function<void()>& call) noexcept {
+        const auto direct = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
+                                servo::Commands& commands) {
+            (*phases_)(last, handles, commands);
+            if (call) {
+                try {
+                    call();
+                } catch (...) {
+                    thrown_ = std::current_exception();
+                }
+            }
+            for (const auto& load : loads_) add(commands.task.loads, load);
+            for (const auto& properties : properties_) add(commands.task.properties, properties);
+            for (const auto& placement : placements_) add(commands.task.placements, placement);
+            placements_.clear();
+        };
+        frame_ = &servo_->tick(now_, direct);
+        now_ += servo_->period();
+    }
+    const servo::Frame& frame() const {
+        if (frame_ != nullptr) return *frame_;
+        throw Error("no tick has been done yet", "Step the world first: World.step().");
+    }
+    std::string why_over() const {
+        const haptics::Fault& fault = servo_->fault();
+        if (!fault) return "the world has stopped";
+        const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
+        return "the world has stopped: " +
+               haptics::describe(fault, fingers()[device], plan_.devices[device].model);
+    }
+    static Quat quaternion(const Eigen::Vector4d& wxyz) {
+        const Quat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+        if (!(std::abs(q.norm() - 1) < 1e-6)) {
+            throw Error({}, "orientation", "is no unit quaternion",
+                        "Give w, x, y, z; (1, 0, 0, 0) turns nothing.");
+        }
+        return q.normalized();
+    }
+    static Error too_many(const char* what) {
+        return Error(fmt::format("there are too many {}", what), "End some of them first.");
+    }
+
+    session::Plan plan_;
+    std::shared_ptr<const hand::Driver> own_;
+    std::shared_ptr<LedHand> hand_;
+    std::unique_ptr<servo::Servo> servo_;
+    std::optional<session::PhaseDirector> phases_;
+    std::vector<servo::LoadFrame> loads_;
+    std::vector<servo::PropertiesFrame> properties_;
+    std::vector<servo::PlacementFrame> placements_;
+    Time now_{0};
+    const servo::Frame* frame_ = nullptr;
+    std::exception_ptr thrown_;  // by the director, in the tick
+};
+
+/// Steps many worlds, on so many processors.
+void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
+    const py::gil_scoped_release others_may_run;
+    std::atomic<size_t> next{0};
+    const auto work = [&] {
+        for (size_t i = next++; i < worlds.size(); i = next++) worlds[i]->run(ticks);
+    };
+    std::vector<std::jthread> threads;
+    for (unsigned i = 1; i < std::min<size_t>(jobs, worlds.size()); ++i) threads.emplace_back(work);
+    work();
+}
+
+}  // namespace
+
+void add_world(py::module_& m) {
+    py::class_<World>(m, "World")
+        .def(py::init<const std::string&, const std::string&, const std::vector<std::string>&,
+                      uint64_t>())
+        .def("begin", &World::begin)
+        .def("step", &World::step)
+        .def("over", &World::over)
+        .def("read", &World::read)
+        .def("rows", &World::rows)
+        .def("lead", &World::lead)
+        .def("let_go", &World::let_go)
+        .def("place", &World::place)
+        .def("push", &World::push)
+        .def("scale", &World::scale)
+        .def("fingers", &World::fingers)
+        .def("bodies", &World::bodies)
+        .def("joints", &World::joints)
+        .def("object", &World::object)
+        .def("duration", &World::duration)
+        .def("tick_length", &World::tick_length)
+        .def("warnings", &World::warnings);
+    m.def("step_all", &step_all);
+}
+
+}  // namespace dihaptic::python

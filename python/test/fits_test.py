@@ -1,0 +1,133 @@
+"""Fits and lifts of the package are those of the program, on arrays of one's own."""
+
+import csv
+import json
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import dihaptic as dh
+from dihaptic.program import program
+
+
+def two_rates(n, retention, learning, perturbation):
+    slow = fast = 0.0
+    out = []
+    for trial in range(n):
+        out.append(slow + fast)
+        error = perturbation[trial] - slow - fast
+        slow = retention[0] * slow + learning[0] * error
+        fast = retention[1] * fast + learning[1] * error
+    return np.array(out)
+
+
+class Fits(unittest.TestCase):
+    def test_two_rate_is_the_command_s(self):
+        draw = np.random.default_rng(5)
+        perturbation = np.where(np.arange(120) < 100, 30.0, -30.0)
+        measured = two_rates(120, (0.99, 0.6), (0.03, 0.2), perturbation) + draw.normal(0, 2, 120)
+        measured[::17] = np.nan
+        fit = dh.fit_two_rate(measured, perturbation)
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "person.csv"
+            with open(table, "w", newline="") as file:
+                rows = csv.writer(file)
+                rows.writerow(["perturbation", "clamp", "compensation"])
+                for p, c in zip(perturbation, measured):
+                    rows.writerow([p, 0, "" if np.isnan(c) else repr(float(c))])
+            said = subprocess.run([program(), "fit", "two_rate", table, "--json"], capture_output=True, text=True, check=True)
+        told = json.loads(said.stdout)
+        for key in ("retention_slow", "learning_slow", "retention_fast", "learning_fast", "sse", "n"):
+            self.assertAlmostEqual(told[key], getattr(fit, key), places=9, msg=key)
+        for key, (low, high) in fit.intervals.items():
+            self.assertTrue(low <= getattr(fit, key) <= high, key)
+        residuals = (measured - fit.predicted)[~np.isnan(measured)]
+        self.assertAlmostEqual(float(residuals @ residuals), fit.sse, places=6)
+
+    def test_a_clamp_teaches_nothing(self):
+        perturbation = np.full(80, 20.0)
+        clamp = np.arange(80) >= 50
+        state, measured = 0.0, []
+        for c in clamp:
+            measured.append(state)
+            state = 0.95 * state + (0 if c else 0.1 * (20 - state))
+        fit = dh.fit_single_rate(measured, perturbation, clamp)
+        self.assertAlmostEqual(fit.retention, 0.95, places=5)
+        self.assertAlmostEqual(fit.learning, 0.1, places=5)
+
+    def test_answers_and_counts_are_fitted_alike(self):
+        draw = np.random.default_rng(2)
+        levels = np.repeat([1.0, 2, 3, 4, 5, 6], 40)
+        answers = draw.random(240) < 1 / (1 + np.exp(-(levels - 3.3) / 0.5))
+        counts = [int(answers[levels == level].sum()) for level in range(1, 7)]
+        one = dh.fit_psychometric(levels, answers, sigmoid="logistic", guess=0)
+        other = dh.fit_psychometric(range(1, 7), yes=counts, trials=[40] * 6, sigmoid="logistic", guess=0)
+        self.assertEqual(one, other)
+        self.assertAlmostEqual(one.threshold, 3.3, delta=0.2)
+        self.assertLess(one.intervals["threshold"][0], 3.3)
+        self.assertGreater(one.intervals["threshold"][1], 3.3)
+        np.testing.assert_allclose(one.probability([-50, 50]), [0, 1 - one.lapse], atol=1e-9)
+
+    def test_bad_input_is_told(self):
+        for what, call in [
+            ("different lengths", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2], [False])),
+            ("not as many measurements as trials", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2])),
+            ("", lambda: dh.fit_two_rate([1, np.nan], [1, 2])),
+            ("", lambda: dh.fit_learning_curve([])),
+            ("sigmoid", lambda: dh.fit_psychometric([1, 2], [True, False], sigmoid="cauchy")),
+            ("guess", lambda: dh.fit_psychometric([1, 2], [True, False], guess=2)),
+            ("guess", lambda: dh.fit_psychometric([1, 2], [True, False], guess="half")),
+            ("max_lapse", lambda: dh.fit_psychometric([1, 2], [True, False], max_lapse=-1)),
+            ("shape", lambda: dh.fit_psychometric([1, 2], [True, False], shape=0)),
+            ("different lengths", lambda: dh.fit_psychometric([1, 2], [True])),
+            ("", lambda: dh.fit_psychometric([1], yes=[3], trials=[2])),
+            ("", lambda: dh.fit_psychometric([1, 2], yes=[3, 9], trials=[2, 3])),
+        ]:
+            with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
+                call()
+
+
+class Lifts(unittest.TestCase):
+    def test_forces_alone_tell_a_session_s_lift(self):
+        """Late or early by what the rules from forces are late or early beside those from contacts."""
+        with tempfile.TemporaryDirectory() as folder:
+            session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
+            contacts = session["contacts"]
+            grip = np.column_stack([session[f"{f}.normal_force"] for f in session.fingers])
+            # what a finger carries presses it down
+            load = np.column_stack([-session[f"{f}.contact_force"][:, 2] for f in session.fingers])
+            found = dh.find_lift(grip, load, session["block.position.z"], session.tick, 0.8)
+            known = session.lifts.iloc[0]
+        self.assertGreater(len(contacts), 0)
+        for column in ("lift_off_s", "touch_s", "replacement_s"):
+            self.assertAlmostEqual(found[column], known[column], delta=0.1, msg=column)
+        for column in ("static_grip_N", "peak_grip_N", "height_mm"):
+            self.assertAlmostEqual(found[column] / known[column], 1, delta=0.01, msg=column)
+        self.assertEqual(found["events_by"], "force")
+
+    def test_nothing_lifted_has_no_figures(self):
+        still = np.zeros((1000, 2))
+        found = dh.find_lift(still, still, np.zeros(1000), 0.001)
+        self.assertEqual(found["lift"], "no touch")
+        self.assertTrue(np.isnan(found["peak_grip_N"]))
+
+    def test_bad_input_is_told(self):
+        two = np.zeros((100, 2))
+        for what, arguments in [
+            ("no columns", (np.zeros(100), two, np.zeros(100), 0.001)),
+            ("do not fit", (two, np.zeros((99, 2)), np.zeros(100), 0.001)),
+            ("do not fit", (two, two, np.zeros(99), 0.001)),
+            ("tick", (two, two, np.zeros(100), 0)),
+            ("tick", (two, two, np.zeros(100), float("nan"))),
+            ("friction", (two, two, np.zeros(100), 0.001, [1.0])),
+            ("sample", (np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), 0.001)),
+        ]:
+            with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
+                dh.find_lift(*arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,70 @@
+"""The package is imported from anywhere, says in a line why it cannot be, and is typed."""
+
+import importlib.util
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PACKAGE = pathlib.Path(os.environ["PYTHONPATH"]).absolute()
+HERE = pathlib.Path(__file__).resolve().parent.parent
+
+
+def python(code, package, folder="/", interpreter=sys.executable):
+    environment = {**os.environ, "PYTHONPATH": str(package)}
+    done = subprocess.run([interpreter, "-c", code], cwd=folder, env=environment, capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+class Imports(unittest.TestCase):
+    def copy(self, folder, *, module=True):
+        copied = pathlib.Path(folder) / "dihaptic"
+        shutil.copytree(PACKAGE / "dihaptic", copied, ignore=None if module else shutil.ignore_patterns("_native*.so"))
+        return copied.parent
+
+    def last_line(self, said):
+        return said.strip().splitlines()[-1]
+
+    def test_from_a_folder_that_is_not_the_checkout(self):
+        code, said = python("import dihaptic; print(dihaptic.__version__, dihaptic.check)", PACKAGE)
+        self.assertEqual(code, 0, said)
+        code, said = python("import dihaptic.program as p; print(p.program())", PACKAGE)
+        self.assertEqual(said.strip(), str((PACKAGE.parent / "dihaptic").resolve()))
+
+    def test_that_was_not_built(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code, said = python("import dihaptic", self.copy(folder, module=False))
+        self.assertEqual(code, 1)
+        self.assertRegex(self.last_line(said), r"^ImportError: dihaptic has not been built here. Run \./dev build")
+
+    def test_by_another_python(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = self.copy(folder, module=False)
+            code, said = python("import sys; sys.version_info = (3, 12, 1); import dihaptic", package)
+        self.assertEqual(code, 1)
+        self.assertIn("is built for Python 3.11, and this is 3.12. Use Debian's", self.last_line(said))
+
+    def test_without_a_library(self):
+        for name in ("numpy", "pandas", "h5py"):
+            with self.subTest(name):
+                code, said = python(f"import sys; sys.modules['{name}'] = None; import dihaptic", PACKAGE)
+                self.assertEqual(code, 1)
+                self.assertEqual(self.last_line(said), f"ImportError: dihaptic needs {name}: sudo apt install python3-{name}.")
+
+    def test_types_are_strict(self):
+        if importlib.util.find_spec("mypy") is None:
+            self.skipTest("mypy is not installed: ./dev build installs it")
+        done = subprocess.run(
+            [sys.executable, "-m", "mypy", "--config-file", HERE / "mypy.ini", "--cache-dir", os.devnull, HERE / "dihaptic"],
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertTrue((PACKAGE / "dihaptic/py.typed").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,169 @@
+"""A session is read as it was recorded: all of session.nwb, by h5py's own reading, and all tables."""
+
+import glob
+import os
+import pathlib
+import tarfile
+import tempfile
+import unittest
+
+import h5py
+import matplotlib
+import numpy as np
+import pandas as pd
+
+matplotlib.use("Agg")
+
+import dihaptic as dh  # noqa: E402
+
+# one of each kind of record: no task, a simulated person's trials, joints, devices that turn, a lattice, sounds
+KINDS = ["lift-block", "first-trials", "swing-rod", "hand-over", "reach-at-tone"]
+if os.environ.get("DIHAPTIC_EVERY_EXPERIMENT"):
+    KINDS = sorted(pathlib.Path(file).stem for file in glob.glob("experiments/*.yaml"))
+RECORDINGS = pathlib.Path("test/recordings")
+
+
+def record(kind, folder, **options):
+    has_trials = "task:" in pathlib.Path(f"experiments/{kind}.yaml").read_text()
+    person = {"simulate": True, "participant": "sim-001"} if has_trials else {}
+    return dh.run(f"experiments/{kind}.yaml", out=folder, progress=False, **person, **options)
+
+
+class Sessions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.lift = record("lift-block", cls.folder.name)
+
+    def assert_is_the_file(self, session):
+        """Each series of the file is what the session gives by one name, and nothing else is there."""
+        found = set()
+        with h5py.File(session.folder / "session.nwb", "r") as nwb:
+            series = nwb["acquisition"]
+            for name in session.keys():
+                group = f"task_{name}" if f"task_{name}" in series else name.replace(".", "_")
+                found.add(group)
+                there = series[group]["data"][...]
+                here = session[name]
+                if isinstance(here, pd.DataFrame):
+                    here = here.drop(columns="time").to_numpy()
+                    there = there.reshape(len(there), -1)
+                np.testing.assert_array_equal(here, there, err_msg=name)
+            self.assertEqual(found, set(series))
+
+    def test_every_series_is_read(self):
+        for kind in KINDS:
+            with self.subTest(kind):
+                self.assert_is_the_file(record(kind, self.folder.name))
+
+    def test_sessions_of_earlier_versions_are_read(self):
+        for archive in sorted(RECORDINGS.glob("*.tar.xz")):
+            with self.subTest(archive.name), tempfile.TemporaryDirectory() as folder:
+                with tarfile.open(archive) as tar:
+                    tar.extractall(folder)
+                session = dh.recover(f"{folder}/session", progress=False)
+                self.assert_is_the_file(session)
+                self.assertGreater(len(session.trials), 0)
+
+    def test_time_goes_by_ticks(self):
+        np.testing.assert_allclose(np.diff(self.lift.t), self.lift.tick, atol=1e-12)
+        self.assertEqual(len(self.lift.t), len(self.lift["grip_force"]))
+
+    def test_a_component_is_a_column(self):
+        np.testing.assert_array_equal(self.lift["block.position.z"], self.lift["block.position"][:, 2])
+        np.testing.assert_array_equal(self.lift["block.orientation.w"], self.lift["block.orientation"][:, 0])
+
+    def test_what_is_not_there_is_told(self):
+        for name in ("grip", "block.positon", "cup.position", "block.position.w", "hinge.angle", ""):
+            with self.subTest(name):
+                self.assertNotIn(name, self.lift)
+                with self.assertRaises(dh.NotThere) as caught:
+                    self.lift[name]
+                self.assertIsInstance(caught.exception, KeyError)
+                self.assertIn("Session.quantities lists them.", str(caught.exception))
+        with self.assertRaisesRegex(dh.NotThere, "Did you mean 'lifts'"):
+            self.lift.table("lift")
+
+    def test_tables_have_units_and_meanings(self):
+        lifts = self.lift.lifts
+        self.assertEqual(lifts.attrs["units"]["peak_grip_rate_N_s"], "N/s")
+        self.assertEqual(lifts.attrs["units"]["height_mm"], "mm")
+        self.assertNotIn("trial_num", lifts.attrs["units"])
+        self.assertEqual(set(lifts.attrs["meanings"]), set(lifts.columns) - {"simulated", "moved_by"})
+        self.assertIs(bool(lifts.simulated.item()), True)
+
+    def test_a_table_of_nonsense_is_refused(self):
+        empty = pathlib.Path(self.folder.name) / "empty.csv"
+        empty.touch()
+        for file in (empty, pathlib.Path("/nowhere.csv"), pathlib.Path("/bin/true")):
+            with self.subTest(file), self.assertRaisesRegex(dh.Error, "cannot be read as a table"):
+                dh.read_table(file)
+
+    def test_a_session_that_has_no_record_says_how_to_get_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(dh.Error, "is no session"):
+                dh.load(folder)
+            (pathlib.Path(folder) / "session.yaml").write_text("state: running\n")
+            with self.assertRaisesRegex(dh.Error, "dihaptic recover"):
+                dh.load(folder)["grip_force"]
+
+    def test_lists_have_named_columns(self):
+        contacts = self.lift["contacts"]
+        self.assertEqual(list(contacts.columns[:4]), ["time", "body_a", "body_b", "points"])
+        self.assertGreater(contacts.normal_force.max(), 0.9)
+        self.assertEqual(len(self.lift["loads"]) if "loads" in self.lift else 0, 0)
+
+    def test_between_cuts_half_open(self):
+        self.assertEqual(self.lift.between(0, 0.01), slice(0, 10))
+        self.assertEqual(self.lift.between(0.0005, 0.0105), slice(0, 10))
+        self.assertEqual(self.lift.between(-1, 1e9), slice(0, len(self.lift.t)))
+
+
+class Plots(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.session = record("grip-and-lift", cls.folder.name)
+
+    def lines(self, axes):
+        return {line.get_label(): line.get_xydata() for line in axes.get_lines() if line.get_label()[0] != "_"}
+
+    def test_a_curve_has_the_record_s_values(self):
+        lines = self.lines(self.session.plot("grip_force"))
+        np.testing.assert_array_equal(lines["grip_force"][:, 1], self.session["grip_force"])
+
+    def test_a_vector_has_a_curve_for_each_component(self):
+        lines = self.lines(self.session.plot("thumb.force_sent"))
+        self.assertEqual(list(lines), ["thumb.force_sent.x", "thumb.force_sent.y", "thumb.force_sent.z"])
+
+    def test_aligned_curves_are_means_over_lifts(self):
+        session = self.session
+        moments = session.lifts.lift_off_s.dropna()
+        lines = self.lines(session.plot("load_force", align="lift_off", before=0.1, after=0.1))
+        ticks = [round(t / session.tick) for t in moments]
+        rows = [session["load_force"][i - 100 : i + 101] for i in ticks]
+        self.assertGreater(len(rows), 3)
+        np.testing.assert_allclose(lines["load_force"][:, 1], np.mean(rows, axis=0, dtype=float), atol=1e-9)
+        self.assertAlmostEqual(lines["load_force"][0, 0], -0.1)
+
+    def test_groups_have_a_mean_each(self):
+        by = self.session.plot("grip_force", align="lift_off", by="condition")
+        lifted = self.session.lifts.dropna(subset="lift_off_s").merge(self.session.trials, on=["trial_num", "attempt"])
+        self.assertEqual(len(self.lines(by)), lifted.condition.nunique())
+
+    def test_what_cannot_be_drawn_is_told(self):
+        for names, options, what in [
+            ((), {}, "no quantity is named"),
+            (("contacts",), {}, "is a list"),
+            (("grip_force",), {"align": "liftoff"}, "Did you mean 'lift_off'"),
+            (("grip_force",), {"align": "condition"}, "is no moment"),
+            (("grip_force",), {"align": "lift_off", "by": "colour"}, "is no column"),
+        ]:
+            with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
+                self.session.plot(*names, **options)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,128 @@
+"""A world that Python steps is the program's own, to the bit."""
+
+import tempfile
+import unittest
+
+import numpy as np
+
+import dihaptic as dh
+
+BLOCK = "scenes/block-on-table.yaml"
+
+
+STATE = ("grip_force", "block.position", "block.orientation", "thumb.force_sent")
+
+
+def states(world):
+    return np.concatenate([np.ravel(world[name]) for name in STATE])
+
+
+class Worlds(unittest.TestCase):
+    def test_its_ticks_are_those_of_a_session(self):
+        """With a director that does nothing, in every other tick."""
+        with tempfile.TemporaryDirectory() as folder:
+            session = dh.run(BLOCK, out=folder, progress=False)
+            world = dh.World(BLOCK)
+            recorded = np.column_stack([session.exact(name) for name in STATE])
+            self.assertEqual(round(world.duration, 9), round(float(session.t[-1]), 9))
+        for i, row in enumerate(recorded):
+            world.step(1, None if i % 2 or i == 0 else lambda w: w.t)
+            np.testing.assert_array_equal(states(world), row, err_msg=f"tick {i}")
+
+    def test_it_begins_anew_as_it_began(self):
+        world = dh.World(BLOCK)
+        world.step(1500)
+        first = states(world)
+        world.fingers[0].lead((0, 0, 0.2))
+        world.bodies["block"].push((1, 0, 0))
+        world.step(50)
+        world.reset()
+        world.step(1500)
+        np.testing.assert_array_equal(states(world), first)
+
+    def test_many_side_by_side_are_as_one_alone(self):
+        worlds = [dh.World(BLOCK, seed=seed) for seed in (1, 1, 2, 3)]
+        dh.step_all(worlds, 1500)
+        alone = dh.World(BLOCK)
+        alone.step(1500)
+        np.testing.assert_array_equal(states(worlds[0]), states(alone))
+        np.testing.assert_array_equal(states(worlds[1]), states(alone))
+
+    def test_a_push_accelerates_by_newton_s_law(self):
+        world = dh.World(BLOCK)
+        block = world.bodies["block"]
+        world.step()
+        block.place((0, 0, 0.5))
+        block.push((0.1, 0, 0.981))  # the block weighs 100 g
+        world.step(200)
+        np.testing.assert_allclose(block.velocity, (0.2, 0, 0), atol=2e-3)
+        block.scale(mass=2)
+        block.push((0.2, 0, 0.981))
+        before = block.velocity
+        world.step(100)
+        np.testing.assert_allclose(block.velocity - before, (0.1, 0, 0), atol=2e-3)
+        block.push()
+        block.scale()
+        before = block.velocity
+        world.step(100)
+        np.testing.assert_allclose(block.velocity - before, (0, 0, -0.981), atol=2e-3)
+
+    def test_led_fingers_lift_the_block(self):
+        world = dh.World(BLOCK)
+        thumb, index = world.fingers
+        block = world.bodies["block"]
+        world.step()
+        for x, z in [(0.018, 0.02)] * 40 + [(0.018, z) for z in np.linspace(0.02, 0.07, 60)] + [(0.018, 0.07)] * 40:
+            thumb.lead((-x, 0, z))
+            index.lead((x, 0, z))
+            world.step(25)
+        np.testing.assert_allclose(block.position, (0, 0, 0.068), atol=2e-3)
+        self.assertGreater(world["grip_force"], 0.3)
+        self.assertEqual({int(b) for b in world["contacts"].body_b} - {0, 1}, {2, 3})
+
+    def test_what_a_director_raises_ends_the_step(self):
+        world = dh.World(BLOCK)
+        world.step()
+
+        def fail(w):
+            if w.t > 0.0045:
+                raise RuntimeError("enough")
+
+        with self.assertRaisesRegex(RuntimeError, "enough"):
+            world.step(100, fail)
+        self.assertAlmostEqual(world.t, 0.006)
+        world.step(3)  # it goes on
+        self.assertAlmostEqual(world.t, 0.009)
+
+    def test_bad_input_is_told(self):
+        with self.assertRaisesRegex(dh.Error, "nothing.yaml: error: cannot be read"):
+            dh.World("nothing.yaml")
+        with self.assertRaisesRegex(dh.Error, "has trials"):
+            dh.World("experiments/first-trials.yaml")
+        with self.assertRaisesRegex(dh.Error, "are real"):
+            dh.World(BLOCK, "rigs/omega-pair.yaml")
+        with self.assertRaisesRegex(dh.Error, "stifness"):
+            dh.World(BLOCK, settings={"coupling.stifness_N_m": 600})
+        world = dh.World(BLOCK)
+        with self.assertRaisesRegex(dh.Error, "Step the world first"):
+            world.bodies["block"].position
+        with self.assertRaisesRegex(dh.Error, "no unit quaternion"):
+            world.bodies["block"].place((0, 0, 1), (0, 0, 0, 0))
+        world.step()
+        with self.assertRaisesRegex(dh.NotThere, "cup.position"):
+            world["cup.position"]
+        for call in (world.fingers[0].lead, world.bodies["block"].place, world.bodies["block"].push):
+            for wrong in (("a", "b", "c"), (1, 2), (np.nan, 0, 0), (np.inf, 0, 0)):
+                with self.subTest(f"{call}{wrong}"), self.assertRaises((TypeError, dh.Error)):
+                    call(wrong)
+        with self.assertRaisesRegex(dh.Error, "mass"):
+            world.bodies["block"].scale(mass=-1)
+
+    def test_settings_are_those_of_the_program(self):
+        world = dh.World(BLOCK, settings={"coupling.stiffness_N_m": 600})
+        world.step()
+        self.assertEqual(world["stiffness"], 600)
+
+
+if __name__ == "__main__":
+    unittest.main()
