@@ -14,6 +14,7 @@ try:
     from . import _native
     from .charts import plot
     from .errors import Error, NotThere, Problem
+    from .files import Experiment, Part, Rig, Scene
     from .fits import (
         LearningCurveFit,
         PsychometricFit,
@@ -38,8 +39,8 @@ except ImportError as _why:
 __version__: str = _native.version.split()[-1]
 
 __all__ = [
-    "Body", "Error", "Finger", "LearningCurveFit", "NotThere", "Problem", "PsychometricFit", "Quantity", "Rehearsal",
-    "Session",    "SingleRateFit", "TwoRateFit", "World", "check", "find_lift", "fit_learning_curve", "fit_psychometric",
-    "fit_single_rate", "fit_two_rate", "load", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
-    "replay", "report", "resume", "run", "step_all",
+    "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "NotThere", "Part", "Problem", "PsychometricFit",
+    "Quantity", "Rehearsal", "Rig", "Scene", "Session", "SingleRateFit", "TwoRateFit", "World", "check", "find_lift",
+    "fit_learning_curve", "fit_psychometric", "fit_single_rate", "fit_two_rate", "load", "plot", "quantities",
+    "quantity", "read_table", "recover", "rehearse", "replay", "report", "resume", "run", "step_all",
 ]  # fmt: skip

@@ -17,7 +17,9 @@ from typing import IO, Any
 
 import pandas as pd
 
+from . import _native
 from .errors import Error, Problem, error
+from .files import File, Input, on_disk
 from .session import Session
 from .tables import read_table
 
@@ -43,9 +45,9 @@ def program() -> str:
 
 
 def run(
-    file: str | Path,
+    file: Input,
     *,
-    rig: str | Path = "",
+    rig: Input = "",
     movement: str | Path = "",
     participant: str = "",
     simulate: bool = False,
@@ -54,7 +56,7 @@ def run(
     out: str | Path = "sessions",
     progress: bool = True,
 ) -> Session:
-    """Runs a scene or an experiment, as `dihaptic run` does, and opens its session.
+    """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
     `simulate`: a simulated person on simulated devices does the trials. A session that was
     interrupted, or whose force went off, is returned too, with a warning that says why. Raises Error
@@ -65,13 +67,14 @@ def run(
     >>> session.lifts.lift.item()
     'complete'
     """
-    command = ["run", str(file), "--seed", str(seed), "--out", str(out)]
-    for option, value in {"--rig": rig, "--movement": movement, "--participant": participant}.items():
+    command = ["--seed", str(seed), "--out", str(out)] + ["--simulate"] * simulate
+    for option, value in {"--movement": movement, "--participant": participant}.items():
         if value:
             command += [option, str(value)]
     for key, value in (settings or {}).items():
         command += ["--set", f"{key}={value}"]
-    return _session_of(_call(command + ["--simulate"] * simulate, progress))
+    with on_disk(file) as path, on_disk(rig) as rig_path:
+        return _session_of(_call(["run", str(path), *command] + (["--rig", str(rig_path)] if rig else []), progress))
 
 
 def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
@@ -120,23 +123,25 @@ def report(session: Session | str | Path, *, progress: bool = True) -> Path:
     return Path(folder) / "report.html"
 
 
-def check(*files: str | Path, rig: str | Path = "") -> list[Problem]:
-    """What `dihaptic check` finds in files: its errors and warnings; none: they are in order.
+def check(*files: Input, rig: str | Path = "") -> list[Problem]:
+    """What `dihaptic check` finds in files or objects: errors and warnings; none: all is in order.
 
     >>> import dihaptic as dh
-    >>> dh.check("scenes/block-on-table.yaml")
+    >>> dh.check("scenes/block-on-table.yaml", "experiments/first-trials.yaml")
     []
     """
-    command = ["check", *(str(file) for file in files)] + (["--rig", str(rig)] if rig else [])
-    try:
-        answer = _call(command, progress=False)
-    except Error as found:
-        return found.problems
-    return _problems(answer.said + answer.output)
+    found = []
+    for given in files:
+        if isinstance(given, File) and not rig:
+            found += given.check()
+            continue
+        with on_disk(given) as file:
+            found += [Problem(*row[:6]) for row in _native.check_file(str(file), str(rig))]
+    return found
 
 
 def rehearse(
-    experiment: str | Path,
+    experiment: Input,
     people: int = 1,
     *,
     jobs: int = 1,
@@ -155,9 +160,11 @@ def rehearse(
     >>> sorted(study.trials.ppid.unique())
     ['sim-001', 'sim-002']
     """
-    folder = Path(out or f"rehearsals/{Path(experiment).stem}_{seed}")
-    command = ["rehearse", str(experiment), "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
-    _call([*command, "--out", str(folder)] + (["--population", str(population)] if population else []), progress)
+    with on_disk(experiment) as file:
+        folder = Path(out or f"rehearsals/{file.stem}_{seed}")
+        command = ["rehearse", str(file), "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
+        command += ["--out", str(folder)] + (["--population", str(population)] if population else [])
+        _call(command, progress)
     _call(["collect", str(folder), "--out", str(folder)], progress=False)
     return Rehearsal(folder)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import pandas as pd
 
 from . import _native, vocabulary
 from .errors import NotThere
+from .files import Input, on_disk
 
 Array = npt.NDArray[np.float64]
 _STILL = (0.0, 0.0, 0.0)
@@ -22,7 +22,7 @@ _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 class World:
     """A scene with simulated devices, held by a simulated hand.
 
-    `file` is a scene, or an experiment without trials; `rig` one of simulated devices, ideal ones if
+    `file` is a scene, or an experiment without trials, as a file or an object; `rig` one of simulated devices, ideal ones if
     left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it goes where
     the scene's own hand goes, and each tick is the one that `dihaptic run` would do, to the bit.
 
@@ -37,14 +37,15 @@ class World:
 
     def __init__(
         self,
-        file: str | Path,
-        rig: str | Path = "",
+        file: Input,
+        rig: Input = "",
         *,
         settings: dict[str, Any] | None = None,
         seed: int = 1,
     ) -> None:
         given = [f"{key}={value}" for key, value in (settings or {}).items()]
-        self._world = _native.World(str(file), str(rig), given, seed)
+        with on_disk(file) as path, on_disk(rig) as rig_path:
+            self._world = _native.World(str(path), str(rig_path) if rig else "", given, seed)
         names = self._world.fingers()
         self.bodies = {name: Body(self, i, name) for i, name in enumerate(self._world.bodies())}
         self.joints: list[str] = self._world.joints()

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "recording/raw_log.h"
 #include "recording/schema.h"
 #include "servo/frame.h"
+#include "session/check.h"
 
 namespace py = pybind11;
 
@@ -131,6 +133,45 @@ py::dict log_head(const std::string& file) {
     return out;
 }
 
+using ProblemRow = std::tuple<std::string, std::string, int, std::string, std::string, std::string,
+                              std::vector<std::pair<std::string, std::string>>>;
+
+/// What `dihaptic check` finds in a file, with the words that may stand there.
+std::vector<ProblemRow> check_file(const std::string& file, const std::string& rig) {
+    Diagnostics diagnostics;
+    try {
+        session::check_file(file, diagnostics, rig);
+    } catch (const Error& error) {
+        diagnostics.add(error.problems());
+    }
+    std::vector<ProblemRow> out;
+    for (const Problem& p : diagnostics.problems()) {
+        out.emplace_back(p.severity == Severity::error ? "error" : "warning", p.place.file,
+                         p.place.line, p.key, p.what, p.remedy,
+                         std::vector<std::pair<std::string, std::string>>{});
+        for (const Choice& choice : p.choices)
+            std::get<6>(out.back()).emplace_back(choice.word, choice.what);
+    }
+    return out;
+}
+
+using Lines = std::vector<std::pair<std::string, int>>;
+
+void add_lines(const Node& node, const std::string& path, Lines& out) {
+    if (!path.empty()) out.emplace_back(path, node.place.line);
+    for (size_t i = 0; i < node.items.size(); ++i)
+        add_lines(node.items[i], fmt::format("{}[{}]", path, i), out);
+    for (const Node::Entry& entry : node.entries)
+        add_lines(entry.value, path.empty() ? entry.key : path + "." + entry.key, out);
+}
+
+/// Each value of a file, by its path, such as bodies[1].mass_g, and its line.
+Lines lines_of(const std::string& file) {
+    Lines out;
+    add_lines(read_yaml(file), "", out);
+    return out;
+}
+
 /// What a log has of a quantity, tick by tick, with all its bits.
 py::list log_values(const std::string& file, const std::string& list, size_t item,
                     const std::string& name) {
@@ -156,6 +197,8 @@ void add_vocabulary(py::module_& m) {
     m.def("unit_of", &unit_of);
     m.def("read_yaml", [](const std::string& file) { return to_python(read_yaml(file)); });
     m.def("write_yaml", [](const py::handle& value) { return to_yaml(to_node(value)); });
+    m.def("check_file", &check_file);
+    m.def("lines_of", &lines_of);
     m.def("log_head", &log_head);
     m.def("log_values", &log_values);
     m.def("colours", &colours);

@@ -1,5 +1,6 @@
 #include "base/companion.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -21,7 +22,27 @@
 namespace dihaptic {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kOutOfMemory = 3;  // exit status
+
+std::string in_or_above(fs::path folder, const std::string& name) {
+    std::error_code ignored;
+    for (; !folder.empty(); folder = folder.parent_path()) {
+        if (fs::is_regular_file(folder / name, ignored)) return (folder / name).string();
+        if (folder == folder.root_path()) break;
+    }
+    return "";
+}
+
+/// The shared library that this function is in, if it is in one: the running program is then
+/// somebody else's, such as Python.
+fs::path library_of_this() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&library_of_this), &info) == 0) return {};
+    std::error_code ignored;
+    return fs::canonical(info.dli_fname, ignored);
+}
 
 /// A file in memory, which needs neither a name nor a folder.
 class MemoryFile {
@@ -169,14 +190,10 @@ std::string failure(const CompanionTask& task, const Ended& ended) {
 }  // namespace
 
 std::string companion(const std::string& name) {
-    namespace fs = std::filesystem;
     std::error_code ignored;
-    fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (; !folder.empty(); folder = folder.parent_path()) {
-        if (fs::is_regular_file(folder / name, ignored)) return (folder / name).string();
-        if (folder == folder.root_path()) break;
-    }
-    return "";
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    const std::string beside = in_or_above(program.parent_path(), name);
+    return beside.empty() ? in_or_above(library_of_this().parent_path(), name) : beside;
 }
 
 std::optional<std::string> run_companion(const CompanionTask& task, const std::string& input) {

@@ -13,7 +13,8 @@
 namespace dihaptic {
 
 /// Path of the companion `name`. It lies in the folder of the running program or, for tests, which
-/// run from folders below, in a folder above. Returns "" if there is none.
+/// run from folders below, in a folder above; or there of the shared library that this code is in,
+/// such as a module of Python's. Returns "" if there is none.
 std::string companion(const std::string& name);
 
 /// What a companion may use before it is killed.

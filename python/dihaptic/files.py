@@ -1,0 +1,354 @@
+"""Scenes, rigs and experiments as objects: what one writes is the file that one would have written."""
+
+from __future__ import annotations
+
+import contextlib
+import keyword
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeVar, Union
+
+from . import _native
+from .errors import Error, NotThere, Problem, error
+
+_YES_OR_NO = {"yes": True, "true": True, "no": False, "false": False}
+_NUMBER = re.compile(r"[-+]?(?!0\d)(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+#: Stands where a key is looked for; no file has it.
+_NO_KEY = "__no_key__"
+
+
+class Part:
+    """A part of a file: its attributes are the keys of docs/reference.md, with their units.
+
+    A key that is no word of Python's is reached by `part["from"]`. `part.known()` lists the keys that
+    are known there, if the part is in a Scene, Rig or Experiment, and so does completion.
+
+    >>> import dihaptic as dh
+    >>> block = dh.Part(name="block", shape="box", size_mm=[40, 40, 40], mass_g=100)
+    >>> block.mass_g *= 2
+    >>> block
+    Part(name='block', shape='box', size_mm=[40, 40, 40], mass_g=200)
+    """
+
+    _keys: dict[str, Any]
+    _raw: dict[str, Any]
+    _owner: tuple[Part, str] | None
+
+    def __init__(self, **keys: Any) -> None:
+        object.__setattr__(self, "_keys", {})
+        object.__setattr__(self, "_raw", {})
+        object.__setattr__(self, "_owner", None)
+        for key, value in keys.items():
+            self[key] = value
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._keys:
+            raise NotThere(key, "is not given", list(self._keys), "known() lists what may be.")
+        value = self._keys[key]
+        for i, item in enumerate(value if isinstance(value, list) else [value]):
+            if isinstance(item, Part):
+                at = f"{key}[{i}]" if isinstance(value, list) else key
+                object.__setattr__(item, "_owner", (self, at))
+        return value
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        self._keys[key] = _plain(value)
+
+    def __delitem__(self, key: str) -> None:
+        self._keys.pop(key, None)
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("_"):
+            raise AttributeError(key)
+        try:
+            return self[key]
+        except NotThere as why:
+            raise AttributeError(str(why)) from None
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        self[key] = value
+
+    def __delattr__(self, key: str) -> None:
+        del self[key]
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._keys
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._keys)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Part) and type(self) is type(other) and self._keys == other._keys
+
+    def __dir__(self) -> list[str]:
+        return [*object.__dir__(self), *self._keys, *self.known()]
+
+    def __repr__(self) -> str:
+        names = {key: key.isidentifier() and not keyword.iskeyword(key) for key in self._keys}
+        items = [f"{key}={self._keys[key]!r}" for key, is_name in names.items() if is_name]
+        others = {key: self._keys[key] for key, is_name in names.items() if not is_name}
+        return f"{type(self).__name__}({', '.join(items + [f'**{others!r}'] * bool(others))})"
+
+    def known(self) -> dict[str, str]:
+        """The keys that may be added here, with what they mean; empty for a part of no file.
+
+        >>> import dihaptic as dh
+        >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
+        >>> scene.bodies[1].known()["torsion_radius_mm"]
+        'Radius of its soft contact points: each carries a moment up to friction x radius x normal force.'
+        """
+        root, _ = self._root_and_path()
+        if not isinstance(root, File):
+            return {}
+        self._keys[_NO_KEY] = 0
+        try:
+            problems = root._read_anew()
+        finally:
+            del self._keys[_NO_KEY]
+        return next((dict(choices) for *_, key, _, _, choices in problems if key == _NO_KEY), {})
+
+    def _root_and_path(self) -> tuple[Part, str]:
+        if self._owner is None:
+            return self, ""
+        root, path = self._owner[0]._root_and_path()
+        return root, f"{path}.{self._owner[1]}".lstrip(".")
+
+    @classmethod
+    def _of(cls: type[P], raw: dict[str, Any]) -> P:
+        part = cls()
+        object.__setattr__(part, "_raw", raw)
+        for key, value in raw.items():
+            part._keys[key] = _value(value)
+        return part
+
+    def _to_raw(self) -> dict[str, Any]:
+        """What is unchanged is as it was written, to the letter."""
+        return {
+            key: self._raw[key] if key in self._raw and _value(self._raw[key]) == value else _to_raw(value)
+            for key, value in self._keys.items()
+        }
+
+
+P = TypeVar("P", bound=Part)
+
+
+class File(Part):
+    """What a scene, a rig and an experiment have in common: they are files."""
+
+    _folder: Path
+    _name: str
+
+    def __init__(self, **keys: Any) -> None:
+        super().__init__(**keys)
+        object.__setattr__(self, "_folder", Path.cwd())
+        object.__setattr__(self, "_name", "")
+
+    @classmethod
+    def load(cls: type[F], file: str | Path) -> F:
+        """Reads a file. Raises Error when it is not YAML; check() says what else is wrong with it.
+
+        >>> import dihaptic as dh
+        >>> dh.Scene.load("scenes/block-on-table.yaml").bodies[1].mass_g
+        100
+        """
+        raw = _native.read_yaml(str(file))
+        if not isinstance(raw, dict):
+            raise error("has no keys", "Name a scene, a rig or an experiment.", file=str(file))
+        out = cls._of(raw)
+        object.__setattr__(out, "_folder", Path(file).resolve().parent)
+        object.__setattr__(out, "_name", Path(file).name)
+        return out
+
+    def save(self, file: str | Path) -> Path:
+        """Writes the file, and beside it the scene and the rig that it has as objects.
+
+        Nothing but comments is lost. The paths of other files that it names are kept true if it goes
+        to another folder. Raises OSError when it cannot be written.
+
+        >>> import dihaptic as dh
+        >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
+        >>> scene.bodies[1].mass_g = 150
+        >>> dh.check(scene.save(f"{folder}/heavier.yaml"))
+        []
+        """
+        path = Path(file)
+        names = {key: f"{path.stem}.{key}.yaml" for key in self._parts()}
+        for key, part in self._parts().items():
+            part.save(path.with_name(names[key]))
+        raw = _moved(self._to_raw(), self._folder, path.resolve().parent)
+        path.write_text(_native.write_yaml({**raw, **names}), encoding="utf-8")
+        return path
+
+    def check(self) -> list[Problem]:
+        """What is wrong with it, as `dihaptic check` says it; instead of a line, the object's path.
+
+        >>> import dihaptic as dh
+        >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
+        >>> scene.bodies[1].mass_g = -1
+        >>> print(scene.check()[0].text())
+        Scene.bodies[1]: error: mass_g: must be positive, is -1. Correct the value, or its unit.
+        """
+        with self._on_disk() as file:
+            return [self._at_object(file, Problem(*found[:6])) for found in _native.check_file(str(file), "")]
+
+    def __str__(self) -> str:
+        return _native.write_yaml(self._to_raw())
+
+    # How it gets to the disk
+
+    def _parts(self) -> dict[str, File]:
+        return {key: value for key, value in self._keys.items() if isinstance(value, File)}
+
+    def _is_on_disk(self) -> bool:
+        file = self._folder / self._name
+        return bool(self._name) and file.is_file() and not self._parts() and type(self).load(file) == self
+
+    @contextlib.contextmanager
+    def _on_disk(self) -> Iterator[Path]:
+        """The file that it was read from, if it is as there; else one that is there for a while."""
+        if self._is_on_disk():
+            yield self._folder / self._name
+            return
+        title = re.sub(r"[^a-z0-9]+", "-", str(self._keys.get("title", "")).lower()).strip("-")[:40]
+        with tempfile.TemporaryDirectory(prefix="dihaptic-") as folder:
+            file = Path(folder).resolve() / (self._name or f"{title or type(self).__name__.lower()}.yaml")
+            self.save(file)
+            try:
+                yield file
+            except Error as why:
+                raise Error([self._at_object(file, problem) for problem in why.problems]) from None
+
+    def _read_anew(self) -> list[Any]:
+        with tempfile.TemporaryDirectory(prefix="dihaptic-") as folder:
+            return _native.check_file(str(self.save(Path(folder).resolve() / "asked.yaml")), "")
+
+    def _at_object(self, file: Path, problem: Problem) -> Problem:
+        """The problem, with the path of the object in place of a line of the file."""
+        for key, part in self._parts().items():
+            if Path(problem.file).name == f"{file.stem}.{key}.yaml":
+                inner = part._at_object(Path(problem.file), problem)
+                return Problem(inner.severity, f"{type(self).__name__}.{inner.file}", 0, *_rest(inner))
+        if Path(problem.file).name != file.name:
+            return problem
+        here = [path for path, line in _native.lines_of(str(file)) if line == problem.line]
+        own = [path.removesuffix(f".{problem.key}") for path in here if path.endswith(f".{problem.key}")]
+        path = (own or here or [""])[0]
+        name = f"{type(self).__name__}.{path}" if path else type(self).__name__
+        return Problem(problem.severity, name.rstrip("."), 0, *_rest(problem))
+
+
+F = TypeVar("F", bound=File)
+
+
+class Scene(File):
+    """A scene: bodies, joints, fingers (docs/files.md).
+
+    >>> import dihaptic as dh
+    >>> scene = dh.Scene(
+    ...     title="A cube on a table",
+    ...     bodies=[
+    ...         dh.Part(name="table", shape="box", size_mm=[400, 300, 50], position_mm=[0, 0, -25], fixed=True),
+    ...         dh.Part(name="cube", shape="box", size_mm=[30, 30, 30], mass_g=50, position_mm=[0, 0, 15]),
+    ...     ],
+    ... )
+    >>> scene.check()
+    []
+    >>> world = dh.World(scene)
+    """
+
+
+class Rig(File):
+    """A rig: its devices, where they stand, its display (docs/files.md).
+
+    >>> import dihaptic as dh
+    >>> dh.Rig.load("rigs/ideal-pair.yaml").check()
+    []
+    """
+
+
+class Experiment(File):
+    """An experiment: a scene, a rig, and trials (docs/files.md).
+
+    `scene` and `rig` are paths, from the experiment's own folder, or a Scene and a Rig.
+
+    >>> import dihaptic as dh
+    >>> lift = dh.Experiment.load("experiments/first-trials.yaml")
+    >>> lift.scene = dh.Scene.load("scenes/block-on-table.yaml")
+    >>> lift.scene.bodies[1].colour = "#aa3300"
+    >>> session = dh.run(lift, out=folder, simulate=True, participant="sim-001", progress=False)
+    >>> len(session.trials)
+    5
+    """
+
+
+Input = Union[str, Path, File]
+
+
+@contextlib.contextmanager
+def on_disk(given: Input) -> Iterator[Path]:
+    """A file as it is, or an object as a file for a while."""
+    if isinstance(given, File):
+        with given._on_disk() as file:
+            yield file
+    else:
+        yield Path(given)
+
+
+def _rest(problem: Problem) -> tuple[str, str, str]:
+    return problem.key, problem.what, problem.remedy
+
+
+def _value(raw: Any) -> Any:
+    """What a text of a file stands for."""
+    if isinstance(raw, dict):
+        return Part._of(raw)
+    if isinstance(raw, list):
+        return [_value(item) for item in raw]
+    if raw in _YES_OR_NO:
+        return _YES_OR_NO[raw]
+    if isinstance(raw, str) and _NUMBER.fullmatch(raw):
+        return int(raw) if raw.lstrip("+-").isdigit() else float(raw)
+    return raw
+
+
+def _plain(value: Any) -> Any:
+    """Numpy's numbers and arrays as Python's."""
+    if isinstance(value, Part) or value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    if isinstance(value, dict):
+        return Part(**value)
+    if hasattr(value, "tolist"):
+        return _plain(value.tolist())
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    raise error(f"{value!r} cannot stand in a file", "Give a number, a text, a list, a Part or a dict.")
+
+
+def _to_raw(value: Any) -> Any:
+    if isinstance(value, File):
+        return ""  # its file's name, once that is known
+    if isinstance(value, Part):
+        return value._to_raw()
+    if isinstance(value, list):
+        return [_to_raw(item) for item in value]
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def _moved(raw: Any, old: Path, new: Path) -> Any:
+    """With the paths of files that it names as they are from another folder."""
+    if old == new:
+        return raw
+    if isinstance(raw, dict):
+        return {key: _moved(value, old, new) for key, value in raw.items()}
+    if isinstance(raw, list):
+        return [_moved(value, old, new) for value in raw]
+    if isinstance(raw, str) and "." in raw and len(raw) < 256 and "\n" not in raw and (old / raw).is_file():
+        return os.path.relpath(old / raw, new)
+    return raw
