@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "analysis/fits/psychometric_fit.h"
 #include "analysis/fits/two_rate_fit.h"
 #include "base/table.h"
 #include "command.h"
@@ -11,11 +14,36 @@
 namespace dihaptic::cli {
 namespace {
 
-/// The trials of a table, with what was measured in each.
-struct Trials {
-    std::vector<double> measured;
-    std::vector<model::AdaptationTrial> trials;
-    int count = 0;  ///< number of trials in which something was measured
+/// A parameter of a fit, with its 95 % interval.
+struct Parameter {
+    const char* key;
+    double value;
+    analysis::Interval interval;
+};
+
+/// What a fit found, for people and for programs.
+struct Fitted {
+    std::vector<Parameter> parameters;
+    /// Further figures, for programs and for people.
+    std::vector<std::pair<const char*, double>> others;
+    std::string note;
+
+    std::string json() const {
+        nlohmann::ordered_json out;
+        for (const Parameter& p : parameters) out[p.key] = p.value;
+        for (const auto& [key, value] : others) out[key] = value;
+        return out.dump(2) + "\n";
+    }
+    std::string text() const {
+        std::string out;
+        for (const Parameter& p : parameters) {
+            std::string name = p.key;
+            std::replace(name.begin(), name.end(), '_', ' ');
+            out += fmt::format("{:16} {:8.5f}   95 %: {:.5f} to {:.5f}\n", name, p.value,
+                               p.interval.low, p.interval.high);
+        }
+        return out + note + "\n";
+    }
 };
 
 double number(const CsvFile& table, const std::string& file, size_t row, const char* column,
@@ -26,15 +54,39 @@ double number(const CsvFile& table, const std::string& file, size_t row, const c
                 fmt::format("is '{}', which is no number", table.text(row, column)), remedy);
 }
 
-Trials read_trials(const std::string& file) {
-    const CsvFile table(file);
-    for (const char* column : {"perturbation", "clamp", "compensation"}) {
-        if (!table.has(column)) {
-            throw Error({file, 1}, column, "is not there",
-                        "Give the columns perturbation, clamp and compensation, a row a trial.");
-        }
+void require(const CsvFile& table, const std::string& file,
+             std::initializer_list<const char*> columns, const char* remedy) {
+    for (const char* column : columns) {
+        if (!table.has(column)) throw Error({file, 1}, column, "is not there", remedy);
     }
-    Trials out;
+}
+
+/// What was measured in each trial; NaN where the cell is empty.
+struct Measured {
+    std::vector<double> values;
+    int count = 0;  ///< number of trials in which something was measured
+};
+
+/// Throws Error when fewer trials than `least` were measured.
+Measured read_measured(const CsvFile& table, const std::string& file, int least,
+                       const char* parameters) {
+    Measured out;
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const bool unmeasured = table.text(i, "compensation").empty();
+        out.values.push_back(unmeasured ? NAN
+                                        : number(table, file, i, "compensation",
+                                                 "Leave it empty where nothing was measured."));
+        out.count += unmeasured ? 0 : 1;
+    }
+    if (out.count < least) {
+        throw Error({file, 0}, "compensation", fmt::format("is measured in {} trials", out.count),
+                    fmt::format("{} take {} at least.", parameters, least));
+    }
+    return out;
+}
+
+std::vector<model::AdaptationTrial> read_trials(const CsvFile& table, const std::string& file) {
+    std::vector<model::AdaptationTrial> out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const std::string clamp = table.text(i, "clamp");
         if (clamp != "0" && clamp != "1") {
@@ -48,36 +100,134 @@ Trials read_trials(const std::string& file) {
                          : number(table, file, i, "perturbation",
                                   "Write what the trial showed, 0 for none, in one unit and with "
                                   "the sign of what compensates for it.");
-        out.trials.push_back({perturbation, clamp == "1"});
-        const bool unmeasured = table.text(i, "compensation").empty();
-        out.measured.push_back(unmeasured ? NAN
-                                          : number(table, file, i, "compensation",
-                                                   "Leave it empty where nothing was measured."));
-        out.count += unmeasured ? 0 : 1;
+        out.push_back({perturbation, clamp == "1"});
     }
     return out;
 }
 
-std::string to_json(const analysis::TwoRateFit& fit, int n) {
-    const nlohmann::ordered_json json = {{"retention_slow", fit.rates.slow.retention},
-                                         {"learning_slow", fit.rates.slow.learning},
-                                         {"retention_fast", fit.rates.fast.retention},
-                                         {"learning_fast", fit.rates.fast.learning},
-                                         {"sse", fit.mean_square * n},
-                                         {"n", n}};
-    return json.dump(2) + "\n";
+/// Completes what was found by what every fit of a curve has.
+Fitted curve(std::vector<Parameter> parameters, const analysis::CurveFit& fit, int n) {
+    return {std::move(parameters),
+            {{"sse", fit.mean_square * n}, {"n", n}},
+            fmt::format("{} trials; sum of squared residuals {:.6g}, their SD {:.4g}", n,
+                        fit.mean_square * n, fit.residual_sd)};
 }
 
-std::string to_text(const analysis::TwoRateFit& fit, int n) {
-    const auto line = [](const char* name, double value, const analysis::Interval& i) {
-        return fmt::format("{:16} {:8.5f}   95 %: {:.5f} to {:.5f}\n", name, value, i.low, i.high);
-    };
-    return line("slow retention", fit.rates.slow.retention, fit.retention_slow) +
-           line("slow learning", fit.rates.slow.learning, fit.learning_slow) +
-           line("fast retention", fit.rates.fast.retention, fit.retention_fast) +
-           line("fast learning", fit.rates.fast.learning, fit.learning_fast) +
-           fmt::format("{} trials; sum of squared residuals {:.6g}, their SD {:.4g}\n", n,
-                       fit.mean_square * n, fit.residual_sd);
+constexpr const char* kTrialColumns =
+    "Give the columns perturbation, clamp and compensation, a row a trial.";
+
+Fitted fit_two_rate(const std::string& file) {
+    const CsvFile table(file);
+    require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const auto trials = read_trials(table, file);
+    const Measured measured = read_measured(table, file, 5, "Four parameters");
+    const analysis::TwoRateFit fit = analysis::fit_two_rate(measured.values, trials);
+    return curve({{"retention_slow", fit.rates.slow.retention, fit.retention_slow},
+                  {"learning_slow", fit.rates.slow.learning, fit.learning_slow},
+                  {"retention_fast", fit.rates.fast.retention, fit.retention_fast},
+                  {"learning_fast", fit.rates.fast.learning, fit.learning_fast}},
+                 fit, measured.count);
+}
+
+Fitted fit_single_rate(const std::string& file) {
+    const CsvFile table(file);
+    require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const auto trials = read_trials(table, file);
+    const Measured measured = read_measured(table, file, 3, "Two parameters");
+    const analysis::SingleRateFit fit = analysis::fit_single_rate(measured.values, trials);
+    return curve({{"retention", fit.rate.retention, fit.retention},
+                  {"learning", fit.rate.learning, fit.learning}},
+                 fit, measured.count);
+}
+
+Fitted fit_learning_curve(const std::string& file) {
+    const CsvFile table(file);
+    require(table, file, {"compensation"}, "Give the column compensation, a row a trial.");
+    const Measured measured = read_measured(table, file, 4, "Three parameters");
+    const analysis::LearningCurveFit fit = analysis::fit_learning_curve(measured.values);
+    return curve({{"start", fit.curve.start, fit.start},
+                  {"asymptote", fit.curve.asymptote, fit.asymptote},
+                  {"time_constant", fit.curve.time_constant, fit.time_constant}},
+                 fit, measured.count);
+}
+
+struct PsychometricOptions {
+    std::string file;
+    analysis::PsychometricFitSettings settings;
+};
+
+/// The answers of a table: yes is 1 or yes, and 0 or no.
+std::vector<analysis::Answer> read_answers(const std::string& file) {
+    const CsvFile table(file);
+    require(table, file, {"level", "yes"},
+            "Give the columns level and yes (1 or 0), a row an answer.");
+    std::vector<analysis::Answer> out;
+    for (size_t i = 0; i < table.rows(); ++i) {
+        const std::string yes = table.text(i, "yes");
+        const bool is_yes = yes == "1" || yes == "yes";
+        if (!is_yes && yes != "0" && yes != "no") {
+            throw Error({file, static_cast<int>(i) + 2}, "yes", fmt::format("is '{}'", yes),
+                        "Write 1 for yes, or a right answer, and 0 for the other.");
+        }
+        out.push_back({number(table, file, i, "level", "Write what was shown."), is_yes});
+    }
+    return out;
+}
+
+Fitted fit_psychometric(const PsychometricOptions& options) {
+    const auto counts = analysis::count(read_answers(options.file));
+    const analysis::PsychometricFit fit = analysis::fit_psychometric(counts, options.settings);
+    const auto ends = analysis::profile_intervals(counts, fit, options.settings);
+    int n = 0;
+    for (const analysis::LevelCount& level : counts) n += level.trials;
+    return {
+        {{"threshold", fit.function.threshold, ends.threshold},
+         {"shape", fit.function.shape, ends.shape},
+         {"lapse", fit.function.lapse, ends.lapse}},
+        {{"guess", fit.function.guess}, {"deviance", fit.deviance}, {"n", n}},
+        fmt::format("{} answers at {} levels; deviance {:.4g}{}", n, counts.size(), fit.deviance,
+                    fit.shape_unknown ? "; the answers cannot tell the shape" : "")};
+}
+
+/// A command of `fit` for trials of adaptation.
+void add_curve(CLI::App& fit, const std::string& name, const std::string& what,
+               const std::string& columns, Fitted (*find)(const std::string&)) {
+    auto* command = fit.add_subcommand(name, what);
+    auto file = std::make_shared<std::string>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("FILE", *file, "CSV, a row a trial: " + columns)->required();
+    add_json(*command, *json);
+    command->footer(fmt::format("\nExample:\n  dihaptic fit {} person.csv --json", name));
+    command->callback([file, json, find] {
+        const Fitted found = find(*file);
+        fmt::print("{}", *json ? found.json() : found.text());
+    });
+}
+
+void add_psychometric(CLI::App& fit) {
+    auto* command = fit.add_subcommand("psychometric",
+                                       "The psychometric function that makes answers most likely");
+    auto options = std::make_shared<PsychometricOptions>();
+    auto json = std::make_shared<bool>(false);
+    command->add_option("FILE", options->file, "CSV, a row an answer: level, yes (1 or 0)")
+        ->required();
+    add_choice(*command, "--sigmoid", options->settings.sigmoid, "its shape; default: normal");
+    command->add_option("--guess", options->settings.guess, "share of yes by guessing")
+        ->check(CLI::Range(0.0, 0.99))
+        ->capture_default_str();
+    command->add_option("--max-lapse", options->settings.max_lapse, "largest share of lapses")
+        ->check(CLI::Range(0.0, 0.49))
+        ->capture_default_str();
+    command
+        ->add_option("--shape", options->settings.shape,
+                     "its shape, if it is known, as it must be after an adaptive procedure")
+        ->check(CLI::PositiveNumber);
+    add_json(*command, *json);
+    command->footer("\nExample:\n  dihaptic fit psychometric answers.csv --guess 0 --json");
+    command->callback([options, json] {
+        const Fitted found = fit_psychometric(*options);
+        fmt::print("{}", *json ? found.json() : found.text());
+    });
 }
 
 }  // namespace
@@ -86,29 +236,15 @@ void add_fit(CLI::App& app) {
     auto* command = app.add_subcommand("fit", "Fit a model to a table of one's own");
     command->require_subcommand(1);
     command->footer("\nExample:\n  dihaptic fit two_rate person.csv --json");
-    auto* two_rate = command->add_subcommand("two_rate",
-                                             "The two-rate model of adaptation (Smith et al. 2006) "
-                                             "that is nearest to a person's trials");
-    auto file = std::make_shared<std::string>();
-    auto json = std::make_shared<bool>(false);
-    two_rate
-        ->add_option("FILE", *file,
-                     "CSV, a row a trial: perturbation, clamp (0 or 1), compensation (empty: not "
-                     "measured)")
-        ->required();
-    add_json(*two_rate, *json);
-    two_rate->footer("\nExample:\n  dihaptic fit two_rate person.csv --json");
-    two_rate->callback([file, json] {
-        const Trials trials = read_trials(*file);
-        constexpr int kLeast = 5;
-        if (trials.count < kLeast) {
-            throw Error({*file, 0}, "compensation",
-                        fmt::format("is measured in {} trials", trials.count),
-                        "Four parameters take five at least.");
-        }
-        const analysis::TwoRateFit fit = analysis::fit_two_rate(trials.measured, trials.trials);
-        fmt::print("{}", *json ? to_json(fit, trials.count) : to_text(fit, trials.count));
-    });
+    const std::string trials = "perturbation, clamp (0 or 1), compensation (empty: not measured)";
+    add_curve(*command, "two_rate",
+              "The two-rate model of adaptation (Smith et al. 2006) that is nearest to a person's "
+              "trials",
+              trials, fit_two_rate);
+    add_curve(*command, "single_rate", "The same with a single process", trials, fit_single_rate);
+    add_curve(*command, "learning_curve", "An exponential from a start to an asymptote",
+              "compensation (empty: not measured)", fit_learning_curve);
+    add_psychometric(*command);
 }
 
 }  // namespace dihaptic::cli

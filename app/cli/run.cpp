@@ -16,6 +16,7 @@
 #include "escape_key.h"
 #include "rehearsal.h"
 #include "rig/calibration_guide.h"
+#include "session/decider.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -34,6 +35,7 @@ struct SessionOptions {
     bool simulate = false;
     std::string population_file;
     bool real_objects = false;
+    std::string between;
 };
 
 /// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: of trials that are
@@ -133,6 +135,12 @@ void run_one(SessionOptions& options) {
     session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task)
         session::sit_down(plan, person::draw_person(people, plan.seed, id));
+    std::optional<session::Decider> decider;
+    if (!options.between.empty()) {
+        decider.emplace(options.between);
+        decider->prepare(plan);
+        options.run.decider = &*decider;
+    }
     run_plan(std::move(plan), options.run);
 }
 
@@ -428,6 +436,8 @@ void add_run(CLI::App& app) {
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())
         ->capture_default_str();
+    command->add_option("--between", options->between,
+                        "UNIX socket of a program that decides between trials: docs/python.md");
     command->add_option("--set", options->request.set,
                         "any setting, e.g. coupling.stiffness_N_m=600; may be repeated");
     command->footer(

@@ -12,6 +12,8 @@ docs/python.md shows what can be done, and help(dh) lists it.
 
 try:
     from . import _native
+    from . import env
+    from .between import Attempt, BetweenTrials, Next
     from .charts import plot
     from .errors import Error, NotThere, Problem
     from .files import Experiment, Part, Rig, Scene
@@ -26,7 +28,8 @@ try:
         fit_two_rate,
     )
     from .lifts import find_lift
-    from .program import Rehearsal, check, recover, rehearse, replay, report, resume, run
+    from .person import Person, Seen
+    from .program import Rehearsal, check, recover, rehearse, replay, report, resume, run, shipped
     from .vocabulary import Quantity, quantities, quantity
     from .session import Session, load
     from .tables import read_table
@@ -39,8 +42,9 @@ except ImportError as _why:
 __version__: str = _native.version.split()[-1]
 
 __all__ = [
-    "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "NotThere", "Part", "Problem", "PsychometricFit",
-    "Quantity", "Rehearsal", "Rig", "Scene", "Session", "SingleRateFit", "TwoRateFit", "World", "check", "find_lift",
-    "fit_learning_curve", "fit_psychometric", "fit_single_rate", "fit_two_rate", "load", "plot", "quantities",
-    "quantity", "read_table", "recover", "rehearse", "replay", "report", "resume", "run", "step_all",
+    "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Next", "NotThere",
+    "Part", "Person", "Problem", "PsychometricFit", "Quantity", "Rehearsal", "Rig", "Scene", "Seen", "Session",
+    "SingleRateFit", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
+    "fit_single_rate", "fit_two_rate", "load", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
+    "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip

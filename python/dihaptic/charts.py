@@ -100,7 +100,7 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
         )
     if by is not None and by not in table:
         raise NotThere(by, "is no column of the trials", list(table.columns), "")
-    groups = table[by].fillna("").astype(str) if by is not None else pd.Series("", index=table.index)
+    groups = table[by].fillna("none").astype(str) if by is not None else pd.Series("", index=table.index)
     found = [(g, float(t)) for g, t in zip(groups, table[column]) if np.isfinite(t)]
     if not found:
         raise error("happened in no trial of this session", "See session.lifts.", key=align)

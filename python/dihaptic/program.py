@@ -18,8 +18,10 @@ from typing import IO, Any
 import pandas as pd
 
 from . import _native
+from .between import BetweenTrials, listening
 from .errors import Error, Problem, error
 from .files import File, Input, on_disk
+from .person import Person
 from .session import Session
 from .tables import read_table
 
@@ -44,6 +46,20 @@ def program() -> str:
     return installed
 
 
+def shipped(name: str) -> Path:
+    """Path of a file that comes with the program, such as "scenes/block-on-table.yaml". Raises Error.
+
+    >>> import dihaptic as dh
+    >>> dh.shipped("scenes/block-on-table.yaml").is_file()
+    True
+    """
+    source = Path(__file__).resolve().parents[2]
+    for folder in (source, Path("/usr/share/dihaptic")):
+        if (folder / name).is_file():
+            return folder / name
+    raise error("does not come with the program", "See its folders scenes, rigs and experiments.", file=name)
+
+
 def run(
     file: Input,
     *,
@@ -54,11 +70,14 @@ def run(
     settings: Mapping[str, Any] | None = None,
     seed: int = 1,
     out: str | Path = "sessions",
+    between: BetweenTrials | None = None,
+    person: Person | None = None,
     progress: bool = True,
 ) -> Session:
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
-    `simulate`: a simulated person on simulated devices does the trials. A session that was
+    `simulate`: a simulated person on simulated devices does the trials. `between`: decides between
+    trials. `person`: a simulated one of your own does them, in this process. A session that was
     interrupted, or whose force went off, is returned too, with a warning that says why. Raises Error
     for whatever is wrong with the files.
 
@@ -67,14 +86,22 @@ def run(
     >>> session.lifts.lift.item()
     'complete'
     """
+    given = [f"{key}={value}" for key, value in (settings or {}).items()]
+    if person is not None:
+        if between is not None or movement:
+            raise error("a person of one's own does the trials alone", "Leave out between and movement.")
+        with on_disk(file) as path, on_disk(rig) as rig_path:
+            sitting = _native.Sitting(str(path), str(rig_path) if rig else "", given, seed, participant)
+        return person._do(sitting, out)
     command = ["--seed", str(seed), "--out", str(out)] + ["--simulate"] * simulate
     for option, value in {"--movement": movement, "--participant": participant}.items():
         if value:
             command += [option, str(value)]
-    for key, value in (settings or {}).items():
-        command += ["--set", f"{key}={value}"]
-    with on_disk(file) as path, on_disk(rig) as rig_path:
-        return _session_of(_call(["run", str(path), *command] + (["--rig", str(rig_path)] if rig else []), progress))
+    for setting in given:
+        command += ["--set", setting]
+    with on_disk(file) as path, on_disk(rig) as rig_path, listening(between) as asking:
+        command = ["run", str(path), *command, *asking] + (["--rig", str(rig_path)] if rig else [])
+        return _session_of(_call(command, progress))
 
 
 def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
@@ -265,8 +292,9 @@ def _session_of(answer: _Answer) -> Session:
     folder = next((line[len("session: ") :] for line in answer.output if line.startswith("session: ")), None)
     if folder is None:
         raise error("the session has no folder", "", key="\n".join(answer.said + answer.output))
-    if answer.code != 0:
-        warnings.warn("\n".join(answer.said) or f"see {folder}", stacklevel=3)
+    told = [line for line in answer.output if line.startswith("WARNING: ")]
+    if answer.code != 0 or told:
+        warnings.warn("\n".join([*answer.said, *told]) or f"see {folder}", stacklevel=3)
     return Session(folder)
 
 

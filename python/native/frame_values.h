@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include <string>
@@ -11,6 +12,17 @@
 #include "servo/frame.h"
 
 namespace dihaptic::python {
+
+/// Numbers of Python's, of whatever type they are there.
+using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// Names of a scene's bodies or joints, in their order.
+template <class List>
+std::vector<std::string> names(const List& list) {
+    std::vector<std::string> out;
+    for (const auto& item : list) out.push_back(item.name);
+    return out;
+}
 
 /// One value of a frame, by its list ("": the tick itself), the item in it, and its name.
 class FrameValue {

@@ -5,14 +5,13 @@
 
 #include "base/diagnostics.h"
 #include "base/figure.h"
+#include "frame_values.h"
 #include "parts.h"
 
 namespace py = pybind11;
 
 namespace dihaptic::python {
 namespace {
-
-using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// A frame that holds what forces and heights tell of a tick, and nothing else: each digit presses
 /// the object along x, and carries it along z.

@@ -43,4 +43,5 @@ PYBIND11_MODULE(_native, m) {
     add_fits(m);
     add_lifts(m);
     add_world(m);
+    add_person(m);
 }

@@ -13,5 +13,6 @@ void add_vocabulary(pybind11::module_& m);
 void add_fits(pybind11::module_& m);
 void add_lifts(pybind11::module_& m);
 void add_world(pybind11::module_& m);
+void add_person(pybind11::module_& m);
 
 }  // namespace dihaptic::python

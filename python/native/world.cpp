@@ -1,8 +1,10 @@
 // A world in virtual time, which Python steps tick by tick.
 #include <pybind11/functional.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <fmt/format.h>
+#include <array>
 #include <atomic>
 #include <exception>
 #include <thread>
@@ -167,18 +169,31 @@ class World {
         properties_.push_back(properties);
     }
 
+    /// The numbers of observe() in a row; returns where the row ends.
+    double* observe(double* out) const {
+        const auto put = [&](const auto& vector) {
+            for (const double value : vector) *out++ = value;
+        };
+        for (const servo::FingerFrame& finger : frame().fingers) {
+            put(finger.p_WH);
+            put(finger.v_WH);
+            put(finger.f_sent_W);
+            *out++ = finger.normal_force;
+        }
+        const int object = plan_.scene.object_index();
+        const servo::BodyFrame body =
+            object < 0 ? servo::BodyFrame{} : frame().bodies[static_cast<size_t>(object)];
+        put(body.X_WB.p);
+        put(std::array{body.X_WB.R.w(), body.X_WB.R.x(), body.X_WB.R.y(), body.X_WB.R.z()});
+        put(body.v_WB);
+        put(body.w_WB);
+        return out;
+    }
+    static size_t observed(size_t fingers) { return 10 * fingers + 13; }
+
     std::vector<std::string> fingers() const { return scene::finger_names(plan_.scene); }
-    std::vector<std::string> bodies() const {
-        std::vector<std::string> out;
-        for (const scene::Body& body : plan_.scene.bodies) out.push_back(body.name);
-        return out;
-    }
-    std::vector<std::string> joints() const {
-        std::vector<std::string> out;
-        for (const scene::Joint& joint : scene::recorded_joints(plan_.scene))
-            out.push_back(joint.name);
-        return out;
-    }
+    std::vector<std::string> bodies() const { return names(plan_.scene.bodies); }
+    std::vector<std::string> joints() const { return names(scene::recorded_joints(plan_.scene)); }
     std::string object() const {
         const int index = plan_.scene.object_index();
         return index < 0 ? "" : plan_.scene.bodies[static_cast<size_t>(index)].name;
@@ -247,6 +262,30 @@ class World {
     std::exception_ptr thrown_;  // by the director, in the tick
 };
 
+/// A row for each world: of each finger the handle's position and velocity, the force on it, and
+/// how hard its proxy is pressed; then the object's position, orientation, velocity, angular
+/// velocity.
+Array observe(const std::vector<World*>& worlds) {
+    const size_t columns = worlds.empty() ? 0 : World::observed(worlds.front()->fingers().size());
+    Array out({worlds.size(), columns});
+    double* at = out.mutable_data();
+    for (const World* world : worlds) at = world->observe(at);
+    return out;
+}
+
+/// Leads all fingers of many worlds: rows of a world's fingers, each a position and a velocity.
+void lead_all(const std::vector<World*>& worlds, const Array& targets) {
+    const size_t fingers = worlds.empty() ? 0 : worlds.front()->fingers().size();
+    if (targets.ndim() != 3 || targets.shape(0) != static_cast<py::ssize_t>(worlds.size()) ||
+        targets.shape(1) != static_cast<py::ssize_t>(fingers) || targets.shape(2) != 6)
+        throw Error("the targets do not fit the worlds", "Give worlds x fingers x 6 numbers.");
+    const double* at = targets.data();
+    for (World* world : worlds) {
+        for (size_t finger = 0; finger < fingers; ++finger, at += 6)
+            world->lead(finger, Vec3(at[0], at[1], at[2]), Vec3(at[3], at[4], at[5]), {});
+    }
+}
+
 /// Steps many worlds, on so many processors.
 void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
     const py::gil_scoped_release others_may_run;
@@ -283,6 +322,8 @@ void add_world(py::module_& m) {
         .def("tick_length", &World::tick_length)
         .def("warnings", &World::warnings);
     m.def("step_all", &step_all);
+    m.def("observe", &observe);
+    m.def("lead_all", &lead_all);
 }
 
 }  // namespace dihaptic::python

@@ -47,6 +47,52 @@ class Fits(unittest.TestCase):
         residuals = (measured - fit.predicted)[~np.isnan(measured)]
         self.assertAlmostEqual(float(residuals @ residuals), fit.sse, places=6)
 
+    def command(self, model, columns, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "person.csv"
+            with open(table, "w", newline="") as file:
+                rows = csv.writer(file)
+                rows.writerow(columns)
+                rows.writerows(zip(*(np.asarray(column).astype(float if key in ("compensation", "level") else int).tolist() for key, column in columns.items())))
+            text = subprocess.run([program(), "fit", model, table, *options], capture_output=True, text=True, check=True)
+            self.assertIn("95 %", text.stdout)
+            said = subprocess.run([program(), "fit", model, table, "--json", *options], capture_output=True, text=True, check=True)
+        return json.loads(said.stdout)
+
+    def test_the_others_are_the_command_s_too(self):
+        draw = np.random.default_rng(6)
+        measured = 20 * (1 - np.exp(-np.arange(60) / 9)) + draw.normal(0, 1, 60)
+        told = self.command("single_rate", {"perturbation": [30] * 60, "clamp": [0] * 60, "compensation": measured})
+        fit = dh.fit_single_rate(measured, [30.0] * 60)
+        for key in ("retention", "learning", "sse", "n"):
+            self.assertAlmostEqual(told[key], getattr(fit, key), places=9, msg=key)
+        told = self.command("learning_curve", {"compensation": measured})
+        curve = dh.fit_learning_curve(measured)
+        for key in ("start", "asymptote", "time_constant", "sse", "n"):
+            self.assertAlmostEqual(told[key], getattr(curve, key), places=9, msg=key)
+        levels = np.repeat([1.0, 2, 3, 4, 5, 6], 20)
+        answers = draw.random(120) < 0.5 + 0.5 / (1 + np.exp(-(levels - 3.3) / 0.5))
+        told = self.command("psychometric", {"level": levels, "yes": answers}, "--sigmoid", "logistic", "--max-lapse", "0.02")
+        answered = dh.fit_psychometric(levels, answers, sigmoid="logistic", max_lapse=0.02)
+        for key in ("threshold", "shape", "lapse", "guess", "deviance"):
+            self.assertAlmostEqual(told[key], getattr(answered, key), places=9, msg=key)
+        self.assertEqual(told["n"], 120)
+
+    def test_the_command_tells_what_is_wrong(self):
+        for model, text, what in [
+            ("single_rate", "perturbation,clamp\n1,0\n", "1: error: compensation: is not there"),
+            ("single_rate", "perturbation,clamp,compensation\n1,0,2\n1,0,3\n", "is measured in 2 trials"),
+            ("learning_curve", "compensation\n1\n\nx\n", "error: compensation: is 'x'"),
+            ("psychometric", "level,yes\n1,maybe\n", "2: error: yes: is 'maybe'"),
+            ("psychometric", "level,yes\n1,1\n1,0\n", "level"),
+        ]:
+            with self.subTest(what), tempfile.TemporaryDirectory() as folder:
+                table = pathlib.Path(folder) / "person.csv"
+                table.write_text(text)
+                done = subprocess.run([program(), "fit", model, table], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(what, done.stderr)
+
     def test_a_clamp_teaches_nothing(self):
         perturbation = np.full(80, 20.0)
         clamp = np.arange(80) >= 50

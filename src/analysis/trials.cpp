@@ -109,9 +109,14 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
 }
 
 void TrialFinder::add(const servo::Frame& frame) {
-    if (frame.trial < 1 || frame.phase == 0) return;  // between trials
+    if (frame.trial < 1) return;
+    if (frame.phase == 0) {  // between trials, where variables may be decided on
+        if (!rows_.empty()) rows_.back().next = frame.task.variables;
+        return;
+    }
     if (rows_.empty() || rows_.back().trial != frame.trial ||
         rows_.back().measures.attempt != frame.task.attempt) {
+        if (!rows_.empty()) rows_.back().next = frame.task.variables;
         Row row;
         row.trial = frame.trial;
         row.measures.attempt = frame.task.attempt;

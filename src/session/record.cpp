@@ -12,6 +12,7 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
     for (const std::string& what : {session.fault, session.stall}) {
         if (!what.empty()) out.push_back("WARNING: " + what);
     }
+    for (const std::string& what : session.undecided) out.push_back("WARNING: " + what);
     const analysis::SessionFigures& figures = session.figures;
     uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
     // that the operator stopped it is the fault that is told already

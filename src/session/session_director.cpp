@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/plural.h"
+#include "session/decider.h"
 
 namespace dihaptic::session {
 namespace {
@@ -28,6 +29,7 @@ SessionDirector::SessionDirector(const Plan& plan, const RunOptions& options,
       phases_(phases, plan.settings.tick()) {
     if (!plan.task) return;
     task_.emplace(*plan.task, plan.seed, plan.settings.tick(), plan.done);
+    if (options.decider != nullptr) task_->decide_by(*options.decider->between());
     if (plan.seeing && !real_) wait_.emplace(*plan.task);
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/field_writer.h"
 #include "base/plural.h"
+#include "session/decider.h"
 #include "session/frozen_inputs.h"
 #include "session/pacing.h"
 #include "session/session_director.h"
@@ -293,6 +294,7 @@ void Run::make_director() {
     result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
                            2);
     if (live_ != nullptr) live_->prepare(*servo_, plan_.scene);
+    if (options_.decider != nullptr) options_.decider->begin(folder_.path(), !real_);
     director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
                       outward_ ? &*outward_ : nullptr);
 }
@@ -420,6 +422,10 @@ void Run::close_record() {
     }
     if (player_) {
         for (const std::string& failure : player_->finish()) info_.notes.push_back(failure);
+    }
+    if (options_.decider != nullptr) {
+        result_.undecided = options_.decider->finish();
+        info_.notes.insert(info_.notes.end(), result_.undecided.begin(), result_.undecided.end());
     }
     result_.simulated = seconds(Time(reached_.load()));
     if (plan_.open_ended()) info_.phases.back().end = result_.simulated;

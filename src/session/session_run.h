@@ -12,6 +12,8 @@
 
 namespace dihaptic::session {
 
+class Decider;
+
 enum class Clock { virtual_clock, real };
 
 struct RunOptions {
@@ -37,6 +39,8 @@ struct RunOptions {
     std::function<servo::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
                                    const recording::LogHead&)>
         in_place_of_log;
+    /// Decides between trials; prepared for the plan, and must outlive the run.
+    Decider* decider = nullptr;
     Live* live = nullptr;  ///< link to the watching thread; must outlive the run
 };
 
@@ -52,6 +56,7 @@ struct RunResult {
     servo::Timing timing;
     std::string fault;  ///< why force was switched off, and what to do; empty if it was not
     std::string stall;  ///< what the watchdog did; empty if nothing
+    std::vector<std::string> undecided;  ///< how what decides between trials failed
 };
 
 /// Gets the share of the session done, from 0 to 1, about ten times per second of wall time.

@@ -117,7 +117,7 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
         finish(plan_.skipped, false, now, commands);
         return;
     }
-    ask(handles, input);
+    take_answers(handles, input);
     if (state_ < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
@@ -140,6 +140,7 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
 
 void TaskDirector::begin(const servo::Frame& last, char key, double now,
                          servo::Commands& commands) noexcept {
+    if (!decided(now)) return;
     if (now < feedback_until_) return;  // the feedback is still being read
     if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
     if (!begun_) resolve();
@@ -157,6 +158,53 @@ void TaskDirector::begin(const servo::Frame& last, char key, double now,
     }
     if (message_ == plan_.move_away) message_ = -1;
     enter(0, now, commands);
+}
+
+void TaskDirector::decide_by(Between& between) noexcept {
+    between_ = &between;
+    ask(0, -1, 0);
+}
+
+void TaskDirector::ask(int attempt, int outcome, double now) noexcept {
+    if (between_ == nullptr) return;
+    Ended ended;
+    ended.trial = last_trial_;
+    ended.attempt = attempt;
+    ended.outcome = outcome;
+    for (size_t i = 0; i < plan_.task.variables.size(); ++i)
+        ended.variables[i] = variables_[i].value;
+    between_->ask(ended);
+    asked_ = true;
+    ask_until_ = now + between_->patience();
+}
+
+bool TaskDirector::decided(double now) noexcept {
+    if (!asked_) return true;
+    if (const Decision* const decision = between_->answer()) {
+        follow(*decision, now);
+    } else if (now < ask_until_ && !between_->gone()) {
+        return false;
+    } else {
+        between_->note_late();
+    }
+    asked_ = false;
+    return true;
+}
+
+void TaskDirector::follow(const Decision& decision, double now) noexcept {
+    for (size_t i = 0; i < plan_.task.variables.size(); ++i) {
+        if (std::isfinite(decision.variables[i])) variables_[i].value = decision.variables[i];
+    }
+    if (const int next = decision.next - 1; next >= 0) {
+        // pages and pauses come before a block, so that a trial of another one cannot be next
+        const bool here = plan_.trials[static_cast<size_t>(next)].number == trial().number;
+        if (!here || !queue_.go_to(next, 1)) between_->note_refused();
+    }
+    skip_done();
+    if (decision.message < 0) return;
+    message_ = decision.message;
+    next_message_ = -1;
+    feedback_until_ = now + plan_.task.feedback - tick_ / 2;
 }
 
 /// Whether all bodies can be put back.
@@ -277,6 +325,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& c
     state_ = -1;
     begun_ = false;
     share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
+    if (!queue_.empty()) ask(last_attempt_, outcome, now);
     commands.stop = queue_.empty() && now >= feedback_until_;
 }
 
@@ -390,7 +439,8 @@ void TaskDirector::follow_rules(int outcome) noexcept {
     }
 }
 
-void TaskDirector::ask(std::span<const haptics::Handle> handles, const Input& input) noexcept {
+void TaskDirector::take_answers(std::span<const haptics::Handle> handles,
+                                const Input& input) noexcept {
     if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
     const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
     if (question.by != AnswerBy::cursor) {

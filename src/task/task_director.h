@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "servo/servo.h"
+#include "task/between.h"
 #include "task/displayer.h"
 #include "task/opening.h"
 #include "task/sounder.h"
@@ -32,6 +33,8 @@ class TaskDirector {
     static constexpr int kAnyTrigger = -1;  ///< counts as any code that is waited for
     /// Ends the trial in the next tick, as skipped and not to be done again; from any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
+    /// Before the first tick: asks `between`, which must outlive the director, before each attempt.
+    void decide_by(Between& between) noexcept;
     /// Call between two ticks: a running trial begins anew.
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
@@ -53,6 +56,11 @@ class TaskDirector {
     /// Begins the next trial once the last feedback and its block's pages have been read and bodies
     /// can be put back.
     void begin(const servo::Frame& last, char key, double now, servo::Commands& commands) noexcept;
+    /// Asks what decides between trials, if anything does.
+    void ask(int attempt, int outcome, double now) noexcept;
+    /// Whether what decides between trials has answered, or is too late.
+    bool decided(double now) noexcept;
+    void follow(const Decision& decision, double now) noexcept;
     void enter(int state, double now, servo::Commands& commands) noexcept;
     /// What came in from outside since the last tick.
     struct Input {
@@ -69,7 +77,7 @@ class TaskDirector {
     void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
     void drive_bodies(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
     /// Takes what was typed, or where the hands are, as the answer that the state asks for.
-    void ask(std::span<const haptics::Handle> handles, const Input& input) noexcept;
+    void take_answers(std::span<const haptics::Handle> handles, const Input& input) noexcept;
 
     /// As operator(), but for how things look and sound, and what texts say.
     void direct(const servo::Frame& last, std::span<const haptics::Handle> handles, double now,
@@ -128,6 +136,9 @@ class TaskDirector {
     Displayer displayer_;
     Sounder sounder_;
     Opening opening_;
+    Between* between_ = nullptr;
+    bool asked_ = false;    // and not yet decided
+    double ask_until_ = 0;  // [s]
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};
     std::atomic<int> trigger_{0};

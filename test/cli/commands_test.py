@@ -15,7 +15,7 @@ class Commands(unittest.TestCase):
     def test_every_command_has_help_with_an_example(self):
         commands = [[], ["run"], ["replay"], ["recover"], ["check"], ["bench"], ["bench", "grasp"],
                     ["tune"], ["picture"], ["video"], ["gui"],
-                    ["report"], ["fit", "two_rate"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"], ["devices"]]
+                    ["report"], ["fit", "two_rate"], ["fit", "single_rate"], ["fit", "learning_curve"], ["fit", "psychometric"], ["resume"], ["export"], ["rehearse"], ["collect"], ["workspace"], ["calibrate"], ["devices"]]
         for command in commands:
             result = dihaptic(*command, "--help")
             self.assertEqual(result.returncode, 0, command)

@@ -1,0 +1,156 @@
+"""Decides between a session's trials, in Python: what the next one is like, or which it is."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import socket
+import tempfile
+import threading
+import traceback
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """How an attempt at a trial ended.
+
+    >>> import dihaptic as dh
+    >>> dh.Attempt(3, 1, "hit", {"force_N": 1.5}).outcome
+    'hit'
+    """
+
+    trial_num: int  #: from 1; 0: the session begins, and no trial has been done
+    attempt: int  #: at that trial, from 1
+    outcome: str | None  #: None if the session begins
+    variables: Mapping[str, float | None]  #: of the task, in their own units; None: not measured
+
+
+@dataclass(frozen=True)
+class Next:
+    """What is to come. Whatever is left out stays as the experiment's file has it.
+
+    >>> import dihaptic as dh
+    >>> dh.Next(variables={"force_N": 2}, message="Slower")
+    Next(variables={'force_N': 2}, trial_num=None, message='Slower')
+    """
+
+    variables: Mapping[str, float] = field(default_factory=dict)  #: new values, in their own units
+    trial_num: int | None = None  #: of a trial of the same block that is still to be done
+    message: str | None = None  #: one of BetweenTrials.messages, shown as feedback
+
+
+class BetweenTrials:
+    """What is decided between trials, given to run(); derive from it.
+
+    decide() is called before the first trial, and after each attempt. It runs outside of the
+    session's process: however slow it is, or wrong, no tick is late. In real time its answer counts
+    for a second, in which no trial begins; a later one, and one that raises, leave the trials as the
+    file has them, and the session's notes say so. On the virtual clock the session waits for it.
+
+    The variables are those of the task (`variables:` in the experiment's file), whose formulas use
+    them. What was decided is recorded, so that a replay needs no Python.
+
+    >>> import dihaptic as dh
+    >>> class Heavier(dh.BetweenTrials):
+    ...     messages = ["The next one is heavier"]
+    ...
+    ...     def decide(self, last):
+    ...         if last.trial_num == 3:
+    ...             return dh.Next(message=self.messages[0])
+    >>> rules = Heavier()
+    >>> session = dh.run("experiments/first-trials.yaml", out=folder, simulate=True, progress=False, between=rules)
+    >>> [attempt.trial_num for attempt in rules.attempts]
+    [0, 1, 2, 3, 4]
+    >>> session.events.query("event == 'message' and detail.str.contains('heavier')").trial.tolist()
+    [4]
+    """
+
+    #: All texts that decide() may show.
+    messages: list[str] = []
+
+    def decide(self, last: Attempt) -> Next | None:
+        """What comes after an attempt; None: as the file has it."""
+        raise NotImplementedError
+
+    @property
+    def attempts(self) -> list[Attempt]:
+        """All that decide() was asked about in the running session."""
+        attempts: list[Attempt] = self.__dict__.setdefault("_attempts", [])
+        return attempts
+
+    @property
+    def session(self) -> Path:
+        """Folder of the running session."""
+        return Path(self.__dict__["_session"])
+
+    @property
+    def trials(self) -> pd.DataFrame:
+        """The session's list of trials, in the file's order (trial-list.csv)."""
+        from .tables import read_table
+
+        return read_table(self.session / "trial-list.csv")
+
+    @property
+    def failures(self) -> list[str]:
+        """What decide() raised in the running session, with where."""
+        failures: list[str] = self.__dict__.setdefault("_failures", [])
+        return failures
+
+    # The other end of src/session/decider.h
+
+    def _answer(self, question: dict[str, Any]) -> dict[str, Any] | None:
+        if "session" in question:
+            self.__dict__.update(_session=question["session"], _attempts=[], _failures=[])
+            return None
+        answer: dict[str, Any] = {"number": question["number"]}
+        last = Attempt(*(question[key] for key in ("trial_num", "attempt", "outcome", "variables")))
+        self.attempts.append(last)
+        try:
+            chosen = self.decide(last)
+            if chosen is None:
+                return answer
+            answer["set"] = {name: float(value) for name, value in chosen.variables.items()}
+            if chosen.trial_num is not None:
+                answer["next"] = int(chosen.trial_num)
+            if chosen.message is not None:
+                answer["message"] = list(self.messages).index(chosen.message)
+        except Exception as why:  # whatever it is: the session goes on
+            self.failures.append(traceback.format_exc())
+            return {"number": question["number"], "failed": f"{type(why).__name__}: {why}"}
+        return answer
+
+    def _serve(self, listening: socket.socket) -> None:
+        with contextlib.suppress(OSError):
+            connection, _ = listening.accept()
+            with connection, connection.makefile("rw", encoding="utf-8") as lines:
+                lines.write(json.dumps({"messages": list(self.messages)}) + "\n")
+                lines.flush()
+                for line in lines:
+                    answer = self._answer(json.loads(line))
+                    if answer is not None:
+                        lines.write(json.dumps(answer) + "\n")
+                        lines.flush()
+
+
+@contextlib.contextmanager
+def listening(rules: BetweenTrials | None) -> Iterator[list[str]]:
+    """The options of `dihaptic run` by which rules are asked, while they are."""
+    if rules is None:
+        yield []
+        return
+    with tempfile.TemporaryDirectory(prefix="dihaptic-") as folder, socket.socket(socket.AF_UNIX) as server:
+        path = f"{folder}/between"
+        server.bind(path)
+        server.listen(1)
+        thread = threading.Thread(target=rules._serve, args=(server,), daemon=True)
+        thread.start()
+        yield ["--between", path]
+        with contextlib.suppress(OSError):
+            server.shutdown(socket.SHUT_RDWR)  # a session that never began has not connected
+        thread.join()

@@ -1,0 +1,207 @@
+"""Environments for learners: two fingers lift and turn, four hand over, with the program's contact.
+
+They have the interface that learners use (reset, step, spaces), and depend on no library of theirs.
+
+>>> import dihaptic as dh
+>>> environment = dh.env.Grasp("lift", seed=1)
+>>> seen, info = environment.reset()
+>>> seen, reward, terminated, truncated, info = environment.step(environment.action_space.sample())
+>>> seen.shape == environment.observation_space.shape, terminated
+(True, False)
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+from .errors import error
+from .program import shipped
+from .world import World
+
+Array = npt.NDArray[np.float64]
+Info = dict[str, Any]
+
+
+class Box:
+    """A space of arrays between two bounds.
+
+    >>> import dihaptic as dh
+    >>> box = dh.env.Box(-1, 1, (2,), seed=1)
+    >>> box.contains(box.sample())
+    True
+    """
+
+    def __init__(self, low: float, high: float, shape: tuple[int, ...], seed: int | None = None) -> None:
+        self.low = np.full(shape, low)
+        self.high = np.full(shape, high)
+        self.shape = shape
+        self.dtype = np.dtype(float)
+        self._random = np.random.default_rng(seed)
+
+    def sample(self) -> Array:
+        """An array at random, evenly, within bounds that are finite."""
+        return self._random.uniform(self.low, self.high)
+
+    def contains(self, x: npt.ArrayLike) -> bool:
+        """Whether an array is of its shape and between its bounds."""
+        given = np.asarray(x, dtype=float)
+        return given.shape == self.shape and bool(((given >= self.low) & (given <= self.high)).all())
+
+
+#: Of each task: its scene, the range of its goal, and how near counts as there.
+_TASKS: dict[str, tuple[str, tuple[float, float], float]] = {
+    "lift": ("scenes/block-on-table.yaml", (0.03, 0.1), 0.005),  # height [m]
+    "turn": ("experiments/turn-block.yaml", (0.2, 0.8), 0.05),  # about z [rad]
+    "hand_over": ("experiments/hand-over.yaml", (0.03, 0.1), 0.005),  # height in the other hand [m]
+}
+_FASTEST = 0.3  # of a finger's target [m/s]
+_HOLD = 0.2  # for so long it has to be there [s]
+
+
+class Grasps:
+    """Many worlds with the same task, stepped side by side on all processors.
+
+    `task`: "lift" an object to a height, "turn" it by an angle, "hand_over" from the first hand to
+    the second. An action is, for each finger, the velocity of the point that it wants to be at
+    [m/s], three numbers from -1 to 1 times 0.3 m/s; it acts for `ticks` ticks. What is seen is, of
+    each finger, the handle's position and velocity, the force on it, and how hard it presses; the
+    object's position, orientation (w, x, y, z), velocity and angular velocity; and the goal, in SI
+    units. The reward is the negative distance from the goal over that at the start, and 1 once the
+    goal is reached and held for 0.2 s, which ends the episode; `time` [s] truncates it. In
+    hand_over it counts only while the first hand does not touch the object.
+
+    >>> import dihaptic as dh
+    >>> many = dh.env.Grasps("lift", 3, seed=1)
+    >>> seen, info = many.reset()
+    >>> seen.shape
+    (3, 34)
+    >>> seen, reward, terminated, truncated, info = many.step(np.zeros((3, 6)))
+    >>> bool((np.abs(reward + 1) < 0.01).all())
+    True
+    """
+
+    def __init__(
+        self, task: str = "lift", n: int = 1, *, seed: int = 1, ticks: int = 10, time: float = 5.0, jobs: int | None = None
+    ) -> None:
+        if task not in _TASKS:
+            raise error(f"is '{task}'", f"There are: {', '.join(_TASKS)}.", key="task")
+        if n < 1 or ticks < 1:
+            raise error("there is no world, or no tick in a step", "Give 1 at least.")
+        scene, self._goals, self._near = _TASKS[task]
+        self.task = task
+        self.worlds = [World(shipped(scene), seed=seed + i) for i in range(n)]
+        self.ticks = ticks
+        self.time = time
+        self.step_time = ticks * self.worlds[0].tick
+        fingers = len(self.worlds[0].fingers)
+        self.action_space = Box(-1, 1, (3 * fingers,), seed)
+        self.observation_space = Box(-np.inf, np.inf, (10 * fingers + 14,), seed)
+        self._jobs = jobs or os.cpu_count() or 1
+        self._random = np.random.default_rng(seed)
+        self._fingers = fingers
+        self._inner = [world._world for world in self.worlds]
+        self._targets = np.zeros((n, fingers, 6))
+        self._goal = np.zeros(n)
+        self._zero = np.zeros(n)  # of the object's height or angle, at the start
+        self._held = np.zeros(n)
+        self._passed = np.zeros(n)
+
+    def reset(self, which: Sequence[int] | None = None, *, seed: int | None = None) -> tuple[Array, Info]:
+        """Begins all episodes anew, or those of `which` worlds; each gets a goal of its own."""
+        if seed is not None:
+            self._random = np.random.default_rng(seed)
+        chosen = np.arange(len(self.worlds)) if which is None else np.asarray(which, dtype=int)
+        for i in chosen:
+            self.worlds[i].reset()
+            self.worlds[i].step()
+        self._goal[chosen] = self._random.uniform(*self._goals, size=len(chosen))
+        self._held[chosen] = 0
+        self._passed[chosen] = 0
+        seen = _native.observe(self._inner)
+        for finger in range(self._fingers):
+            at = seen[:, 10 * finger : 10 * finger + 3]
+            self._targets[chosen, finger, :3] = at[chosen]
+        self._targets[chosen, :, 3:] = 0
+        self._zero[chosen] = self._value(seen)[chosen]
+        return self._with_goal(seen), self._info(seen)
+
+    def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], Info]:
+        """What is seen, the rewards, which episodes are terminated, which truncated, and info."""
+        given = np.asarray(actions, dtype=float).reshape(len(self.worlds), self._fingers, 3)
+        velocity = _FASTEST * np.clip(given, -1, 1)
+        self._targets[:, :, :3] += velocity * self.step_time
+        self._targets[:, :, 3:] = velocity
+        _native.lead_all(self._inner, self._targets)
+        _native.step_all(self._inner, self.ticks, self._jobs)
+        seen = _native.observe(self._inner)
+        distance = self._distance(seen)
+        self._passed += self.step_time
+        self._held = np.where(distance < self._near, self._held + self.step_time, 0)
+        success = self._held >= _HOLD - 1e-9
+        failed = np.array([world.over() for world in self._inner])
+        reward = np.where(success, 1.0, -distance / self._goal)
+        truncated = (self._passed >= self.time - 1e-9) & ~success
+        return self._with_goal(seen), reward, success | failed, truncated, self._info(seen)
+
+    def _object(self, seen: Array) -> Array:
+        return seen[:, 10 * self._fingers :]
+
+    def _value(self, seen: Array) -> Array:
+        """What the goal is about: the object's height, or its angle about z."""
+        of = self._object(seen)
+        if self.task != "turn":
+            return of[:, 2]
+        w, x, y, z = of[:, 3], of[:, 4], of[:, 5], of[:, 6]
+        angle: Array = np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+        return angle
+
+    def _distance(self, seen: Array) -> Array:
+        distance = np.abs(self._value(seen) - self._zero - self._goal)
+        if self.task == "hand_over":
+            first = seen[:, 9] + seen[:, 19]  # how hard the first hand presses
+            distance = np.where(first > 0, np.maximum(distance, self._goal), distance)
+        out: Array = distance
+        return out
+
+    def _with_goal(self, seen: Array) -> Array:
+        return np.column_stack([seen, self._goal])
+
+    def _info(self, seen: Array) -> Info:
+        return {"distance": self._distance(seen), "success": self._held >= _HOLD - 1e-9}
+
+
+class Grasp:
+    """One world with a task: Grasps with n = 1, without its first axis.
+
+    >>> import dihaptic as dh
+    >>> environment = dh.env.Grasp("turn")
+    >>> seen, info = environment.reset(seed=3)
+    >>> 0.2 <= seen[-1] <= 0.8  # the goal
+    True
+    """
+
+    def __init__(self, task: str = "lift", *, seed: int = 1, ticks: int = 10, time: float = 5.0) -> None:
+        self._one = Grasps(task, 1, seed=seed, ticks=ticks, time=time, jobs=1)
+        self.action_space = self._one.action_space
+        self.observation_space = self._one.observation_space
+        self.world = self._one.worlds[0]
+
+    def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[Array, Info]:
+        """Begins an episode with a goal of its own; `options` are ignored."""
+        seen, info = self._one.reset(seed=seed)
+        return seen[0], _first(info)
+
+    def step(self, action: npt.ArrayLike) -> tuple[Array, float, bool, bool, Info]:
+        """What is seen, the reward, whether the episode is terminated, or truncated, and info."""
+        seen, reward, terminated, truncated, info = self._one.step(np.asarray(action, dtype=float)[None])
+        return seen[0], float(reward[0]), bool(terminated[0]), bool(truncated[0]), _first(info)
+
+
+def _first(info: Info) -> Info:
+    return {key: value[0].item() for key, value in info.items()}

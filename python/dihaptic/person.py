@@ -1,0 +1,148 @@
+"""A simulated person in Python, who does an experiment's trials on simulated devices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native, vocabulary
+from .errors import NotThere
+
+if TYPE_CHECKING:
+    from .session import Session
+
+Array = npt.NDArray[np.float64]
+
+
+class Seen:
+    """What a person sees and feels in a tick; valid within Person.act() alone.
+
+    What is shown may not be what is there: perturbations are in it. `seen["block.position"]` gives
+    what is there, by the names of docs/quantities.md, as no person could see it.
+
+    >>> import dihaptic as dh
+    >>> sorted(name for name in vars(dh.Seen) if not name.startswith("_"))
+    ['attempt', 'body', 'felt', 'fingers', 'message', 'state', 't', 'targets', 'trial']
+    """
+
+    def __init__(self, sitting: _native.Sitting) -> None:
+        self._sitting = sitting
+        self._fingers = sitting.fingers()
+        self._bodies = sitting.bodies()
+        self._joints = sitting.joints()
+
+    @property
+    def t(self) -> float:
+        """Time in the session [s]."""
+        return self._sitting.time()
+
+    @property
+    def trial(self) -> int:
+        """Number of the trial, from 1."""
+        return int(self["trial"])
+
+    @property
+    def attempt(self) -> int:
+        """Number of the attempt at it, from 1."""
+        return int(self["attempt"])
+
+    @property
+    def state(self) -> str:
+        """Name of the task's state, or "between trials"."""
+        return self._sitting.state()
+
+    @property
+    def message(self) -> str:
+        """What is written over the scene, numbers as {names}."""
+        return self._sitting.message()
+
+    @property
+    def fingers(self) -> dict[str, Array]:
+        """Where each finger's handle is shown, in world axes [m]."""
+        return {name: self._sitting.shown_finger(i) for i, name in enumerate(self._fingers)}
+
+    @property
+    def targets(self) -> dict[str, Array]:
+        """Where each target that is shown is, by its region's name, in world axes [m]."""
+        return dict(self._sitting.targets())
+
+    def body(self, name: str) -> Array | None:
+        """Where a body is shown, in world axes [m]; None while it is hidden. Raises NotThere."""
+        if name not in self._bodies:
+            raise NotThere(name, "is no body of the scene", self._bodies, "")
+        index = self._bodies.index(name)
+        return self._sitting.shown_body(index) if self._sitting.is_shown(index) else None
+
+    def felt(self, finger: str) -> Array:
+        """Force of the device on a finger's handle, in world axes [N]."""
+        force: Array = self[f"{finger}.force_sent"]
+        return force
+
+    def __getitem__(self, name: str) -> Any:
+        value = self._sitting.read("", 0, name) if vocabulary.find(name) else None
+        item, _, term = name.rpartition(".")
+        lists = {"fingers": self._fingers, "turns": self._fingers, "bodies": self._bodies, "joints": self._joints}
+        for of_list, items in lists.items():
+            if item in items and vocabulary.find(term, of_list):
+                value = self._sitting.read(of_list, items.index(item), term)
+        if value is None:
+            raise NotThere(name, "is not there", [], "dihaptic.quantities() lists what there is.")
+        return value
+
+
+class Person:
+    """A simulated person; derive from it, and give it to run().
+
+    act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it leads
+    the fingers, and presses keys. Slow is allowed: the clock is virtual. What it raises ends the
+    session, whose folder stays to be recovered.
+
+    >>> import dihaptic as dh
+    >>> class Waits(dh.Person):
+    ...     def act(self, seen):
+    ...         for finger, side in (("thumb", -1), ("index", 1)):
+    ...             self.lead(finger, (0.05 * side, 0, 0.09))
+    ...         if seen.t > 2:
+    ...             raise StopIteration("that was enough")
+    >>> dh.run("experiments/first-trials.yaml", out=folder, person=Waits(), progress=False)
+    Traceback (most recent call last):
+    ...
+    StopIteration: that was enough
+
+    docs/tutorials/own_person.py has one that lifts.
+    """
+
+    #: Time between two calls of act() [s].
+    every: float = 0.01
+
+    def act(self, seen: Seen) -> None:
+        """Looks, and acts by lead() and press()."""
+        raise NotImplementedError
+
+    def lead(
+        self, finger: str, position: Sequence[float] | Array, velocity: Sequence[float] | Array = (0.0, 0.0, 0.0)
+    ) -> None:
+        """Leads a finger: the point that it wants to be at [m], and its velocity [m/s], in world axes.
+
+        The hand's muscles pull the handle there (the experiment's `hand.impedance`).
+        """
+        fingers = self.__dict__["_fingers"]
+        if finger not in fingers:
+            raise NotThere(finger, "is no finger of the scene", fingers, "")
+        self.__dict__["_sitting"].lead(fingers.index(finger), position, velocity)
+
+    def press(self, key: str) -> None:
+        """Presses a key of the keyboard."""
+        self.__dict__["_sitting"].press(key)
+
+    def _do(self, sitting: _native.Sitting, out: str | Path) -> Session:
+        from .session import Session
+
+        self.__dict__.update(_sitting=sitting, _fingers=sitting.fingers())
+        seen = Seen(sitting)
+        folder = sitting.run(lambda: self.act(seen), self.every, type(self).__name__, str(out))
+        return Session(folder)

@@ -1,0 +1,197 @@
+// A simulated person whose movements Python decides, on the virtual clock.
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <atomic>
+#include <exception>
+
+#include "frame_values.h"
+#include "parts.h"
+#include "servo/displayed.h"
+#include "session/record.h"
+
+namespace py = pybind11;
+
+namespace dihaptic::python {
+namespace {
+
+/// Calls a Python function every so many ticks with what the last tick shows, and moves the fingers
+/// where it led them last.
+class PythonHand : public task::SeeingDriver {
+  public:
+    PythonHand(const session::Plan& plan, py::function act, int every, std::atomic<bool>& stop)
+        : own_(plan.driver),
+          act_(std::move(act)),
+          every_(every),
+          stop_(stop),
+          led_(plan.scene.fingers.size()) {}
+
+    void lead(size_t finger, const Vec3& position, const Vec3& velocity) {
+        if (finger >= led_.size() || !position.allFinite() || !velocity.allFinite())
+            throw Error("a finger cannot be led there", "Give three finite numbers.");
+        led_[finger].emplace();
+        led_[finger]->p_WT = position;
+        led_[finger]->v_WT = velocity;
+    }
+    void press(char key) { key_ = key; }
+    /// What act() raised, if anything.
+    std::exception_ptr thrown() const { return thrown_; }
+
+    const servo::Frame& frame() const {
+        if (frame_ != nullptr) return *frame_;
+        throw Error("nothing is seen now", "Look within act().");
+    }
+
+    double duration() const override { return own_->duration(); }
+    const std::vector<Phase>& phases() const override { return own_->phases(); }
+    void restart() override { ticks_ = 0; }
+
+  private:
+    hand::FingerTarget do_target(int finger, double) const noexcept override {
+        const auto& led = led_[static_cast<size_t>(finger)];
+        return led ? *led : own_->target(finger, 0);
+    }
+    void do_see(const servo::Frame& frame) noexcept override {
+        if (ticks_++ % every_ != 0 || thrown_) return;
+        const py::gil_scoped_acquire python;
+        frame_ = &frame;
+        try {
+            act_();
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        } catch (...) {
+            thrown_ = std::current_exception();
+            stop_ = true;
+        }
+        frame_ = nullptr;
+    }
+    char do_take_key() noexcept override { return std::exchange(key_, '\0'); }
+
+    std::shared_ptr<const hand::Driver> own_;
+    py::function act_;
+    int64_t every_;
+    std::atomic<bool>& stop_;
+    std::vector<std::optional<hand::FingerTarget>> led_;
+    char key_ = '\0';
+    int64_t ticks_ = 0;
+    const servo::Frame* frame_ = nullptr;
+    std::exception_ptr thrown_;
+};
+
+/// A session that a person of Python's does.
+class Sitting {
+  public:
+    Sitting(const std::string& file, const std::string& rig, const std::vector<std::string>& set,
+            uint64_t seed, const std::string& participant)
+        : participant_(recording::simulated_id(participant)),
+          plan_(plan_of(file, rig, set, seed, participant_)) {
+        if (plan_.task) return;
+        throw Error({file, 0}, "task", "is missing: there are no trials to do",
+                    "Name an experiment with trials.");
+    }
+
+    /// Does all trials; returns the session's folder. `name`: of the person's class.
+    std::string run(const py::function& act, double every, const std::string& name,
+                    const std::string& out) {
+        const int ticks = std::max(1, static_cast<int>(std::lround(every / plan_.settings.tick())));
+        hand_ = std::make_shared<PythonHand>(plan_, act, ticks, stop_);
+        plan_.driver = plan_.seeing = hand_;
+        plan_.moved_by = {recording::Mover::simulated_person,
+                          recording::program_version() + ", Python's " + name, "",
+                          std::to_string(plan_.seed)};
+        session::RunOptions options;
+        options.out = out;
+        options.command = "dihaptic.run(person=" + name + ")";
+        options.participant.id = participant_;
+        std::string folder;
+        {
+            const py::gil_scoped_release others_may_run;
+            folder = session::record(plan_, options, stop_).folder;
+        }
+        if (hand_->thrown()) std::rethrow_exception(hand_->thrown());
+        return folder;
+    }
+
+    void lead(size_t finger, const Vec3& position, const Vec3& velocity) {
+        hand_->lead(finger, position, velocity);
+    }
+    void press(const std::string& key) {
+        if (key.size() != 1)
+            throw Error({}, "key", fmt::format("is '{}'", key), "Press one letter or digit.");
+        hand_->press(key.front());
+    }
+    double time() const { return seconds(hand_->frame().time); }
+    std::string state() const {
+        const auto phase = static_cast<size_t>(hand_->frame().phase);
+        return plan_.task->phases()[phase];
+    }
+    std::string message() const {
+        const int32_t index = hand_->frame().task.message;
+        return index < 0 ? "" : plan_.task->messages[static_cast<size_t>(index)];
+    }
+    py::object read(const std::string& list, size_t item, const std::string& name) const {
+        return FrameValue(list, item, name).of(hand_->frame());
+    }
+    Vec3 shown_finger(size_t finger) const {
+        return servo::displayed_handle(hand_->frame(), finger).p;
+    }
+    Vec3 shown_body(size_t body) const { return servo::displayed_body(hand_->frame(), body).p; }
+    bool is_shown(size_t body) const { return servo::is_displayed(hand_->frame(), body); }
+    /// The targets that are shown, by the names of their regions.
+    std::vector<std::pair<std::string, Vec3>> targets() const {
+        std::vector<std::pair<std::string, Vec3>> out;
+        const servo::Frame& frame = hand_->frame();
+        for (size_t i = 0; i < frame.task.targets.size(); ++i) {
+            const auto region = static_cast<size_t>(frame.task.targets[i].region);
+            out.emplace_back(plan_.task->task.regions[region].name,
+                             servo::displayed_target(frame, i));
+        }
+        return out;
+    }
+    std::vector<std::string> fingers() const { return scene::finger_names(plan_.scene); }
+    std::vector<std::string> bodies() const { return names(plan_.scene.bodies); }
+    std::vector<std::string> joints() const { return names(scene::recorded_joints(plan_.scene)); }
+
+  private:
+    static session::Plan plan_of(const std::string& file, const std::string& rig,
+                                 const std::vector<std::string>& set, uint64_t seed,
+                                 const std::string& participant) {
+        session::Request request;
+        request.file = file;
+        request.rig = rig;
+        request.set = set;
+        request.seed = seed;
+        request.participant = participant;
+        request.simulate = true;
+        return session::make_plan(request);
+    }
+
+    std::string participant_;
+    session::Plan plan_;
+    std::shared_ptr<PythonHand> hand_;
+    std::atomic<bool> stop_{false};
+};
+
+}  // namespace
+
+void add_person(py::module_& m) {
+    py::class_<Sitting>(m, "Sitting")
+        .def(py::init<const std::string&, const std::string&, const std::vector<std::string>&,
+                      uint64_t, const std::string&>())
+        .def("run", &Sitting::run)
+        .def("lead", &Sitting::lead)
+        .def("press", &Sitting::press)
+        .def("time", &Sitting::time)
+        .def("state", &Sitting::state)
+        .def("message", &Sitting::message)
+        .def("read", &Sitting::read)
+        .def("shown_finger", &Sitting::shown_finger)
+        .def("shown_body", &Sitting::shown_body)
+        .def("is_shown", &Sitting::is_shown)
+        .def("targets", &Sitting::targets)
+        .def("fingers", &Sitting::fingers)
+        .def("bodies", &Sitting::bodies)
+        .def("joints", &Sitting::joints);
+}
+
+}  // namespace dihaptic::python

@@ -1,0 +1,292 @@
+"""What is decided between trials in Python acts, is recorded, and never holds a session up."""
+
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import dihaptic as dh
+from dihaptic import Part
+from dihaptic.between import listening
+from dihaptic.program import program
+
+THRESHOLD = 1.3
+TRIALS = 25
+
+
+def experiment(**task):
+    """Trials of a tenth of a second that are seen if their size is above a threshold."""
+    return dh.Experiment(
+        title="Seen or not",
+        scene=str(pathlib.Path("scenes/block-on-table.yaml").absolute()),
+        hand={"centre_mm": [0, 0, 60], "aperture_mm": 85},
+        task={
+            "states": [
+                {
+                    "name": "look",
+                    "exits": [
+                        {"when": f"time_in_state > 0.05 and size > {THRESHOLD}", "outcome": "seen"},
+                        {"when": "time", "after_s": 0.1, "outcome": "unseen"},
+                    ],
+                }
+            ],
+            "feedback_s": 0.2,
+            **task,
+        },
+    )
+
+
+def with_variable(blocks=None):
+    return experiment(
+        variables=[{"name": "size"}, {"name": "force_N"}],
+        blocks=blocks or [{"name": "trials", "kind": "baseline", "repeats": TRIALS}],
+    )
+
+
+class Quest:
+    """QUEST as Watson and Pelli (1983) have it, on a grid of 0.01 about 0, with its usual settings."""
+
+    def __init__(self, mean, sd, target=0.82, slope=3.5, guess=0.5, blind=0.01, grain=0.01, cells=500):
+        at = np.arange(-cells // 2, cells // 2 + 1) * grain
+        self.grain, self.mean, self.thresholds = grain, mean, mean + at
+        self.posterior = np.exp(-0.5 * (at / sd) ** 2)
+        self.posterior /= self.posterior.sum()
+        lapse = blind * (1 - guess)
+        x = np.arange(-cells, cells + 1) * grain
+        yes = lambda x: guess + (1 - guess - lapse) * (1 - np.exp(-(10 ** (slope * x))))
+        shift = np.interp(target, yes(x), x)
+        self.x, self.yes = x, yes(x + shift)
+        low, high = self.yes[0], self.yes[-1]
+        entropy = lambda p: -sum(q * np.log(q) for q in (p, 1 - p) if q > 0)
+        best = 1 / (1 + np.exp((entropy(high) - entropy(low)) / (high - low)))
+        self.quantile = (best - low) / (high - low)
+
+    def level(self):
+        below = np.concatenate([[0], np.cumsum(self.posterior)])
+        i = int(np.flatnonzero((below[1:] >= self.quantile) & (self.posterior > 0))[0])
+        step = self.thresholds[i] - self.thresholds[i - 1]
+        return self.thresholds[i - 1] + step * (self.quantile - below[i]) / self.posterior[i]
+
+    def answer(self, level, seen):
+        nearest = self.mean + round((level - self.mean) / self.grain) * self.grain
+        p = np.interp(nearest - self.thresholds, self.x, self.yes)
+        self.posterior *= p if seen else 1 - p
+        self.posterior /= self.posterior.sum()
+
+
+class ByQuest(dh.BetweenTrials):
+    def __init__(self):
+        self.quest = Quest(0.3, 0.3, guess=0.0)
+        self.level = None
+
+    def decide(self, last):
+        if last.trial_num:
+            self.quest.answer(self.level, last.outcome == "seen")
+        self.level = self.quest.level()
+        return dh.Next(variables={"size": 10**self.level})
+
+
+class Deciding(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_it(self, what, rules, **options):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            session = dh.run(what, out=self.folder.name, between=rules, progress=False, **options)
+        return session, "\n".join(str(warning.message) for warning in told)
+
+    def test_quest_is_the_built_in_one(self):
+        """With the same answers, the same levels."""
+        built_in = experiment(
+            procedures=[
+                {
+                    "name": "size", "level": "size", "yes": "seen", "no": "unseen", "trials": TRIALS, "guess": 0,
+                    "logarithmic": True, "quest": {"prior_mean": 0.3, "prior_sd": 0.3, "lowest": -2, "highest": 2},
+                }
+            ],
+            blocks=[{"name": "trials", "kind": "baseline", "procedures": ["size"]}],
+        )  # fmt: skip
+        rules = ByQuest()
+        ours, told = self.run_it(with_variable(), rules)
+        theirs, _ = self.run_it(built_in, None)
+        self.assertEqual(told, "")
+        self.assertEqual(list(ours.trials.outcome), list(theirs.trials.outcome))
+        self.assertEqual({"seen", "unseen"}, set(ours.trials.outcome))
+        level = next(c for c in theirs.trials.columns if c.startswith("size") or c == "level")
+        np.testing.assert_allclose(ours.trials["size"], theirs.trials[level], rtol=1e-6)
+        self.assertEqual(len(rules.attempts), TRIALS)
+
+    def test_what_was_decided_is_recorded_for_replay_and_resume(self):
+        class Units(dh.BetweenTrials):
+            def decide(self, last):
+                return dh.Next(variables={"force_N": 2.5 + last.trial_num, "size": 1})
+
+        session, told = self.run_it(with_variable(), Units())
+        self.assertEqual(told, "")
+        np.testing.assert_allclose(session.trials.force_N, 2.5 + np.arange(TRIALS))
+        after = next(c for c in session.trials.columns if "force" in c and c != "force_N")
+        np.testing.assert_allclose(session.trials[after][:-1], 3.5 + np.arange(TRIALS - 1))
+        self.assertTrue(dh.replay(session, progress=False))
+
+    def test_a_trial_of_the_block_is_chosen(self):
+        class Backward(dh.BetweenTrials):
+            def decide(self, last):
+                block = 1 if last.trial_num not in (1, 5, 6, 7, 8) else 2
+                left = self.trials.query(f"block_num == {block}").trial_num.tolist()
+                done = [attempt.trial_num for attempt in self.attempts]
+                return dh.Next(trial_num=max(set(left) - set(done)))
+
+        blocks = [{"name": name, "kind": "baseline", "repeats": 4} for name in ("first", "second")]
+        rules = Backward()
+        session, told = self.run_it(with_variable(blocks), rules)
+        self.assertEqual(list(session.trials.trial_num), [4, 3, 2, 1, 8, 7, 6, 5])
+        self.assertEqual(told, "")
+        self.assertEqual(len(rules.failures), 0)
+
+    def test_a_choice_that_cannot_be_is_told(self):
+        class Wrong(dh.BetweenTrials):
+            messages = ["one"]
+
+            def decide(self, last):
+                return [
+                    dh.Next(trial_num=7),  # of the second block
+                    dh.Next(trial_num=1),  # done already
+                    dh.Next(trial_num=99),
+                    dh.Next(variables={"weight": 3}),
+                    dh.Next(message="two"),
+                    dh.Next(variables={"size": float("nan")}),
+                    dh.Next(variables={"size": "large"}),
+                    None,
+                ][last.trial_num]
+
+        blocks = [{"name": name, "kind": "baseline", "repeats": 4} for name in ("first", "second")]
+        session, told = self.run_it(with_variable(blocks), Wrong())
+        self.assertEqual(list(session.trials.trial_num), list(range(1, 9)))
+        for what in (
+            "chose 2 times a trial that was not left in the block",
+            "chooses trial 99, which there is not, after trial 2",
+            "sets 'weight', which is no variable of the task, after trial 3",
+            "says what is no answer, after trial 5",
+            "failed (ValueError: 'two' is not in list)",
+            "failed (ValueError: could not convert string to float: 'large')",
+        ):
+            self.assertIn(what, told)
+            self.assertIn(what, "\n".join(session.info["notes"]))
+
+    def test_one_that_raises_does_not_end_the_session(self):
+        class Raises(dh.BetweenTrials):
+            def decide(self, last):
+                return 1 / last.trial_num
+
+        rules = Raises()
+        session, told = self.run_it(with_variable(), rules)
+        self.assertEqual(session.info["state"], "complete")
+        self.assertEqual(len(session.trials), TRIALS)
+        self.assertIn("failed (ZeroDivisionError: division by zero)", told)
+        self.assertIn("in decide", rules.failures[0])
+
+    def test_in_real_time_a_slow_one_delays_no_tick(self):
+        """One that takes 50 ms is waited for; one that takes longer than the patience is not."""
+
+        class Slow(dh.BetweenTrials):
+            def __init__(self, slow):
+                self.slow = slow
+
+            def decide(self, last):
+                time.sleep(self.slow)
+                return dh.Next(variables={"size": 2.0 + last.trial_num})
+
+        blocks = [{"name": "trials", "kind": "baseline", "repeats": 3}]
+        for slow, late in ((0.05, False), (1.2, True)):
+            with self.subTest(slow):
+                found, told = self.run_in_real_time(with_variable(blocks), Slow(slow))
+                self.assertEqual(len(found.trials), 3)
+                self.assertEqual("too late" in told, late)
+                if not late:
+                    np.testing.assert_allclose(found.trials["size"], [2, 3, 4])
+                ticks = np.diff(found.t)
+                np.testing.assert_allclose(ticks, found.tick, atol=1e-9)
+
+    def run_in_real_time(self, what, rules):
+        file = what.save(f"{self.folder.name}/real.yaml")
+        with listening(rules) as asking:
+            command = [program(), "run", file, "--clock", "real", "--out", self.folder.name, *asking]
+            done = subprocess.run(command, capture_output=True, text=True)
+        self.assertIn("session: ", done.stdout, done.stderr)
+        return dh.load(done.stdout.split("session: ")[1].strip()), done.stdout
+
+    def test_one_that_goes_away_does_not_end_the_session(self):
+        def leave(server):
+            connection, _ = server.accept()
+            connection.sendall(b'{"messages": []}\n')
+            lines = connection.makefile("r")
+            for _ in range(2):
+                lines.readline()
+            connection.close()
+            lines.close()
+
+        done = self.against(leave)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("went away: the trials went on as the file has them", done.stdout)
+        self.assertIn("session: ", done.stdout)
+
+    def test_nonsense_is_refused(self):
+        for said, what in [
+            (b"hello\n", "does not begin with its messages"),
+            (b'{"messages": 3}\n', "does not begin with its messages"),
+            (b'{"messages": [3]}\n', "has a message that is no text"),
+            (b"", "does not greet"),
+            (b"x" * 100_000, "does not greet"),
+        ]:
+            with self.subTest(said[:20]):
+                done = self.against(lambda server: self.say_and_close(server, said))
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(what, done.stderr)
+        answers = b'{"messages": []}\n' + b"no json\n[]\n{}\n" + b'{"number": 1, "set": 3, "next": "x", "message": 1.5}\n'
+        done = self.against(lambda server: self.say_and_close(server, answers))
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("says what is no answer", done.stdout)
+        done = subprocess.run([program(), "run", self.file(), "--between", "/nowhere"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/nowhere: error: does not answer: No such file or directory", done.stderr)
+
+    def test_without_trials_there_is_nothing_to_decide(self):
+        with self.assertRaisesRegex(dh.Error, "nothing between trials to decide"):
+            dh.run("scenes/block-on-table.yaml", out=self.folder.name, between=ByQuest(), progress=False)
+
+    def say_and_close(self, server, said):
+        connection, _ = server.accept()
+        with connection:
+            try:
+                connection.sendall(said)
+            except OSError:
+                pass
+
+    def file(self):
+        return with_variable().save(f"{self.folder.name}/experiment.yaml")
+
+    def against(self, serve):
+        with socket.socket(socket.AF_UNIX) as server:
+            path = f"{self.folder.name}/socket-{time.monotonic_ns()}"
+            server.bind(path)
+            server.listen(1)
+            thread = threading.Thread(target=serve, args=(server,))
+            thread.start()
+            command = [program(), "run", self.file(), "--out", self.folder.name, "--between", path]
+            done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+            thread.join()
+        return done
+
+
+if __name__ == "__main__":
+    unittest.main()

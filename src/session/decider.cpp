@@ -1,0 +1,290 @@
+#include "session/decider.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "base/plural.h"
+#include "base/unit.h"
+
+namespace dihaptic::session {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kPatience = 1;             // [s]
+constexpr int kGreeting = 5000;             // longest wait for the greeting [ms]
+constexpr size_t kLongestLine = 64 * 1024;  // [bytes]
+constexpr size_t kMostMessages = 64;
+constexpr size_t kMostNotes = 10;
+
+Error refused(const std::string& socket, const std::string& what) {
+    return Error({socket, 0}, "", what,
+                 "Start what decides between trials first; dihaptic.run() of Python does both.");
+}
+
+/// The lines that come through a socket.
+class Lines {
+  public:
+    explicit Lines(const std::string& path) : descriptor_(socket(AF_UNIX, SOCK_STREAM, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        if (path.size() >= sizeof(address.sun_path)) throw refused(path, "is too long a path");
+        std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+        const auto* const to = reinterpret_cast<const sockaddr*>(&address);
+        if (descriptor_ < 0 || connect(descriptor_, to, sizeof(address)) != 0) {
+            const std::string why = std::strerror(errno);
+            if (descriptor_ >= 0) close(descriptor_);
+            throw refused(path, "does not answer: " + why);
+        }
+    }
+    ~Lines() { close(descriptor_); }
+    Lines(const Lines&) = delete;
+    Lines& operator=(const Lines&) = delete;
+
+    /// Sends a line; a reader that is gone, or does not read, loses it.
+    void send(const Json& line) const {
+        const std::string text = line.dump() + "\n";
+        ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    }
+    /// Waits for a line, for so long; nullopt: none came. `gone`: nothing will come any more.
+    std::optional<std::string> read(std::chrono::microseconds wait, bool& gone) {
+        if (auto line = take()) return line;
+        pollfd what{descriptor_, POLLIN, 0};
+        const timespec time{0, static_cast<long>(wait.count()) * 1000};
+        if (ppoll(&what, 1, &time, nullptr) <= 0) return std::nullopt;
+        char bytes[4096];
+        const ssize_t size = recv(descriptor_, bytes, sizeof(bytes), 0);
+        if (size > 0) read_.append(bytes, static_cast<size_t>(size));
+        const bool again = size < 0 && (errno == EAGAIN || errno == EINTR);
+        gone = (size <= 0 && !again) || read_.size() > kLongestLine;
+        return take();
+    }
+
+  private:
+    std::optional<std::string> take() {
+        const size_t end = read_.find('\n');
+        if (end == std::string::npos) return std::nullopt;
+        std::string line = read_.substr(0, end);
+        read_.erase(0, end + 1);
+        return line;
+    }
+    int descriptor_;
+    std::string read_;
+};
+
+/// A variable of the task, which goes out in its own unit.
+struct Variable {
+    std::string name;
+    double si = 1;
+};
+
+}  // namespace
+
+struct Decider::Parts {
+    std::string path;
+    Lines lines;
+    std::vector<std::string> messages;
+    int first_message = 0;  // index in the plan's list
+    std::vector<std::string> outcomes;
+    std::vector<Variable> variables;
+    size_t trials = 0;
+    std::optional<task::Between> between;
+    int64_t asked = 0;
+    int asked_trial = 0;
+    std::vector<std::string> notes;
+    std::atomic<bool> ended{false};
+    std::thread thread;
+
+    explicit Parts(const std::string& socket) : path(socket), lines(socket) {}
+
+    void greet();
+    void run(bool waits) noexcept;
+    void ask(const task::Ended& ended_attempt);
+    void take(const std::string& line);
+    void set(const Json& values, task::Decision& out);
+    void choose(const Json& json, task::Decision& out);
+    void decide(task::Decision out) {
+        out.number = asked;
+        between->decide(out);
+    }
+    void note(const std::string& what) {
+        if (notes.size() < kMostNotes)
+            notes.push_back(
+                fmt::format("What decides between trials {}, after trial {}.", what, asked_trial));
+    }
+};
+
+void Decider::Parts::greet() {
+    bool gone = false;
+    for (int waited = 0; waited < kGreeting && !gone; waited += 100) {
+        const auto line = lines.read(std::chrono::milliseconds(100), gone);
+        if (!line) continue;
+        const Json json = Json::parse(*line, nullptr, false);
+        if (!json.is_object() || !json.contains("messages") || !json["messages"].is_array() ||
+            json["messages"].size() > kMostMessages)
+            throw refused(path, "does not begin with its messages");
+        for (const Json& message : json["messages"]) {
+            if (!message.is_string()) throw refused(path, "has a message that is no text");
+            messages.push_back(message.get<std::string>());
+        }
+        return;
+    }
+    throw refused(path, "does not greet");
+}
+
+void Decider::Parts::ask(const task::Ended& attempt) {
+    Json values = Json::object();
+    for (size_t i = 0; i < variables.size(); ++i) {
+        const double value = attempt.variables[i] / variables[i].si;
+        values[variables[i].name] = std::isfinite(value) ? Json(value) : Json();
+    }
+    asked = attempt.number;
+    asked_trial = attempt.trial;
+    lines.send(
+        {{"number", attempt.number},
+         {"trial_num", attempt.trial},
+         {"attempt", attempt.attempt},
+         {"outcome",
+          attempt.outcome < 0 ? Json() : Json(outcomes[static_cast<size_t>(attempt.outcome)])},
+         {"variables", values}});
+}
+
+void Decider::Parts::set(const Json& values, task::Decision& out) {
+    for (const auto& [name, value] : values.items()) {
+        const auto found = std::find_if(variables.begin(), variables.end(),
+                                        [&](const Variable& v) { return v.name == name; });
+        if (found == variables.end()) {
+            note(fmt::format("sets '{}', which is no variable of the task", name));
+        } else if (!value.is_number() || !std::isfinite(value.get<double>())) {
+            note(fmt::format("sets {} to what is no number", name));
+        } else {
+            out.variables[static_cast<size_t>(found - variables.begin())] =
+                value.get<double>() * found->si;
+        }
+    }
+}
+
+/// Which trial is next, and what is shown.
+void Decider::Parts::choose(const Json& json, task::Decision& out) {
+    if (json.contains("next") && json["next"].is_number_integer()) {
+        const auto next = json["next"].get<int64_t>();
+        if (next >= 1 && next <= static_cast<int64_t>(trials)) {
+            out.next = static_cast<int32_t>(next);
+        } else {
+            note(fmt::format("chooses trial {}, which there is not", next));
+        }
+    }
+    if (json.contains("message") && json["message"].is_number_integer()) {
+        const auto message = json["message"].get<int64_t>();
+        if (message >= 0 && message < static_cast<int64_t>(messages.size())) {
+            out.message = first_message + static_cast<int>(message);
+        } else {
+            note(fmt::format("shows message {}, which there is not", message));
+        }
+    }
+}
+
+void Decider::Parts::take(const std::string& line) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object() || !json.contains("number") || !json["number"].is_number_integer()) {
+        note("says what is no answer");
+        decide({});
+        return;
+    }
+    if (json["number"].get<int64_t>() != asked) return;  // too late: the director has counted it
+    task::Decision out;
+    if (json.contains("failed") && json["failed"].is_string())
+        note(fmt::format("failed ({}): the trials went on as the file has them",
+                         json["failed"].get<std::string>().substr(0, 200)));
+    if (json.contains("set") && json["set"].is_object()) set(json["set"], out);
+    choose(json, out);
+    decide(out);
+}
+
+void Decider::Parts::run(bool waits) noexcept {
+    const std::chrono::microseconds pause(waits ? 50 : 1000);
+    bool gone = false;
+    while (!ended && !gone) {
+        if (const auto question = between->question()) ask(*question);
+        if (const auto line = lines.read(pause, gone)) take(*line);
+    }
+    if (gone) note("went away: the trials went on as the file has them");
+    between->leave();
+}
+
+Decider::Decider(const std::string& socket) : parts_(std::make_unique<Parts>(socket)) {
+    parts_->greet();
+}
+
+Decider::~Decider() {
+    finish();
+}
+
+void Decider::prepare(Plan& plan) {
+    if (!plan.task) {
+        throw Error({plan.file, 0}, "task", "is missing: there is nothing between trials to decide",
+                    "Name an experiment with trials.");
+    }
+    auto task = std::make_shared<task::TaskPlan>(*plan.task);
+    parts_->first_message = static_cast<int>(task->messages.size());
+    for (const std::string& message : parts_->messages) {
+        task->messages.push_back(message);
+        task->numbers.emplace_back();
+    }
+    for (const task::TaskPlan::Outcome& outcome : task->outcomes)
+        parts_->outcomes.push_back(outcome.name);
+    for (const task::Variable& variable : task->task.variables)
+        parts_->variables.push_back({variable.name, split_unit(variable.name).si});
+    parts_->trials = task->trials.size();
+    plan.task = task;
+}
+
+void Decider::begin(const std::string& folder, bool waits) {
+    Json names = Json::array();
+    for (const Variable& variable : parts_->variables) names.push_back(variable.name);
+    parts_->between.emplace(kPatience, waits);
+    parts_->lines.send({{"session", folder},
+                        {"outcomes", parts_->outcomes},
+                        {"variables", names},
+                        {"patience_s", kPatience}});
+    parts_->thread = std::thread([this, waits] { parts_->run(waits); });
+}
+
+task::Between* Decider::between() const {
+    return parts_->between ? &*parts_->between : nullptr;
+}
+
+std::vector<std::string> Decider::finish() {
+    parts_->ended = true;
+    if (!parts_->thread.joinable()) return {};
+    parts_->thread.join();
+    std::vector<std::string> out = std::move(parts_->notes);
+    const task::Between& between = *parts_->between;
+    if (between.late() > 0) {
+        out.push_back(
+            fmt::format("What decides between trials was too late {}, or gone: the trials went on "
+                        "as the file has them.",
+                        counted(between.late(), "time")));
+    }
+    if (between.refused() > 0) {
+        out.push_back(
+            fmt::format("What decides between trials chose {} a trial that was not left in the "
+                        "block: the file's next was done.",
+                        counted(between.refused(), "time")));
+    }
+    return out;
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,78 @@
+// What decides between trials is asked once for each attempt, and late answers count for nothing.
+#include "task/between.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "session/test/allocations.h"
+#include "session/test/reaches.h"
+
+namespace dihaptic::task::between_test {
+namespace {
+
+Ended ended(int trial) {
+    Ended out;
+    out.trial = trial;
+    return out;
+}
+
+Decision decision(int64_t number, int next) {
+    Decision out;
+    out.number = number;
+    out.next = next;
+    return out;
+}
+
+TEST(Between, AnAnswerCountsForItsQuestionAlone) {
+    Between between(1, false);
+    EXPECT_FALSE(between.question());
+    between.ask(ended(1));
+    const auto first = between.question();
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->number, 1);
+    EXPECT_EQ(first->trial, 1);
+    EXPECT_FALSE(between.question()) << "it is taken once";
+    EXPECT_EQ(between.answer(), nullptr) << "nobody has decided";
+    between.ask(ended(2));
+    between.decide(decision(first->number, 5));
+    EXPECT_EQ(between.answer(), nullptr) << "that was about the trial before";
+    between.decide(decision(2, 7));
+    ASSERT_NE(between.answer(), nullptr);
+    EXPECT_EQ(between.answer()->next, 7);
+}
+
+TEST(Between, ADecisionLeavesWhatItDoesNotName) {
+    for (const double value : Decision{}.variables) EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(Between, OnTheVirtualClockTheDirectorWaits) {
+    Between between(1, true);
+    between.ask(ended(1));
+    std::jthread other([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+        between.decide(decision(between.question()->number, 3));
+    });
+    const Decision* const answer = between.answer();
+    ASSERT_NE(answer, nullptr);
+    EXPECT_EQ(answer->next, 3);
+}
+
+/// In real time, and though nobody ever answers.
+TEST(Between, NoTickAllocatesOrWaits) {
+    session::Files files;
+    Between between(0.1, false);
+    session::expect_no_allocation(session::make_plan(files.request()), 120, &between);
+    EXPECT_EQ(between.late(), 9) << "once before each trial";
+}
+
+TEST(Between, NobodyIsWaitedForWhoHasLeft) {
+    Between between(1, true);
+    between.ask(ended(1));
+    between.leave();
+    EXPECT_EQ(between.answer(), nullptr);
+    EXPECT_TRUE(between.gone());
+}
+
+}  // namespace
+}  // namespace dihaptic::task::between_test
