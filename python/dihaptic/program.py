@@ -77,9 +77,10 @@ def run(
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
     `simulate`: a simulated person on simulated devices does the trials. `between`: decides between
-    trials. `person`: a simulated one of your own does them, in this process. A session that was
-    interrupted, or whose force went off, is returned too, with a warning that says why. Raises Error
-    for whatever is wrong with the files.
+    trials. `person`: a simulated one of your own does them, in this process. With real devices, what
+    the command prints and asks is printed and asked here, and Escape and Ctrl-C switch force off. A
+    session that was interrupted, or whose force went off, is returned too, with a warning that says
+    why. Raises Error for whatever is wrong with the files.
 
     >>> import dihaptic as dh
     >>> session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
@@ -101,7 +102,8 @@ def run(
         command += ["--set", setting]
     with on_disk(file) as path, on_disk(rig) as rig_path, listening(between) as asking:
         command = ["run", str(path), *command, *asking] + (["--rig", str(rig_path)] if rig else [])
-        return _session_of(_call(command, progress))
+        real = not simulate and _native.on_real_devices(str(path), str(rig_path) if rig else "")
+        return _session_of(_call(command, progress, echo=real))
 
 
 def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
@@ -113,7 +115,9 @@ def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
     ...
     dihaptic.errors.Error: ...: error: has no trials that could go on. ...
     """
-    return _session_of(_call(["resume", _folder(session)], progress))
+    folder = _folder(session)
+    real = Session(folder).info.get("moved_by", {}).get("mover") == "devices"
+    return _session_of(_call(["resume", folder], progress, echo=real))
 
 
 def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
@@ -245,8 +249,9 @@ class _Answer:
         self.said = said  # on standard error, without progress
 
 
-def _call(command: Sequence[str], progress: bool) -> _Answer:
-    """Runs a command to its end. Raises Error when its input was bad."""
+def _call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
+    """Runs a command to its end. Raises Error when its input was bad. `echo`: with what it prints,
+    since with real devices it asks, and tells how to switch force off."""
     with subprocess.Popen(
         [program(), *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as process:
@@ -254,7 +259,13 @@ def _call(command: Sequence[str], progress: bool) -> _Answer:
         said: list[str] = []
         watcher = threading.Thread(target=_watch, args=(process.stderr, said, progress))
         watcher.start()
-        output = process.stdout.read().splitlines()
+        text = ""
+        while some := process.stdout.read(1 if echo else -1):
+            text += some
+            if echo:
+                sys.stdout.write(some)
+                sys.stdout.flush()
+        output = text.splitlines()
         watcher.join()
     if process.returncode == _BAD_INPUT:
         raise Error(_problems(said + output) or [Problem("error", "", 0, "", "\n".join(said), "")])

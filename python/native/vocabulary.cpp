@@ -19,6 +19,7 @@
 #include "recording/schema.h"
 #include "servo/frame.h"
 #include "session/check.h"
+#include "session/plan.h"
 
 namespace py = pybind11;
 
@@ -155,6 +156,13 @@ std::vector<ProblemRow> check_file(const std::string& file, const std::string& r
     return out;
 }
 
+bool on_real_devices(const std::string& file, const std::string& rig) {
+    session::Request request;
+    request.file = file;
+    request.rig = rig;
+    return session::on_real_devices(request);
+}
+
 using Lines = std::vector<std::pair<std::string, int>>;
 
 void add_lines(const Node& node, const std::string& path, Lines& out) {
@@ -198,6 +206,7 @@ void add_vocabulary(py::module_& m) {
     m.def("read_yaml", [](const std::string& file) { return to_python(read_yaml(file)); });
     m.def("write_yaml", [](const py::handle& value) { return to_yaml(to_node(value)); });
     m.def("check_file", &check_file);
+    m.def("on_real_devices", &on_real_devices);
     m.def("lines_of", &lines_of);
     m.def("log_head", &log_head);
     m.def("log_values", &log_values);

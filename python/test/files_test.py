@@ -1,8 +1,10 @@
 """Scenes, rigs and experiments that are made of objects are the files that one would have written."""
 
+import copy
 import glob
 import os
 import pathlib
+import pickle
 import shutil
 import tempfile
 import unittest
@@ -138,6 +140,14 @@ class Files(unittest.TestCase):
         self.assertIn("redo", experiment.task.states[0].exits[0].known())
         self.assertEqual(Part(a=1).known(), {})
         self.assertNotIn("__no_key__", state)
+
+    def test_a_copy_is_a_scene_of_its_own(self):
+        scene = Scene.load(PROJECT / "scenes/block-on-table.yaml")
+        for again in (copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+            self.assertEqual(again, scene)
+            again.bodies[1].mass_g = 1
+            self.assertEqual(scene.bodies[1].mass_g, 100)
+            self.assertEqual(again.check(), [])
 
     def test_values_may_be_numpy_s(self):
         part = Part(size_mm=np.array([1.5, 2, 3]), mass_g=np.float64(2), fixed=np.bool_(True), file=pathlib.Path("a/b.obj"))
