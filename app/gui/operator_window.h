@@ -1,5 +1,6 @@
 // The operator's window: the scene, and around it panels for the session, its devices and plots,
-// and for what may be changed.
+// and for what may be changed. Its menus are in operator_menus.cpp, what concerns the open file in
+// operator_files.cpp, and what comes before a session in operator_start.cpp.
 #pragma once
 
 #include <QElapsedTimer>
@@ -96,7 +97,6 @@ class OperatorWindow : public QMainWindow {
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void run(const session::Plan& plan, const recording::Participant& participant,
              std::unique_ptr<devices::DeviceGroup> devices);
-    /// Calibrates the rig that is chosen, or else the file's.
     /// Of the rig that is chosen, or that the open file names; empty: none.
     QString rig_file() const;
     void calibrate();

@@ -1,0 +1,180 @@
+// The operator's window: the file that is open, and those that may be.
+#include "operator_window.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <utility>
+
+#include "session_player.h"
+#include "sessions_dialog.h"
+
+namespace dihaptic::gui {
+
+void OperatorWindow::connect_files() {
+    connect(composer_, &Composer::edited, this, &OperatorWindow::reload);
+    connect(composer_, &Composer::saved, this, &OperatorWindow::reload);
+    connect(composer_, &Composer::modified, save_action_, &QAction::setEnabled);
+    connect(start_page_, &StartPage::chosen, this, &OperatorWindow::open);
+    connect(start_page_, &StartPage::open_requested, this, &OperatorWindow::choose_file);
+    connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
+    connect(calibrator_, &Calibrator::logged, this, &OperatorWindow::log);
+    connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
+    connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
+    connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
+    reload_.setSingleShot(true);
+    connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
+    connect(&reload_, &QTimer::timeout, this, &OperatorWindow::reload);
+}
+
+void OperatorWindow::choose_file() {
+    // loading that ends while the dialog is open must not start a session
+    start_when_opened_ = false;
+    starts_.reset();
+    const QString start = file_.isEmpty() ? QString("experiments") : QFileInfo(file_).path();
+    const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
+                                                      "Scenes and experiments (*.yaml)");
+    if (!file.isEmpty()) open(file);
+}
+
+void OperatorWindow::save_as() {
+    if (file_.isEmpty() || !open_action_->isEnabled()) return;
+    const QString file =
+        QFileDialog::getSaveFileName(this, "Save as", file_, "Scenes and experiments (*.yaml)");
+    if (!file.isEmpty() && composer_->save_as(file)) open(file);
+}
+
+void OperatorWindow::choose_session() {
+    auto* dialog = new SessionsDialog(out_, this);
+    connect(dialog, &SessionsDialog::chosen, this, &OperatorWindow::play_sessions);
+    dialog->open();
+}
+
+void OperatorWindow::play_sessions(const QStringList& folders) {
+    try {
+        open_sessions(folders);
+    } catch (const Error& e) {
+        log(e.what(), true);
+    }
+}
+
+session::Request OperatorWindow::request(const QString& file) const {
+    session::Request request;
+    request.file = file.toStdString();
+    request.rig = session_->rig().toStdString();
+    request.mouse = session_->hand() == SessionPanel::Hand::mouse;
+    request.simulate = session_->hand() == SessionPanel::Hand::person;
+    request.participant = session_->participant().toStdString();
+    // for showing a file that needs a participant; a session has its own
+    if (request.participant.empty()) request.participant = "S01";
+    request.set.emplace_back("proxy.changeable=yes");
+    return request;
+}
+
+void OperatorWindow::show_start_page() {
+    if (!open_action_->isEnabled()) return;
+    start_page_->fill();
+    centre_->setCurrentWidget(start_page_);
+}
+
+bool OperatorWindow::may_leave_text() {
+    if (!composer_->changed()) return true;
+    const auto answer = QMessageBox::question(
+        this, "Save?", QString("%1 has changes that were not saved.").arg(file_),
+        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && composer_->save());
+}
+
+void OperatorWindow::open(const QString& file) {
+    if (!may_leave_text()) return;
+    composer_->forget();
+    start_page_->rest();
+    centre_->setCurrentWidget(scene_);
+    file_ = file;
+    starts_.reset();
+    recorded_.clear();
+    if (const QStringList watched = watcher_.files(); !watched.isEmpty())
+        watcher_.removePaths(watched);
+    watcher_.addPath(file);
+    QStringList rigs;
+    for (const QFileInfo& rig :
+         QDir(QFileInfo(file).dir().filePath("../rigs")).entryInfoList({"*.yaml"}))
+        rigs += rig.filePath();
+    session_->set_rigs(rigs);
+    reload();
+}
+
+void OperatorWindow::reload() {
+    if (file_.isEmpty()) return;
+    // when an editor replaces the file it is watched no longer
+    if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
+    changed_ = runner_.running() || starts_;
+    if (changed_) return;
+    composer_->open(file_);
+    loader_.load({request(composer_->source()), false, false, ""});
+    update_state();
+}
+
+void OperatorWindow::opened(const Opened& opened) {
+    auto devices = loader_.take_devices();  // closed again, unless a session starts now
+    if (runner_.running()) return;
+    plan_ = opened.plan;
+    remember(file_);
+    frame_ = opened.frame;
+    complaint_.clear();
+    text_is_wrong_ = false;
+    // of real devices that have been opened, more may be known than before
+    QStringList warnings;
+    for (const Problem& warning : plan_->warnings)
+        warnings += QString::fromStdString(warning.text());
+    composer_->show_problems(warnings);
+    if ((!starts_ || rig::is_real(plan_->rig)) && !composer_->changed()) {
+        for (const QString& warning : warnings) log(warning, true);
+    }
+    workspaces_ = opened.workspaces;
+    scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
+    subjects_.set_scene(plan_->scene, frame_, plan_->rig);
+    plots_->set_scene(plan_->scene);
+    tuning_->set_knobs(servo::Knobs::of(plan_->settings));
+    devices_->set_devices(opened.devices);
+    camera_menu_->clear();
+    for (const view::Camera& camera : scene_->cameras()) {
+        camera_menu_->addAction(QString::fromStdString(camera.name), this,
+                                [this, name = camera.name] { scene_->set_camera(name); });
+    }
+    const QString title = QString::fromStdString(plan_->title);
+    session_->set_file(file_);
+    setWindowTitle(title + " - Dihaptic");
+    for (const QString& line : opened.told) log(line);
+    if (starts_) {
+        const recording::Participant asked = *std::exchange(starts_, std::nullopt);
+        return run(*plan_, opened.participant.value_or(asked), std::move(devices));
+    }
+    if (!composer_->changed()) log(QString("opened %1: %2").arg(file_, title));
+    update_state();
+    if (start_when_opened_) start();
+}
+
+void OperatorWindow::refused(const QStringList& problems) {
+    text_is_wrong_ = composer_->changed();
+    if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
+    starts_.reset();
+    composer_->show_problems(problems);
+    if (!composer_->changed()) {  // who types sees what is wrong where it is
+        complaint_ = problems.front();
+        for (const QString& problem : problems) log(problem, true);
+        if (plan_) log("What was open stays as it is.");
+    }
+    update_state();
+    if (changed_) reload();
+}
+
+void OperatorWindow::choose_folder() {
+    const QString folder = QFileDialog::getExistingDirectory(this, "Where sessions go", out_);
+    if (folder.isEmpty()) return;
+    out_ = folder;
+    log("sessions go to " + folder);
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,209 @@
+// The operator's window: what comes before a session, up to its start.
+#include "operator_window.h"
+
+#include <QDate>
+#include <QDateTime>
+#include <QDir>
+#include <QLocale>
+#include <QMessageBox>
+#include <QPushButton>
+#include <limits>
+#include <utility>
+
+#include "rig/calibration_guide.h"
+
+namespace dihaptic::gui {
+namespace {
+
+const QString kMouseHelp =
+    "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
+    "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
+    "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.\n"
+    "H: the hand stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
+const QString kFingerHelp =
+    "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
+    "Right drag: look around.   Ctrl + wheel: zoom.\n"
+    "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
+
+/// A simulated person, unless the operator gives it another name.
+const std::string kSimulated = "sim-001";
+
+QString question_of(const session::Unfinished& session, const std::string& participant) {
+    const QDateTime started =
+        QDateTime::fromString(QString::fromStdString(session.started), Qt::ISODate).toLocalTime();
+    const QString done =
+        session.done == 0
+            ? QString("not finished")
+            : QString("stopped after %1 of %2 trials").arg(session.done).arg(session.trials);
+    return QString(
+               "%1 began this experiment on %2, and the session was %3. %4\n\nGo on with it in the "
+               "same way, or start anew?")
+        .arg(QString::fromStdString(participant), QLocale().toString(started, "d MMMM, HH:mm"),
+             done, QString::fromStdString(session.moved_by.describe()));
+}
+
+/// A person's hand, and what stands in for it at a script's own pace, need real time.
+session::Clock clock_of(const session::Plan& plan, double pace) {
+    const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
+    return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
+               ? session::Clock::virtual_clock
+               : session::Clock::real;
+}
+
+/// Peak force of the weakest device [N].
+double least_peak(const session::Plan& plan) {
+    double out = std::numeric_limits<double>::infinity();
+    for (const devices::DeviceInfo& device : plan.devices)
+        out = std::min(out, plan.settings.safety.largest_force(device.peak_force));
+    return out;
+}
+
+}  // namespace
+
+void OperatorWindow::start() {
+    composer_->check_now();
+    start_when_opened_ = loader_.loading() && !starts_;
+    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (text_is_wrong_ && composer_->changed()) return refuse_to_start();
+    // what can hurt is looked at before, and what cannot when one likes
+    if (rig::is_real(plan_->rig)) {
+        show_checklist(true);
+    } else {
+        start_checked();
+    }
+}
+
+void OperatorWindow::refuse_to_start() {
+    log("The text has errors: it was not saved, and no session starts.", true);
+}
+
+void OperatorWindow::show_checklist(bool before_start) {
+    const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
+    auto* list =
+        new Checklist(session::readiness(*plan_, out_.toStdString(), today), before_start, this);
+    connect(list, &Checklist::chosen, this, &OperatorWindow::remedy);
+    if (before_start) connect(list, &QDialog::accepted, this, &OperatorWindow::start_checked);
+    list->open();
+}
+
+void OperatorWindow::remedy(session::Remedy remedy) {
+    switch (remedy) {
+        case session::Remedy::calibrate:
+            return calibrate();
+        case session::Remedy::register_display:
+            return calibrator_->register_display(rig_file());
+        case session::Remedy::choose_folder:
+            return choose_folder();
+        case session::Remedy::allow_real_time:
+            return show_page_of_docs("safety.md");
+        case session::Remedy::none:
+            return;
+    }
+}
+
+void OperatorWindow::start_checked() {
+    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (session_->hand() == SessionPanel::Hand::person) {
+        const QString id = session_->participant();
+        begin({id.isEmpty() ? kSimulated : id.toStdString(), "", "", ""});
+    } else if (plan_->task) {
+        start_trials();
+    } else {
+        begin({session_->participant().toStdString(), "", "", ""});
+    }
+}
+
+void OperatorWindow::start_trials() {
+    const std::string id = session_->participant().toStdString();
+    if (id != participant_.id) participant_ = {id, "", "", ""};
+    auto* dialog = new ParticipantDialog(participant_, task::needs_number(plan_->task->task), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QDialog::accepted, this, [this, dialog] {
+        participant_ = dialog->participant();
+        session_->set_participant(QString::fromStdString(participant_.id));
+        begin_or_go_on(participant_);
+    });
+    dialog->open();
+}
+
+void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
+    if (!plan_ || runner_.running()) return;
+    if (participant.id.empty()) return begin(participant);
+    const auto sessions =
+        session::find_unfinished(out_.toStdString(), plan_->title, participant.id);
+    if (sessions.empty()) return begin(participant);
+    auto* box = new QMessageBox(this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setWindowTitle("Go on?");
+    box->setText(question_of(sessions.front(), participant.id));
+    QPushButton* go_on = box->addButton("&Go on", QMessageBox::AcceptRole);
+    QPushButton* anew = box->addButton("Start &anew", QMessageBox::DestructiveRole);
+    box->addButton(QMessageBox::Cancel);
+    box->setDefaultButton(go_on);
+    connect(box, &QMessageBox::buttonClicked, this,
+            [=, this, folder = sessions.front().folder](QAbstractButton* pressed) {
+                if (pressed == go_on) begin(participant, folder);
+                if (pressed == anew) begin(participant);
+            });
+    box->open();
+}
+
+void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
+    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (resumes.empty() && !composer_->save()) return;
+    session::Request asked = request(file_);
+    asked.participant = participant.id;
+    starts_ = participant;
+    loader_.load({asked, true, session_->hand() == SessionPanel::Hand::person, resumes});
+    update_state();
+}
+
+void OperatorWindow::run(const session::Plan& made, const recording::Participant& participant,
+                         std::unique_ptr<devices::DeviceGroup> devices) {
+    session::RunOptions options;
+    options.out = out_.toStdString();
+    options.sync = sync_;
+    options.command = "dihaptic gui " + file_.toStdString();
+    options.participant = participant;
+    const std::vector<std::string> fingers = scene::finger_names(made.scene);
+    if (rig::can_check_together(made.rig, fingers)) {
+        options.check =
+            calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
+    }
+    changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
+    options.clock = clock_of(made, session_->pace());
+    start_page_->rest();
+    centre_->setCurrentWidget(scene_);
+    runner_.start(made, options, session_->pace(), std::move(devices),
+                  made.rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
+    const session::Plan& plan = runner_.plan();
+    follow_in_headset();
+    trials_->set_plan(plan.task);
+    if (plan.mouse) {
+        mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
+        const bool squeezes = plan.scene.fingers.size() > 1;
+        scene_->set_hand(&*mouse_, squeezes);
+        scene_->set_help(squeezes ? kMouseHelp : kFingerHelp);
+    }
+    turn_workspaces();
+    scene_->setFocus();
+    log("started: " + QString::fromStdString(plan.title));
+    if (session_->hand() == SessionPanel::Hand::person && !plan.task)
+        log("Simulated people do trials, and this file has none: its script moves the hand.");
+    update_state();
+}
+
+QString OperatorWindow::rig_file() const {
+    QString rig = session_->rig();
+    if (rig.isEmpty() && plan_) rig = QString::fromStdString(plan_->rig.place.file);
+    return rig.isEmpty() ? "" : QDir::cleanPath(rig);
+}
+
+void OperatorWindow::calibrate() {
+    if (runner_.running() || loader_.loading()) return;
+    const QString rig = rig_file();
+    if (rig.isEmpty()) return log("There is no rig file to calibrate: choose a rig.", true);
+    calibrator_->calibrate(rig);
+}
+
+}  // namespace dihaptic::gui
